@@ -1,0 +1,53 @@
+"""The flank compliance of a gear: all that contact and dynamics need to know of its body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fenics_gears.errors import ComputationError
+
+
+@dataclass(frozen=True)
+class FlankCompliance:
+    """Displacement of drive-flank nodes per unit line force on drive-flank nodes, hub ring held.
+
+    roll_angle: (n,), rad, strictly increasing from the form circle to the tip: the nodes of the
+        drive flank, element vertices and (second order) the nodes between them.
+    element_order: 1 or 2, the polynomial order of the displacement along a flank element.
+    blocks: (offsets + 1, 2n, 2n), mm per N/mm (plane strain, unit thickness). blocks[m] is the
+        displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs are
+        interleaved x0, y0, x1, y1, ...; components are those of each tooth's own canonical frame.
+        blocks[0] is symmetric positive definite.
+    timings: what the computation cost: time_mesh, time_compile, time_condense (s), unknowns,
+        from_cache and the like.
+    """
+
+    roll_angle: np.ndarray
+    element_order: int
+    blocks: np.ndarray
+    timings: dict = field(default_factory=dict, compare=False)
+
+    @property
+    def nodes(self) -> int:
+        """Number of flank nodes."""
+        return len(self.roll_angle)
+
+    @property
+    def offsets(self) -> int:
+        """Largest distance, in pitches, between two teeth whose interaction is known."""
+        return len(self.blocks) - 1
+
+    def block(self, offset: int) -> np.ndarray:
+        """Compliance of the flank ``offset`` pitches ahead of the loaded one, (2n, 2n).
+
+        A negative offset is a tooth behind: by reciprocity the transpose of the one ahead.
+        Raises ComputationError for a tooth outside ``offsets``.
+        """
+        if abs(offset) > self.offsets:
+            raise ComputationError(
+                f"flank compliance: tooth offset {offset} was not computed, known are "
+                f"-{self.offsets} to {self.offsets}; ask flank_compliance for more tooth_offsets"
+            )
+        return self.blocks[offset] if offset >= 0 else self.blocks[-offset].T
