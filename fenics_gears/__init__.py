@@ -1,3 +1,16 @@
 """Spur gear pairs as flexible multi-body systems with frictional contact."""
 
+import importlib
+
 __version__ = "0.1.0"
+__all__ = ["__version__", "load_scene", "simulate"]
+
+# Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.
+_HOMES = {"load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.simulation"}
+
+
+def __getattr__(name: str):
+    """Load ``load_scene`` or ``simulate`` on first use."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(_HOMES[name]), name)

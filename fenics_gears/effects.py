@@ -1,0 +1,123 @@
+"""The one list of effects a scene can switch on by naming their section.
+
+An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist.
+The schema takes its optional sections from here, ``gears check`` prints the list, and the result takes its variables from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class ResultVariable:
+    """One variable of the result: its name, its units and its long name for labels."""
+
+    name: str
+    units: str
+    long_name: str
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
+
+    ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect.
+    """
+
+    section: str
+    description: str
+    absent: str
+    unknowns: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
+    variables: tuple[ResultVariable, ...] = ()
+    needs: tuple[str, ...] = ()
+    excludes: tuple[str, ...] = ()
+
+
+EFFECTS: tuple[Effect, ...] = (
+    Effect(
+        section="shafts",
+        description="elastic torsion of the input and the output shaft",
+        absent="pinion hub turned as prescribed, couple straight on the wheel",
+        unknowns=("rotation of the pinion", "rotation of the output shaft's end"),
+        terms=("torsional springs",),
+        variables=(
+            ResultVariable("shaft_end_rotation", "rad", "rotation of the output shaft's end"),
+            ResultVariable("reaction_couple", "N mm", "couple at the input shaft"),
+        ),
+    ),
+    Effect(
+        section="bearings",
+        description="elastic support of the gear centres",
+        absent="centres fixed",
+        unknowns=("two displacements of each centre",),
+        terms=("translational springs",),
+        variables=(
+            ResultVariable("centre_x", "mm", "displacement of the centre along the line of action"),
+            ResultVariable("centre_y", "mm", "displacement of the centre off the line of action"),
+            ResultVariable("reaction_x", "N", "bearing reaction along the line of action"),
+            ResultVariable("reaction_y", "N", "bearing reaction off the line of action"),
+        ),
+    ),
+    Effect(
+        section="inertia",
+        description="mass and moment of inertia of gears and shafts",
+        absent="quasi-static",
+        terms=("inertia forces, average acceleration in time",),
+        variables=(
+            ResultVariable("energy", "N mm", "kinetic and elastic energy"),
+            ResultVariable("energy_kinetic", "N mm", "kinetic energy"),
+            ResultVariable("energy_elastic", "N mm", "elastic energy of gears, shafts and bearings"),
+        ),
+    ),
+    Effect(
+        section="damping",
+        description="Rayleigh damping of each shaft",
+        absent="undamped",
+        terms=("damping forces, stiffness- and mass-proportional",),
+        needs=("inertia",),
+    ),
+    Effect(
+        section="friction",
+        description="Coulomb friction between the flanks",
+        absent="frictionless, no tangential unknowns",
+        unknowns=("tangential force of each closed contact node",),
+        terms=("friction law with stick and slip",),
+        variables=(
+            ResultVariable("friction_force", "N", "friction force of the mesh"),
+            ResultVariable("pair_friction_force", "N", "friction force of the tooth pair"),
+            ResultVariable("contact_traction", "MPa", "friction traction on the flank"),
+        ),
+    ),
+    Effect(
+        section="tip_relief",
+        description="material removed towards the tips, linear in the roll angle",
+        absent="true involutes",
+        terms=("initial gaps",),
+    ),
+)
+
+# Announced sections of the scene format that this version refuses, with what each would be.
+NOT_YET_AVAILABLE: dict[str, str] = {"coast_flanks": "contact on the unloaded (coast) flanks"}
+
+
+def effect(section: str) -> Effect:
+    """The effect of that section; raises KeyError for a name that is not in the list."""
+    return {each.section: each for each in EFFECTS}[section]
+
+
+def effects_on(scene) -> tuple[Effect, ...]:
+    """The effects that a scene (``scene.data.Scene``) switches on, in the order of the list."""
+    return tuple(each for each in EFFECTS if getattr(scene, each.section) is not None)
+
+
+def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:
+    """Pairs of an effect among the named sections and a section that it needs and that is not among them."""
+    return [(each, need) for each in EFFECTS if each.section in sections for need in each.needs if need not in sections]
+
+
+def conflicts(sections: Collection[str]) -> list[tuple[Effect, str]]:
+    """Pairs of an effect among the named sections and a section beside it that it excludes."""
+    return [(each, other) for each in EFFECTS if each.section in sections for other in each.excludes if other in sections]

@@ -1,0 +1,129 @@
+"""How far a computation is: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet.
+
+Whoever computes calls ``stage`` once per stage and ``update`` as often as is cheap; whoever shows decides how often to speak.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Protocol, TextIO
+
+SECONDS_BETWEEN_LINES = 5.0
+
+
+class Progress(Protocol):
+    """What a computation reports to."""
+
+    def stage(self, name: str) -> None:
+        """Begin the stage of that name, for instance "condense pinion"; the one before it is over."""
+
+    def update(self, done: int, total: int) -> None:
+        """Say that ``done`` of ``total`` parts of the present stage are done."""
+
+    def close(self) -> None:
+        """End the last stage."""
+
+
+class SilentProgress:
+    """Reports nothing."""
+
+    def stage(self, name: str) -> None:
+        """Ignore the stage."""
+
+    def update(self, done: int, total: int) -> None:
+        """Ignore the count."""
+
+    def close(self) -> None:
+        """Nothing to end."""
+
+
+class LineProgress:
+    """One plain line per finished stage, and one every few seconds while a stage goes on."""
+
+    def __init__(self, stream: TextIO | None = None, interval: float = SECONDS_BETWEEN_LINES, clock=time.monotonic):
+        self._stream = stream if stream is not None else sys.stderr
+        self._interval = interval
+        self._clock = clock
+        self._name: str | None = None
+        self._begun = self._spoken = clock()
+
+    def stage(self, name: str) -> None:
+        """Close the stage before, begin this one."""
+        self.close()
+        self._name = name
+        self._begun = self._spoken = self._clock()
+
+    def update(self, done: int, total: int) -> None:
+        """Print a line when the last one is old enough."""
+        now = self._clock()
+        if now - self._spoken < self._interval or total <= 0:
+            return
+        self._spoken = now
+        elapsed = now - self._begun
+        left = f", about {seconds_in_words(elapsed * (total - done) / done)} left" if done else ""
+        self._print(f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %) after {seconds_in_words(elapsed)}{left}")
+
+    def close(self) -> None:
+        """Print how long the stage took."""
+        if self._name is not None:
+            self._print(f"{self._name}: {seconds_in_words(self._clock() - self._begun)}")
+        self._name = None
+
+    def _print(self, line: str) -> None:
+        print(line, file=self._stream, flush=True)
+
+
+class BarProgress:
+    """A bar with the time left for each stage, drawn by rich on a terminal."""
+
+    def __init__(self, console):
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+        self._bars = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TextColumn("left"),
+            TimeRemainingColumn(),
+            console=console,
+        )
+        self._task = None
+        self._counted = False
+
+    def stage(self, name: str) -> None:
+        """Fill the bar before, begin a new one below it."""
+        self._finish_stage()
+        self._bars.start()
+        self._task = self._bars.add_task(name, total=None)
+        self._counted = False
+
+    def update(self, done: int, total: int) -> None:
+        """Move the bar."""
+        if self._task is None:
+            self.stage("work")
+        self._counted = True
+        self._bars.update(self._task, completed=done, total=total)
+
+    def close(self) -> None:
+        """Leave the bars as they stand and give the terminal back."""
+        self._finish_stage()
+        self._bars.stop()
+
+    def _finish_stage(self) -> None:
+        # A counted stage keeps its count: after an interruption the bar must not claim to be full.
+        if self._task is not None and not self._counted:
+            self._bars.update(self._task, total=1, completed=1)
+        if self._task is not None:
+            self._bars.stop_task(self._task)
+        self._task = None
+
+
+def seconds_in_words(seconds: float) -> str:
+    """A duration in s as a person writes it: "0.4 s", "75 s", "12 min", "3.5 h"."""
+    if seconds < 10:
+        return f"{seconds:.1f} s"
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
