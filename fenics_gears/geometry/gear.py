@@ -1,0 +1,139 @@
+"""One spur gear: its circles, tooth thickness and the rack that cuts it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, pi, sin, tan
+
+import numpy as np
+
+from ..errors import GeometryError
+from .involute import inverse_involute, involute_function
+
+
+@dataclass(frozen=True)
+class Gear:
+    """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, pressure angle in rad.
+
+    The rack's addendum, which cuts the gear's dedendum, follows from root radius and profile shift.
+    """
+
+    teeth: int
+    module: float
+    pressure_angle: float
+    profile_shift: float
+    tip_radius: float
+    root_radius: float
+    bore_radius: float
+    rack_tip_radius: float
+
+    @property
+    def reference_radius(self) -> float:
+        """Radius (mm) of the circle that rolls on the generating rack."""
+        return 0.5 * self.teeth * self.module
+
+    @property
+    def base_radius(self) -> float:
+        """Radius (mm) of the circle whose involute the flank is."""
+        return self.reference_radius * cos(self.pressure_angle)
+
+    @property
+    def angular_pitch(self) -> float:
+        """Angle (rad) from tooth to tooth."""
+        return 2.0 * pi / self.teeth
+
+    @property
+    def base_pitch(self) -> float:
+        """Distance (mm) between neighbouring flanks along the line of action."""
+        return self.angular_pitch * self.base_radius
+
+    @property
+    def tooth_half_angle_at_base(self) -> float:
+        """Angle (rad) at the gear's centre between the tooth's centreline and the start of its involute."""
+        shift = 2.0 * self.profile_shift * tan(self.pressure_angle)
+        return (0.5 * pi + shift) / self.teeth + tan(self.pressure_angle) - self.pressure_angle
+
+    @property
+    def dedendum(self) -> float:
+        """Depth (mm) of the root circle below the profile-shifted pitch line: the rack's addendum."""
+        return self.reference_radius + self.profile_shift * self.module - self.root_radius
+
+    @property
+    def rack_depth(self) -> float:
+        """Depth (mm) of the rack's tip below the rolling pitch line, profile shift included."""
+        return self.reference_radius - self.root_radius
+
+    @property
+    def rack_tip_centre(self) -> tuple[float, float]:
+        """Centre of the rack's tip rounding, mm: distance from the rack tooth's centreline, depth below the pitch line.
+
+        A negative distance means that the rounding does not fit on the rack's tip.
+        """
+        alpha, radius = self.pressure_angle, self.rack_tip_radius
+        half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(alpha)
+        return half_tip_land - radius * (1.0 - sin(alpha)) / cos(alpha), self.rack_depth - radius
+
+    @property
+    def largest_rack_tip_radius(self) -> float:
+        """Tip radius (mm) at which the rack's two roundings meet; negative when the rack ends in a point before."""
+        half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
+        return half_tip_land * cos(self.pressure_angle) / (1.0 - sin(self.pressure_angle))
+
+    @property
+    def form_roll_angle(self) -> float:
+        """Roll angle (rad) where the fillet ends and the involute begins; negative means undercut.
+
+        The end of the rack's straight flank, at depth c below the pitch line, cuts this point while it crosses the line
+        of action, ``c/sin(alpha)`` before the pitch point.
+        """
+        alpha = self.pressure_angle
+        flank_end = self.rack_depth - self.rack_tip_radius * (1.0 - sin(alpha))
+        return tan(alpha) - flank_end / (self.reference_radius * sin(alpha) * cos(alpha))
+
+    @property
+    def form_radius(self) -> float:
+        """Radius (mm) where the fillet meets the involute.
+
+        Raises GeometryError for an undercut gear, whose fillet cuts the involute instead of touching it.
+        """
+        roll = self.form_roll_angle
+        if roll < 0.0:
+            raise GeometryError(
+                f"undercut: the gear with {self.teeth} teeth has no involute down to its fillet "
+                f"(form roll angle {roll:.4f} rad, must not be negative)"
+            )
+        return self.radius(roll)
+
+    @property
+    def tip_roll_angle(self) -> float:
+        """Roll angle (rad) at the tip circle."""
+        return float(self.roll_angle(self.tip_radius))
+
+    @property
+    def tip_thickness(self) -> float:
+        """Arc (mm) of the tooth at the tip circle; not positive when the flanks meet below it."""
+        return float(self.tooth_thickness(self.tip_radius))
+
+    @property
+    def pointed_radius(self) -> float:
+        """Radius (mm) at which the two involutes of a tooth meet in a point."""
+        return float(self.radius(inverse_involute(self.tooth_half_angle_at_base)))
+
+    def roll_angle(self, radius):
+        """Roll angle (rad) at a radius (mm, any shape); GeometryError below the base circle."""
+        excess = np.square(np.asarray(radius, dtype=float) / self.base_radius) - 1.0
+        if np.any(excess < -1e-12):
+            raise GeometryError(
+                f"radius {np.min(radius):.6g} mm lies below the base circle of radius {self.base_radius:.6g} mm, "
+                "where there is no involute"
+            )
+        return np.sqrt(np.maximum(excess, 0.0))
+
+    def radius(self, roll_angle):
+        """Radius (mm) at a roll angle (rad, any shape)."""
+        return self.base_radius * np.sqrt(1.0 + np.square(roll_angle))
+
+    def tooth_thickness(self, radius):
+        """Arc thickness (mm) of the tooth at a radius (mm, any shape, on the involute)."""
+        half_angle = self.tooth_half_angle_at_base - involute_function(self.roll_angle(radius))
+        return 2.0 * np.asarray(radius, dtype=float) * half_angle

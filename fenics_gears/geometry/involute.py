@@ -1,0 +1,97 @@
+"""The involute of a circle, its points named by their roll angle.
+
+Body frame of one tooth: gear centre at the origin, the tooth points downwards, the drive flank's involute starts at
+``(0, -base_radius)`` and has its material on the -x side. Turned counter-clockwise by ``contact_roll_angle``, the flank
+point of that roll angle lies on the line of action ``y = -base_radius`` with its outward normal along +x.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+NEWTON_STEPS = 60
+
+
+def involute_function(roll_angle):
+    """Polar angle ``v - atan(v)`` swept by the involute up to a roll angle; rad, any shape.
+
+    In terms of the pressure angle ``a = atan(v)`` this is the textbook's ``inv a = tan a - a``.
+    """
+    return roll_angle - np.arctan(roll_angle)
+
+
+def inverse_involute(polar_angle: float) -> float:
+    """Roll angle (rad) whose involute function is ``polar_angle`` (rad, not negative).
+
+    Newton on ``v - atan v``, whose slope is ``v^2/(1 + v^2)``. It is convex up to v = 1/sqrt(3) and its own asymptote
+    ``v - pi/2`` lies below it, so that the start is above the root and the steps descend to it.
+    """
+    if polar_angle <= 0.0:
+        return 0.0
+    roll = max(np.cbrt(3.0 * polar_angle) * 1.1, polar_angle)
+    for _ in range(NEWTON_STEPS):
+        step = (involute_function(roll) - polar_angle) * (1.0 + roll**2) / roll**2
+        roll -= step
+        if abs(step) <= 1e-15 * roll:
+            break
+    return float(roll)
+
+
+def canonical_point(base_radius: float, roll_angle) -> np.ndarray:
+    """Drive-flank points in the tooth's body frame: (..., 2), mm, for roll angles (...) in rad."""
+    roll = np.asarray(roll_angle, dtype=float)
+    sine, cosine = np.sin(roll), np.cos(roll)
+    return base_radius * np.stack([roll * cosine - sine, -(cosine + roll * sine)], axis=-1)
+
+
+def canonical_normal(roll_angle) -> np.ndarray:
+    """Outward unit normals of the drive flank in the tooth's body frame: (..., 2) for roll angles (...) in rad."""
+    roll = np.asarray(roll_angle, dtype=float)
+    return np.stack([np.cos(roll), -np.sin(roll)], axis=-1)
+
+
+def flank_point(base_radius: float, roll_angle, contact_roll_angle):
+    """Where a flank point lies while another one is on the line of action: ``(x, h)``, mm.
+
+    ``x`` along the line of action from its tangent point, ``h`` from the gear's centre towards the line of action,
+    where ``h = base_radius``. Roll angles in rad; arrays broadcast. Source: model.md, section 1 ([A.1] of the paper).
+    """
+    turned = contact_roll_angle - roll_angle
+    x = base_radius * (np.sin(turned) + roll_angle * np.cos(turned))
+    h = base_radius * (np.cos(turned) - roll_angle * np.sin(turned))
+    return x, h
+
+
+def roll_angle_at_height(base_radius: float, contact_roll_angle, height) -> np.ndarray:
+    """Roll angle (rad) of the flank point at a height ``h`` (mm) above the gear's centre; arrays broadcast.
+
+    ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
+    above the height at which it turns away. Newton in ``s = v^2/2`` (arc length over base radius), in which
+    ``dh/ds = rb cos(vc - v)``: h is convex in s below the contact point and concave above it, so steps
+    from the contact point never pass the root.
+    """
+    contact, target = np.broadcast_arrays(
+        np.asarray(contact_roll_angle, dtype=float), np.asarray(height, dtype=float) / base_radius
+    )
+    turning = contact + 0.5 * np.pi
+    reachable = (target >= np.cos(contact)) & (target < turning)
+    target = np.where(reachable, target, 1.0)
+    half_square = 0.5 * contact**2
+    for _ in range(NEWTON_STEPS):
+        roll = np.sqrt(2.0 * half_square)
+        turned = contact - roll
+        residual = target - np.cos(turned) + roll * np.sin(turned)
+        half_square = np.maximum(half_square + residual / np.cos(turned), 0.0)
+        if np.all(np.abs(residual) <= 1e-10):  # the step just taken squares what is left
+            break
+    return np.where(reachable, np.sqrt(2.0 * half_square), np.nan)
+
+
+def arc_length(base_radius: float, roll_angle):
+    """Length of the involute from the base circle to a roll angle: ``rb v^2/2``, mm."""
+    return 0.5 * base_radius * np.square(roll_angle)
+
+
+def roll_angle_at_arc_length(base_radius: float, length):
+    """Roll angle (rad) at a length (mm, not negative) along the involute from the base circle."""
+    return np.sqrt(2.0 * np.asarray(length, dtype=float) / base_radius)

@@ -1,0 +1,127 @@
+"""The outline of one tooth: rack-generated fillet and involute, in the tooth's body frame (see involute.py)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+import numpy as np
+
+from ..errors import GeometryError
+from .gear import Gear
+from .involute import canonical_point
+
+ARC_LENGTH_SAMPLES = 401
+
+
+@dataclass(frozen=True)
+class ToothOutline:
+    """Drive side of one tooth; the coast side is its mirror image about the centreline.
+
+    fillet: (n, 2), mm, from the root circle (first point) to the form circle (last point), evenly spaced along the curve.
+    centreline_angle, space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth space
+    beside the drive flank; the root circle runs from the fillet's first point to the space angle.
+    """
+
+    gear: Gear
+    fillet: np.ndarray
+    centreline_angle: float
+    space_angle: float
+
+    def involute(self, roll_angle) -> np.ndarray:
+        """Drive-flank points (..., 2), mm, at roll angles (...) in rad."""
+        return canonical_point(self.gear.base_radius, roll_angle)
+
+    def coast(self, points) -> np.ndarray:
+        """Mirror images (..., 2) about the tooth's centreline of points (..., 2)."""
+        cosine, sine = cos(2.0 * self.centreline_angle), sin(2.0 * self.centreline_angle)
+        return np.asarray(points) @ np.array([[cosine, sine], [sine, -cosine]])
+
+
+def centreline_angle(gear: Gear) -> float:
+    """Polar angle (rad) of the tooth's centreline in its body frame."""
+    return -0.5 * pi - gear.tooth_half_angle_at_base
+
+
+def fillet_end(gear: Gear) -> float:
+    """Fillet parameter (rad) at the form circle; 0 is the root circle."""
+    return 0.5 * pi - gear.pressure_angle
+
+
+def fillet_point(gear: Gear, parameter) -> np.ndarray:
+    """Points (..., 2), mm, that the rounded tip of the rack cuts.
+
+    parameter: (...), rad, angle of the rack rounding's normal from the tooth depth direction; 0 (root circle) to
+    ``fillet_end`` (form circle). The point is cut when that normal passes through the pitch point, which is
+    ``l = rack_tip_radius + depth/cos(parameter)`` away (law of gearing, e.g. Litvin & Fuentes, Gear Geometry and Applied Theory, ch. 6).
+    """
+    angle = np.asarray(parameter, dtype=float)
+    distance = _distance_from_pitch_point(gear, angle)
+    in_space = np.stack([-distance * np.sin(angle), distance * np.cos(angle) - gear.reference_radius], axis=-1)
+    return _turned(in_space, _body_angle(gear, angle))
+
+
+def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
+    """Derivative (..., 2), mm/rad, of ``fillet_point`` by its parameter."""
+    angle = np.asarray(parameter, dtype=float)
+    direction = np.stack([-np.cos(angle), -np.sin(angle)], axis=-1)
+    return fillet_speed(gear, angle)[..., None] * _turned(direction, _body_angle(gear, angle))
+
+
+def fillet_speed(gear: Gear, parameter) -> np.ndarray:
+    """Length (mm) of fillet per rad of its parameter: rolling on the rack's rounding plus sliding."""
+    angle = np.asarray(parameter, dtype=float)
+    depth = gear.rack_tip_centre[1]
+    turning = depth / (gear.reference_radius * np.cos(angle) ** 2)
+    return gear.rack_tip_radius + _distance_from_pitch_point(gear, angle) * turning
+
+
+def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
+    """Outline of one tooth.
+
+    Raises GeometryError when the gear is undercut, or when neighbouring fillets would overlap because the rack's tip
+    has no room for its rounding.
+    """
+    gear.form_radius  # refuses an undercut gear
+    if gear.rack_tip_centre[0] < 0.0:
+        raise GeometryError(
+            f"the fillets of neighbouring teeth overlap: the tip of the rack that cuts the gear with {gear.teeth} teeth has room for "
+            f"a radius of {gear.largest_rack_tip_radius:.4g} mm, not of {gear.rack_tip_radius:.4g} mm"
+        )
+    centreline = centreline_angle(gear)
+    return ToothOutline(
+        gear=gear,
+        fillet=fillet_point(gear, _even_parameters(gear, fillet_points)),
+        centreline_angle=centreline,
+        space_angle=centreline + 0.5 * gear.angular_pitch,
+    )
+
+
+def _distance_from_pitch_point(gear: Gear, angle):
+    """Distance (mm) along the normal from the pitch point to the point being cut."""
+    return gear.rack_tip_radius + gear.rack_tip_centre[1] / np.cos(angle)
+
+
+def _body_angle(gear: Gear, angle):
+    """Angle (rad) from the generating pose into the tooth's body frame while ``angle`` is being cut.
+
+    The space lies over the rack's tooth at first; the gear has then rolled the rack's travel over its reference radius.
+    """
+    across, depth = gear.rack_tip_centre
+    rolled = (across - depth * np.tan(angle)) / gear.reference_radius
+    return 0.5 * gear.angular_pitch - gear.tooth_half_angle_at_base - rolled
+
+
+def _turned(vectors, angle):
+    """Vectors (..., 2) turned counter-clockwise by angles (...)."""
+    sine, cosine = np.sin(angle), np.cos(angle)
+    x, y = vectors[..., 0], vectors[..., 1]
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+
+
+def _even_parameters(gear: Gear, count: int) -> np.ndarray:
+    """Parameters (count,) at which the fillet is evenly divided along its length, both ends exact."""
+    fine = np.linspace(0.0, fillet_end(gear), ARC_LENGTH_SAMPLES)
+    speed = fillet_speed(gear, fine)
+    length = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(fine))])
+    return np.interp(np.linspace(0.0, length[-1], count), length, fine)

@@ -1,0 +1,194 @@
+"""A pinion and a wheel on their centres: the line of action and the points on it.
+
+Positions on the line of action are distances ``xi`` (mm) from T1, where it leaves the pinion's base circle. The pinion
+drives, so that contact runs from the wheel's tip (path_start) to the pinion's tip (path_end).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import acos, floor, sqrt, tan
+
+from ..scene.data import GearData, GearPairData
+from .checks import check_gear, check_pair
+from .gear import Gear
+from .involute import inverse_involute, involute_function
+
+WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class GearPair:
+    """Two gears in mesh; lengths in mm, angles in rad. Built and checked by ``gear_pair``."""
+
+    pinion: Gear
+    wheel: Gear
+    centre_distance: float
+    face_width: float
+
+    @property
+    def rotation_ratio(self) -> float:
+        """Teeth of the pinion over teeth of the wheel: rotation of the wheel over that of the pinion, sign apart."""
+        return self.pinion.teeth / self.wheel.teeth
+
+    @property
+    def base_pitch(self) -> float:
+        """Distance (mm) between neighbouring tooth pairs along the line of action."""
+        return self.pinion.base_pitch
+
+    @property
+    def operating_pressure_angle(self) -> float:
+        """Angle (rad) between the line of action and the perpendicular to the line of centres."""
+        return acos((self.pinion.base_radius + self.wheel.base_radius) / self.centre_distance)
+
+    @property
+    def line_of_action_length(self) -> float:
+        """Distance (mm) from T1 to T2, where the line of action touches the base circles."""
+        return sqrt(self.centre_distance**2 - (self.pinion.base_radius + self.wheel.base_radius) ** 2)
+
+    @property
+    def pitch_point(self) -> float:
+        """Position (mm) of the pitch point on the line of action."""
+        return self.pinion.base_radius * tan(self.operating_pressure_angle)
+
+    @property
+    def pitch_point_to_wheel_tangent(self) -> float:
+        """Distance (mm) from T2 to the pitch point, ``e`` of the paper."""
+        return self.line_of_action_length - self.pitch_point
+
+    @property
+    def path_start(self) -> float:
+        """Position (mm) where contact begins, at the wheel's tip."""
+        return self.line_of_action_length - self.wheel.base_radius * self.wheel.tip_roll_angle
+
+    @property
+    def path_end(self) -> float:
+        """Position (mm) where contact ends, at the pinion's tip."""
+        return self.pinion.base_radius * self.pinion.tip_roll_angle
+
+    @property
+    def contact_ratio(self) -> float:
+        """Length of the path of contact in base pitches."""
+        return (self.path_end - self.path_start) / self.base_pitch
+
+    @property
+    def fewest_pairs(self) -> int:
+        """Smallest number of tooth pairs that rigid gears have in contact: 1 up to a contact ratio of 2."""
+        return floor(self.contact_ratio + WHOLE_CONTACT_RATIO_ROUNDING)
+
+    @property
+    def end_of_fewest_pairs(self) -> float:
+        """Position (mm) of the pinion's HPSTC, the highest point of single tooth contact.
+
+        With a contact ratio above 2 no tooth pair is ever alone; this is then the end of contact by the fewest pairs.
+        """
+        return self.path_start + self.fewest_pairs * self.base_pitch
+
+    @property
+    def start_of_fewest_pairs(self) -> float:
+        """Position (mm) of the wheel's HPSTC, which is the pinion's LPSTC, the lowest point of single tooth contact."""
+        return self.path_end - self.fewest_pairs * self.base_pitch
+
+    def pinion_roll_angle(self, position):
+        """Roll angle (rad) of the pinion's contact point at positions (mm, any shape) on the line of action."""
+        return position / self.pinion.base_radius
+
+    def wheel_roll_angle(self, position):
+        """Roll angle (rad) of the wheel's contact point at positions (mm, any shape) on the line of action."""
+        return (self.line_of_action_length - position) / self.wheel.base_radius
+
+    @property
+    def pinion_hpstc_roll_angle(self) -> float:
+        """Roll angle (rad) at the pinion's highest point of single tooth contact."""
+        return self.pinion_roll_angle(self.end_of_fewest_pairs)
+
+    @property
+    def wheel_hpstc_roll_angle(self) -> float:
+        """Roll angle (rad) at the wheel's highest point of single tooth contact."""
+        return self.wheel_roll_angle(self.start_of_fewest_pairs)
+
+    @property
+    def pinion_lpstc_roll_angle(self) -> float:
+        """Roll angle (rad) at the pinion's lowest point of single tooth contact."""
+        return self.pinion_roll_angle(self.start_of_fewest_pairs)
+
+    @property
+    def wheel_lpstc_roll_angle(self) -> float:
+        """Roll angle (rad) at the wheel's lowest point of single tooth contact."""
+        return self.wheel_roll_angle(self.end_of_fewest_pairs)
+
+    @property
+    def pinion_sap_roll_angle(self) -> float:
+        """Roll angle (rad) of the pinion's lowest contact point, where the path of contact starts."""
+        return self.pinion_roll_angle(self.path_start)
+
+    @property
+    def wheel_sap_roll_angle(self) -> float:
+        """Roll angle (rad) of the wheel's lowest contact point, where the path of contact ends."""
+        return self.wheel_roll_angle(self.path_end)
+
+    @property
+    def pinion_eap_roll_angle(self) -> float:
+        """Roll angle (rad) of the pinion's highest contact point, its tip."""
+        return self.pinion.tip_roll_angle
+
+    @property
+    def wheel_eap_roll_angle(self) -> float:
+        """Roll angle (rad) of the wheel's highest contact point, its tip."""
+        return self.wheel.tip_roll_angle
+
+    @property
+    def backlash(self) -> float:
+        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch.
+
+        The base pitch less both base-circle thicknesses seen at the operating pressure angle; negative when the teeth overlap.
+        """
+        swept = involute_function(tan(self.operating_pressure_angle))
+        pinion, wheel = self.pinion, self.wheel
+        pinion_tooth = pinion.base_radius * (pinion.tooth_half_angle_at_base - swept)
+        wheel_tooth = wheel.base_radius * (wheel.tooth_half_angle_at_base - swept)
+        return self.base_pitch - 2.0 * (pinion_tooth + wheel_tooth)
+
+    @property
+    def centre_distance_without_backlash(self) -> float:
+        """Centre distance (mm) at which both flanks of a tooth touch."""
+        pinion, wheel = self.pinion, self.wheel
+        bases = pinion.base_radius + wheel.base_radius
+        both_teeth = pinion.base_radius * pinion.tooth_half_angle_at_base + wheel.base_radius * wheel.tooth_half_angle_at_base
+        return bases * sqrt(1.0 + inverse_involute((both_teeth - 0.5 * self.base_pitch) / bases) ** 2)
+
+    @property
+    def pinion_tip_clearance(self) -> float:
+        """Distance (mm) from the pinion's tip circle to the wheel's root circle."""
+        return self.centre_distance - self.pinion.tip_radius - self.wheel.root_radius
+
+    @property
+    def wheel_tip_clearance(self) -> float:
+        """Distance (mm) from the wheel's tip circle to the pinion's root circle."""
+        return self.centre_distance - self.wheel.tip_radius - self.pinion.root_radius
+
+
+def gear_pair(data: GearPairData) -> GearPair:
+    """The pair that a scene describes, checked.
+
+    Raises GeometryError, which names what is wrong, on which gear, by how much, and what to change.
+    """
+    pinion, wheel = _gear(data, data.pinion), _gear(data, data.wheel)
+    check_gear(pinion, "pinion")
+    check_gear(wheel, "wheel")
+    pair = GearPair(pinion=pinion, wheel=wheel, centre_distance=data.centre_distance, face_width=data.face_width)
+    check_pair(pair)
+    return pair
+
+
+def _gear(data: GearPairData, gear: GearData) -> Gear:
+    return Gear(
+        teeth=gear.teeth,
+        module=data.module,
+        pressure_angle=data.pressure_angle,
+        profile_shift=gear.profile_shift,
+        tip_radius=0.5 * gear.tip_diameter,
+        root_radius=0.5 * gear.root_diameter,
+        bore_radius=0.5 * gear.bore_diameter,
+        rack_tip_radius=gear.rack_tip_radius * data.module,
+    )
