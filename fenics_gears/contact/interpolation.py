@@ -1,0 +1,115 @@
+"""Averages over the hat function of a contact node: of a flank's displacements, of gaps, of positions.
+
+Contact force and gap use the same averages, so that energy and symmetry are kept: a nodal force acts as the line load
+`p_j hat_j / integral(hat_j)`, and a nodal displacement or gap is `integral(hat_j u) / integral(hat_j)` (model.md section 2).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
+GAUSS_POINTS = 0.5 * (GAUSS_POINTS + 1.0)
+GAUSS_WEIGHTS = 0.5 * GAUSS_WEIGHTS
+
+
+@dataclass(frozen=True)
+class FlankInterpolation:
+    """Row `j` of `weights` takes flank dof nodes `first[j]:last[j]` to the average over hat `j`; (n, nodes of flank)."""
+
+    weights: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+
+
+def hat_integrals(offsets: np.ndarray) -> np.ndarray:
+    """Integral of each hat function (n,), mm: the length of flank that a contact node stands for."""
+    cells = np.diff(offsets)
+    integrals = np.zeros(len(offsets))
+    integrals[:-1] += 0.5 * cells
+    integrals[1:] += 0.5 * cells
+    return integrals
+
+
+def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
+    """Gauss points (n - 1, points), mm, of the cells between contact nodes."""
+    return offsets[:-1, None] + np.diff(offsets)[:, None] * GAUSS_POINTS
+
+
+def hat_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Average over each hat function (n,) of `values` given at `quadrature_offsets(offsets)`."""
+    scaled = values * GAUSS_WEIGHTS * np.diff(offsets)[:, None]
+    sums = np.zeros(len(offsets))
+    sums[:-1] += scaled @ (1.0 - GAUSS_POINTS)
+    sums[1:] += scaled @ GAUSS_POINTS
+    return sums / hat_integrals(offsets)
+
+
+@njit(cache=True)
+def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, vertex_arc, order, points, gauss):
+    """Exact averages of the element's shape functions: Gauss on every piece between contact nodes and element vertices.
+
+    `rolls`: roll angle of each contact node; `sense`: -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb.
+    """
+    n, elements = len(offsets), len(vertex_arc) - 1
+    weights = np.zeros((n, order * elements + 1))
+    first = np.full(n, order * elements + 1)
+    last = np.zeros(n, dtype=np.int64)
+    for cell in range(n - 1):
+        width = offsets[cell + 1] - offsets[cell]
+        arc_a = 0.5 * base_radius * rolls[cell] ** 2
+        arc_b = 0.5 * base_radius * rolls[cell + 1] ** 2
+        low, high = min(arc_a, arc_b), max(arc_a, arc_b)
+        element = min(max(np.searchsorted(vertex_arc, low, side="right") - 1, 0), elements - 1)
+        start = low
+        while start < high:
+            end = high if element == elements - 1 else min(high, vertex_arc[element + 1])
+            size = vertex_arc[element + 1] - vertex_arc[element]
+            for point, share in zip(points, gauss):
+                arc = start + point * (end - start)
+                turn = contact_roll - math.sqrt(2.0 * arc / base_radius)
+                roll = contact_roll - turn
+                height = base_radius * (math.cos(turn) - roll * math.sin(turn))
+                right = (sense * (height - base_radius) - offsets[cell]) / width
+                measure = share * (end - start) * math.cos(turn)  # dy = cos(v_c - v) ds on an involute
+                local = (arc - vertex_arc[element]) / size
+                for side in range(2):
+                    node = cell + side
+                    hat = measure * (right if side == 1 else 1.0 - right)
+                    base = order * element
+                    if order == 1:
+                        weights[node, base] += hat * (1.0 - local)
+                        weights[node, base + 1] += hat * local
+                    else:
+                        weights[node, base] += hat * (1.0 - local) * (1.0 - 2.0 * local)
+                        weights[node, base + 1] += hat * 4.0 * local * (1.0 - local)
+                        weights[node, base + 2] += hat * local * (2.0 * local - 1.0)
+                    first[node] = min(first[node], base)
+                    last[node] = max(last[node], base + order + 1)
+            start = end
+            element = min(element + 1, elements - 1)
+    for node in range(n):
+        weights[node] /= weights[node].sum()  # constants are averaged exactly
+    return weights, first, last
+
+
+def flank_interpolation(
+    offsets: np.ndarray,
+    rolls: np.ndarray,
+    base_radius: float,
+    contact_roll: float,
+    sense: float,
+    flank_rolls: np.ndarray,
+    element_order: int,
+) -> FlankInterpolation:
+    """Hat-averaged trace of the flank's elements for contact nodes at `offsets` (n,), mm, roll angles `rolls` (n,), rad."""
+    vertex_arc = 0.5 * base_radius * flank_rolls[::element_order] ** 2
+    return FlankInterpolation(
+        *_averaging_weights(
+            offsets, rolls, base_radius, contact_roll, sense, vertex_arc, element_order, GAUSS_POINTS, GAUSS_WEIGHTS
+        )
+    )

@@ -1,0 +1,140 @@
+"""One contact step, solved: Newton first, then the rungs of the fallback ladder (model.md section 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
+from fenics_gears.contact.newton import (
+    ALL_AT_ONCE,
+    CONVERGED,
+    CYCLED,
+    ONE_AT_A_TIME,
+    SINGULAR,
+    THROUGH_STICK,
+    newton,
+)
+
+OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with these sets"}
+RUNGS = ("newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time")
+HOMOTOPY_STEPS = 8
+
+
+@dataclass(frozen=True)
+class StepProblem:
+    """The mixed form at one position and time: arrays as in `contact.newton.newton`.
+
+    `slip_before` is empty without friction; `keep_one`: the drivetrain alone cannot hold the load.
+    """
+
+    stiffness: np.ndarray
+    load: np.ndarray
+    compliance: np.ndarray
+    rigid: np.ndarray
+    gap: np.ndarray
+    slip_before: np.ndarray
+    friction: float
+    keep_one: bool
+    tolerance: Tolerance
+
+
+@dataclass(frozen=True)
+class StepSolution:
+    """Nodal forces (m,), N, centre coordinates (k,), mm, relative displacement (m,), mm, and the sets (n,).
+
+    `iterations`: of all rungs together; `rung`: index into RUNGS of the one that converged.
+    """
+
+    forces: np.ndarray
+    coordinates: np.ndarray
+    displacement: np.ndarray
+    status: np.ndarray
+    iterations: int
+    rung: int
+
+
+def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
+    """Sets (n,) to begin with where nothing is known: the nearest node of each tooth pair is closed."""
+    status = np.full(len(gap), OPEN, dtype=np.int8)
+    for pair in np.unique(node_pair):
+        nodes = np.flatnonzero(node_pair == pair)
+        status[nodes[np.argmin(gap[nodes])]] = SLIP_FORWARD
+    return status
+
+
+def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 40) -> StepSolution:
+    """Solve one step from the sets `status` (n,) int8.
+
+    Raises ContactNotConverged with the history of every rung when none converges.
+    """
+    attempts, spent = [], 0
+    for rung, attempt in enumerate(_rungs(problem, status, max_iterations)):
+        result, record = attempt()
+        attempts.append((RUNGS[rung], OUTCOMES[result[0]], *record))
+        spent += result[1]
+        if result[0] == CONVERGED:
+            outcome, iterations, forces, coordinates, displacement, sets = result
+            return StepSolution(forces, coordinates, displacement, sets, spent, rung)
+    raise ContactNotConverged(attempts, _reason(problem, attempts))
+
+
+def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[Callable]:
+    yield lambda: run_newton(problem, status, max_iterations)
+    if not len(problem.slip_before):
+        return
+    yield lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
+    yield lambda: run_newton(problem, status, max_iterations, r_scale=10.0)
+    yield lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
+    yield lambda: _friction_from_zero(problem, status, max_iterations)
+    yield lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
+
+
+def run_newton(
+    problem: StepProblem,
+    status: np.ndarray,
+    max_iterations: int,
+    *,
+    friction: float | None = None,
+    r_scale: float = 1.0,
+    rule: int = ALL_AT_ONCE,
+):
+    """Newton from `status`; returns ((outcome, iterations, forces, coordinates, u, sets), (history, all sets))."""
+    history = np.zeros((max_iterations, 5))
+    sets = np.full((max_iterations, len(problem.gap)), -1, dtype=np.int8)
+    current = status.copy()
+    try:
+        result = newton(
+            problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before,
+            problem.friction if friction is None else friction, current,
+            problem.keep_one, r_scale, rule, problem.tolerance.length, problem.tolerance.force, history, sets,
+        )  # fmt: skip
+    except np.linalg.LinAlgError:
+        done = int(np.sum(np.any(sets >= 0, axis=1)))
+        zeros = np.zeros(len(problem.compliance))
+        result = (SINGULAR, done, zeros, np.zeros(len(problem.load)), zeros)
+    used = max(result[1], 1)
+    return (*result, current), (history[:used], sets[:used])
+
+
+def _friction_from_zero(problem: StepProblem, status: np.ndarray, max_iterations: int):
+    """Homotopy: solve with friction raised from zero in equal steps, each warm-started by the last."""
+    current, spent = status, 0
+    for friction in problem.friction * np.linspace(0.0, 1.0, HOMOTOPY_STEPS + 1):
+        result, record = run_newton(problem, current, max_iterations, friction=friction, rule=THROUGH_STICK)
+        spent += result[1]
+        if result[0] != CONVERGED:
+            break
+        current = result[5]
+    return (result[0], spent, *result[2:]), record
+
+
+def _reason(problem: StepProblem, attempts) -> str:
+    if not len(problem.gap):
+        return "no tooth pair can touch at this position, and nothing else holds the load"
+    if problem.keep_one and attempts[-1][1] == OUTCOMES[SINGULAR]:
+        return "no static equilibrium: the load pulls the flanks apart, or friction locks them"
+    return "every rung of the ladder ended with alternating sets"

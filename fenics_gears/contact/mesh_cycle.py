@@ -1,0 +1,116 @@
+"""The contact operators of all positions that one mesh cycle passes, built once and used by every cycle.
+
+Steps are counted from phase 0, where a new tooth pair reaches the theoretical start of contact; step `i` stands at
+phase `i / steps`. All teeth being alike, the equations at a phase are the same in every cycle; only the pairs' numbers move on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
+from fenics_gears.contact.tooth_pair import Flanks, ToothPair, tooth_pair
+from fenics_gears.contact.window import ContactGrid, flank_limits
+
+
+@dataclass(frozen=True)
+class Position:
+    """The contact operator of one phase, and for each node the one it was a step before, (n,), -1 where it is new."""
+
+    operator: ContactOperator
+    carried_from: np.ndarray
+
+
+def pair_positions(flanks: Flanks, grid: ContactGrid, phase: float) -> list[tuple[int, float]]:
+    """Index and position `xi` (mm from T1) of every tooth pair whose window is not empty at `phase` (0 <= phase < 1).
+
+    Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come.
+    """
+    pair = flanks.pair
+    half = 0.5 * grid.length
+
+    def can_touch(index: int) -> bool:
+        lowest, highest = flank_limits(pair, pair.path_start + (phase + index) * pair.base_pitch)
+        return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
+
+    # Off the line of action a tip can touch up to the window's length before and after the path of contact.
+    reach = 2 + int(np.ceil(grid.length / pair.base_pitch))
+    candidates = range(-reach, int(np.ceil(pair.contact_ratio)) + reach)
+    return [(k, pair.path_start + (phase + k) * pair.base_pitch) for k in candidates if can_touch(k)]
+
+
+def tooth_span(flanks_pair_counts: list[int]) -> int:
+    """Pitches between the outermost teeth that can be loaded together."""
+    return max(flanks_pair_counts) - 1
+
+
+class MeshCycle:
+    """Operators over one mesh cycle of `steps` positions, each built when it is first asked for.
+
+    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.
+    """
+
+    def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, coordinates: list[int], tangential: bool):
+        self.flanks, self.grid, self.steps = flanks, grid, steps
+        self._coordinates, self._tangential = coordinates, tangential
+        self._pairing = CompliancePairing(flanks)
+        self._pairs: dict[int, tuple[ToothPair, ...]] = {}
+        self._positions: dict[int, Position] = {}
+
+    def position(self, step: int) -> Position:
+        """The contact equations at `step` (any integer)."""
+        index = step % self.steps
+        if index not in self._positions:
+            self._positions[index] = self._build(index)
+        return self._positions[index]
+
+    def pair_number(self, step: int, index: int | np.ndarray):
+        """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle `c`."""
+        return step // self.steps - index
+
+    def _pairs_at(self, index: int) -> tuple[ToothPair, ...]:
+        if index not in self._pairs:
+            built = (
+                tooth_pair(self.flanks, self.grid, k, xi)
+                for k, xi in pair_positions(self.flanks, self.grid, index / self.steps)
+            )
+            self._pairs[index] = tuple(pair for pair in built if pair is not None)
+        return self._pairs[index]
+
+    def _build(self, index: int) -> Position:
+        pairs = self._pairs_at(index)
+        previous = self._pairs_at((index - 1) % self.steps)
+        if index == 0:
+            # Passing the end of a cycle every pair's index rises by one.
+            previous = tuple(replace(pair, index=pair.index + 1) for pair in previous)
+        advance = self.flanks.pair.pinion.angular_pitch / self.steps
+        operator = contact_operator(
+            self.flanks,
+            self._pairing,
+            pairs,
+            coordinates=self._coordinates,
+            previous=previous if self._tangential else None,
+            advance=advance,
+        )
+        return Position(operator, _carried_nodes(pairs, previous, self.grid.spacing))
+
+
+def _carried_nodes(pairs: tuple[ToothPair, ...], previous: tuple[ToothPair, ...], spacing: float) -> np.ndarray:
+    """For each node the one of the same pair that stood at the same offset a step before; -1 where there is none."""
+    starts, start = {}, 0
+    for pair in previous:
+        starts[pair.index] = (start, pair.offsets)
+        start += len(pair.offsets)
+    carried = []
+    for pair in pairs:
+        if pair.index not in starts:
+            carried.append(np.full(len(pair.offsets), -1))
+            continue
+        first, offsets = starts[pair.index]
+        distance = np.abs(pair.offsets[:, None] - offsets[None, :])
+        nearest = np.argmin(distance, axis=1)
+        near = distance[np.arange(len(nearest)), nearest] <= 0.75 * spacing
+        carried.append(np.where(near, first + nearest, -1))
+    return np.concatenate(carried).astype(np.int64) if carried else np.empty(0, dtype=np.int64)

@@ -1,0 +1,205 @@
+"""Semi-smooth Newton for the mixed form: active sets over the contact nodes, solved with the centre coordinates.
+
+One iteration solves, for the closed nodes (normals), the sticking ones (tangents) and all centre coordinates,
+
+    K q + G^T p = F
+    G q - C p   = gap        normal rows of closed nodes
+    G q - C p   = -w_old     tangential rows of sticking nodes
+    p_t = +-mu p_n           slipping nodes, inserted
+
+and reads the new sets off the projections [24], [25]. The laws are piecewise linear, so a set that repeats is the
+exact solution. Eliminating q first would divide by a stiffness that vanishes with growing time step (model.md section 4).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status
+
+CONVERGED, CYCLED, SINGULAR = 0, 1, 2
+# How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the first
+# node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a P-matrix
+# (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
+ALL_AT_ONCE, THROUGH_STICK, ONE_AT_A_TIME = 0, 1, 2
+PENETRATION, TENSION, CONE_EXCESS, STICK_SLIP, EQUILIBRIUM = range(5)
+RESIDUAL_NAMES = ("penetration", "tension", "cone excess", "stick slip", "equilibrium")
+RESIDUAL_UNITS = ("mm", "N", "N", "mm", "N")
+
+
+@njit(cache=True)
+def _slip_factor(status, friction):
+    """Tangential force per normal force of a slipping node."""
+    if status == SLIP_FORWARD:
+        return friction
+    if status == SLIP_BACKWARD:
+        return -friction
+    return 0.0
+
+
+@njit(cache=True)
+def solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates):
+    """Solve the linear system of given sets for `forces` (m,) and `coordinates` (k,), in place.
+
+    Raises numpy.linalg.LinAlgError where the sets leave the system singular.
+    """
+    n, k, tangential = len(gap), len(load), len(slip_before) > 0
+    closed = np.flatnonzero(status != OPEN)
+    stick = np.flatnonzero(status == STICK) if tangential else closed[:0]
+    n_closed, n_stick = len(closed), len(stick)
+    rows = np.concatenate((closed, n + stick))
+    size = n_closed + n_stick
+    # Forces are carried as lengths, `unit` N each, so that all entries are of the size of a stiffness.
+    unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
+    matrix = np.empty((size + k, size + k))
+    right_side = np.empty(size + k)
+    for a in range(size):
+        row = rows[a]
+        for b in range(size):
+            matrix[a, b] = -compliance[row, rows[b]] * unit * unit
+        if tangential:
+            for b in range(n_closed):
+                factor = _slip_factor(status[closed[b]], friction)
+                matrix[a, b] -= factor * compliance[row, n + closed[b]] * unit * unit
+        for c in range(k):
+            matrix[a, size + c] = rigid[row, c] * unit
+        right_side[a] = (gap[row] if row < n else -slip_before[row - n]) * unit
+    for c in range(k):
+        for b in range(size):
+            entry = rigid[rows[b], c]
+            if tangential and b < n_closed:
+                entry += _slip_factor(status[closed[b]], friction) * rigid[n + closed[b], c]
+            matrix[size + c, b] = entry * unit
+        for d in range(k):
+            matrix[size + c, size + d] = stiffness[c, d]
+        right_side[size + c] = load[c]
+    solution = np.linalg.solve(matrix, right_side)
+    forces[:] = 0.0
+    for a in range(n_closed):
+        node = closed[a]
+        forces[node] = solution[a] * unit
+        if tangential:
+            forces[n + node] = _slip_factor(status[node], friction) * forces[node]
+    for a in range(n_stick):
+        forces[n + stick[a]] = solution[n_closed + a] * unit
+    coordinates[:] = solution[size:]
+
+
+@njit(cache=True)
+def relative_displacement(compliance, rigid, forces, coordinates):
+    """u = G q - C p (m,), mm; only loaded nodes are summed."""
+    displacement = np.dot(rigid, coordinates)
+    for j in range(len(forces)):
+        if forces[j] != 0.0:
+            for i in range(len(displacement)):
+                displacement[i] -= compliance[i, j] * forces[j]
+    return displacement
+
+
+@njit(cache=True)
+def _update_status(status, forces, displacement, compliance, gap, slip_before, friction, r_scale, rule):
+    """New sets by the projections; `r` per node from the elastic compliance. Returns (changed, new status)."""
+    n, tangential = len(gap), len(slip_before) > 0
+    new = np.empty_like(status)
+    changed = False
+    for j in range(n):
+        r_n, r_t, p_t, slip = r_scale / compliance[j, j], 0.0, 0.0, 0.0
+        if tangential:
+            r_t, p_t = r_scale / compliance[n + j, n + j], forces[n + j]
+            slip = displacement[n + j] + slip_before[j]
+        # A node in a set satisfies that set's equation exactly; round-off must not decide in its place.
+        u_n = gap[j] if status[j] != OPEN else displacement[j]
+        if status[j] == STICK:
+            slip = 0.0
+        new[j] = next_status(status[j], forces[j], p_t, u_n, gap[j], slip, r_n, r_t, friction, rule != ALL_AT_ONCE)
+        if new[j] != status[j]:
+            if rule == ONE_AT_A_TIME and changed:
+                new[j] = status[j]
+            changed = True
+    return changed, new
+
+
+@njit(cache=True)
+def _measure(residual, stiffness, load, rigid, gap, slip_before, friction, status, forces, coordinates, displacement):
+    """Violation of the laws and of equilibrium by the present solution, into `residual` (5,)."""
+    n, tangential = len(gap), len(slip_before) > 0
+    residual[:] = 0.0
+    for j in range(n):
+        residual[PENETRATION] = max(residual[PENETRATION], displacement[j] - gap[j])
+        residual[TENSION] = max(residual[TENSION], -forces[j])
+        if tangential:
+            limit = friction * max(forces[j], 0.0)
+            residual[CONE_EXCESS] = max(residual[CONE_EXCESS], abs(forces[n + j]) - limit)
+            slip = displacement[n + j] + slip_before[j]
+            if status[j] == STICK:
+                residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
+            elif status[j] != OPEN and forces[n + j] * slip < 0.0:
+                residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
+    balance = np.dot(stiffness, coordinates) + np.dot(rigid.T, forces) - load
+    for c in range(len(load)):
+        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance[c]))
+
+
+@njit(cache=True)
+def _within(residual, length_tolerance, force_tolerance, load):
+    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it.
+    return (
+        residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + 1e-12 * np.max(np.abs(load))
+        and residual[PENETRATION] <= length_tolerance
+        and residual[STICK_SLIP] <= length_tolerance
+        and residual[TENSION] <= force_tolerance
+        and residual[CONE_EXCESS] <= force_tolerance
+    )
+
+
+@njit(cache=True)
+def nearest_node(gap, displacement):
+    """The node nearest to contact."""
+    return np.argmax(displacement[: len(gap)] - gap)
+
+
+@njit(cache=True)
+def newton(
+    stiffness, load, compliance, rigid, gap, slip_before, friction, status,
+    keep_one, r_scale, rule, length_tolerance, force_tolerance, history, sets,
+):  # fmt: skip
+    """Active-set Newton from the sets `status` (n,) int8, changed in place to those of the solution.
+
+    `stiffness` (k, k) and `load` (k,): effective drivetrain; `slip_before` (n,): w_old, empty without friction;
+    `keep_one`: without any contact nothing holds the load, so the set never empties; `history` (iterations, 5) and
+    `sets` (iterations, n) are filled with residuals and sets. Returns (outcome, iterations, forces, coordinates, u).
+    """
+    n, m, k = len(gap), len(compliance), len(load)
+    forces, coordinates, displacement = np.zeros(m), np.zeros(k), np.zeros(m)
+    limit = len(history)
+    for iteration in range(limit):
+        if keep_one and n > 0 and not np.any(status != OPEN):
+            status[nearest_node(gap, displacement)] = SLIP_FORWARD
+        sets[iteration] = status
+        solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates)
+        displacement = relative_displacement(compliance, rigid, forces, coordinates)
+        _measure(
+            history[iteration], stiffness, load, rigid, gap, slip_before, friction,
+            status, forces, coordinates, displacement,
+        )  # fmt: skip
+        changed, new = _update_status(
+            status, forces, displacement, compliance, gap, slip_before, friction, r_scale, rule
+        )
+        if keep_one and n > 0 and not np.any(new != OPEN):
+            new[nearest_node(gap, displacement)] = SLIP_FORWARD
+            changed = np.any(new != status)
+        if not changed:
+            if _within(history[iteration], length_tolerance, force_tolerance, load):
+                return CONVERGED, iteration + 1, forces, coordinates, displacement
+            return SINGULAR, iteration + 1, forces, coordinates, displacement
+        repeated = False
+        for earlier in range(iteration + 1):
+            repeated = repeated or np.all(sets[earlier] == new)
+        if repeated:
+            if _within(history[iteration], length_tolerance, force_tolerance, load):
+                # The sets alternate between solutions that are the same within the tolerance.
+                return CONVERGED, iteration + 1, forces, coordinates, displacement
+            return CYCLED, iteration + 1, forces, coordinates, displacement
+        status[:] = new
+    return CYCLED, limit, forces, coordinates, displacement

@@ -1,0 +1,193 @@
+"""The contact equations at one position of the gears: which nodes may touch, and how they respond.
+
+Unknowns of the mixed form (model.md section 4) are nodal forces `p` and centre coordinates `q`; the relative displacement
+of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents where friction asks for them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.compliance_product import compliance_product, directions
+from fenics_gears.contact.tooth_pair import Flanks, ToothPair
+
+# The seven centre coordinates q of model.md section 4. Rotations are carried as arc lengths rb1 phi1, rb2 phi2, rb2 phi3
+# (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another.
+CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_end")
+
+
+@dataclass(frozen=True)
+class ContactOperator:
+    """Contact at one position: n nodes, m = n without friction, 2 n with it; k centre coordinates.
+
+    `compliance` C (m, m), mm/N; `rigid` G (m, k); `gap` (n,), mm; `sliding` (n,), mm: rigid slip during the step that ends
+    here; `previous_compliance` E (n, m of the step before) and `previous_rigid` (n, k): the tangential displacement that
+    the material points touching now had at the end of the step before is `previous_rigid q - E p`. The last three are
+    None without friction.
+    """
+
+    pairs: tuple[ToothPair, ...]
+    compliance: np.ndarray
+    rigid: np.ndarray
+    gap: np.ndarray
+    sliding: np.ndarray | None
+    previous_compliance: np.ndarray | None
+    previous_rigid: np.ndarray | None
+
+    @property
+    def nodes(self) -> int:
+        """Number of contact nodes."""
+        return len(self.gap)
+
+    @property
+    def node_pair(self) -> np.ndarray:
+        """Tooth pair index of each node (n,)."""
+        return np.concatenate([np.full(len(pair.offsets), pair.index) for pair in self.pairs]) if self.pairs else np.empty(0, int)
+
+    @property
+    def node_offset(self) -> np.ndarray:
+        """Offset of each node (n,), mm, from the line of action."""
+        return np.concatenate([pair.offsets for pair in self.pairs]) if self.pairs else np.empty(0)
+
+
+def rigid_rows(pairs: tuple[ToothPair, ...], base_radii: tuple[float, float], tangential: bool) -> np.ndarray:
+    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm.
+
+    The normal arm of a rotation is the base radius: an involute turned by phi moves by rb phi along its own normal,
+    wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
+    """
+    nodes = sum(len(pair.offsets) for pair in pairs)
+    rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
+    rows[:nodes, 0], rows[:nodes, 2] = 1.0, 1.0
+    rows[:nodes, 3], rows[:nodes, 5] = -1.0, 1.0
+    if tangential and nodes:
+        rows[nodes:, 1], rows[nodes:, 2] = 1.0, np.concatenate([pair.pinion_arm for pair in pairs]) / base_radii[0]
+        rows[nodes:, 4], rows[nodes:, 5] = -1.0, np.concatenate([pair.wheel_arm for pair in pairs]) / base_radii[1]
+    return rows
+
+
+class CompliancePairing:
+    """Compliance between the contact nodes of two sets of tooth pairs, from the flank compliances of both gears."""
+
+    def __init__(self, flanks: Flanks):
+        width = flanks.pair.face_width
+        self._blocks = []
+        for gear in flanks.compliance:
+            ahead = [np.ascontiguousarray(block) / width for block in gear.blocks]
+            behind = [np.ascontiguousarray(block.T) for block in ahead]
+            self._blocks.append((ahead, behind))
+
+    def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
+        # A later pair index means a tooth ahead on the pinion (counter-clockwise), and behind on the wheel.
+        offset = (responding.index - loaded.index) * (1 if gear == 0 else -1)
+        ahead, behind = self._blocks[gear]
+        if abs(offset) >= len(ahead):
+            raise IndexError(f"teeth {abs(offset)} pitches apart, flank compliance reaches {len(ahead) - 1}")
+        return ahead[offset] if offset >= 0 else behind[-offset]
+
+    def product(
+        self,
+        responding: tuple[ToothPair, ...],
+        loaded: tuple[ToothPair, ...],
+        response_directions,
+        load_directions,
+        symmetric: bool = False,
+    ) -> np.ndarray:
+        """Sum over both gears of `N A N^T`: (d_r n_r, d_l n_l), mm/N, directions outermost.
+
+        `response_directions(gear, pair)` and `load_directions(gear, pair)` give unit vectors (d, 2) in tooth frames.
+        """
+        rows, columns = _slices(responding), _slices(loaded)
+        result = None
+        for a, pair_a in enumerate(responding):
+            for b, pair_b in enumerate(loaded):
+                if symmetric and b > a:
+                    continue
+                part = None
+                for gear in range(2):
+                    directions_a, directions_b = response_directions(gear, pair_a), load_directions(gear, pair_b)
+                    if part is None:
+                        part = np.zeros((len(directions_a), len(pair_a.offsets), len(directions_b), len(pair_b.offsets)))
+                    if result is None:
+                        result = np.zeros((len(directions_a), rows[-1].stop, len(directions_b), columns[-1].stop))
+                    n_a, n_b = pair_a.interpolation[gear], pair_b.interpolation[gear]
+                    compliance_product(
+                        self._block(gear, pair_a, pair_b),
+                        n_a.weights, n_a.first, n_a.last, directions_a,
+                        n_b.weights, n_b.first, n_b.last, directions_b,
+                        part,
+                    )  # fmt: skip
+                result[:, rows[a], :, columns[b]] = part
+                if symmetric and b < a:
+                    result[:, rows[b], :, columns[a]] = part.transpose(2, 3, 0, 1)
+        if result is None:
+            return np.zeros((0, 0))
+        return result.reshape(result.shape[0] * result.shape[1], -1)
+
+
+def _slices(pairs: tuple[ToothPair, ...]) -> list[slice]:
+    ends = np.cumsum([0] + [len(pair.offsets) for pair in pairs])
+    return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
+
+
+def own_directions(tangential: bool):
+    """Directions at a pair's own position: e_x, and e_y where friction asks for it."""
+    return lambda gear, pair: directions(pair.contact_roll[gear], tangential)
+
+
+def earlier_tangent(advance: tuple[float, float]):
+    """e_y at the material point as it stood `advance` (rad, of either gear) before: that tooth's frame then."""
+    return lambda gear, pair: directions(pair.contact_roll[gear] - advance[gear], True)[1:]
+
+
+def contact_operator(
+    flanks: Flanks,
+    pairing: CompliancePairing,
+    pairs: tuple[ToothPair, ...],
+    *,
+    coordinates: list[int],
+    previous: tuple[ToothPair, ...] | None = None,
+    advance: float = 0.0,
+) -> ContactOperator:
+    """Assemble the contact equations of `pairs`; with `previous`, the pairs one step before, those of friction too.
+
+    `coordinates`: which of CENTRE_COORDINATES are unknowns; `advance`: rotation of the pinion (rad) during the step.
+    """
+    tangential = previous is not None
+    radii = (flanks.pair.pinion.base_radius, flanks.pair.wheel.base_radius)
+    own = own_directions(tangential)
+    compliance = pairing.product(pairs, pairs, own, own, symmetric=True)
+    gap = np.concatenate([pair.gap for pair in pairs]) if pairs else np.empty(0)
+    sliding = previous_compliance = previous_rigid = None
+    if tangential:
+        # The wheel's roll angle at contact falls as the pinion's rises.
+        turned = (advance, -advance * radii[0] / radii[1])
+        sliding = np.concatenate([pair.sliding_distance(advance, flanks.pair) for pair in pairs]) if pairs else np.empty(0)
+        previous_compliance = pairing.product(pairs, previous, earlier_tangent(turned), own)
+        previous_rigid = np.ascontiguousarray(_earlier_rigid_tangent(pairs, radii, turned)[:, coordinates])
+    return ContactOperator(
+        pairs=pairs,
+        compliance=compliance,
+        rigid=np.ascontiguousarray(rigid_rows(pairs, radii, tangential)[:, coordinates]),
+        gap=gap,
+        sliding=sliding,
+        previous_compliance=previous_compliance,
+        previous_rigid=previous_rigid,
+    )
+
+
+def _earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
+    """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
+    rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
+    if not pairs:
+        return rows
+    offsets = np.concatenate([pair.offsets for pair in pairs])
+    arm_1 = np.concatenate([pair.pinion_arm for pair in pairs])
+    arm_2 = np.concatenate([pair.wheel_arm for pair in pairs])
+    height_1, height_2 = radii[0] - offsets, radii[1] + offsets
+    # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
+    rows[:, 1], rows[:, 2] = 1.0, (arm_1 * np.cos(turned[0]) - height_1 * np.sin(turned[0])) / radii[0]
+    rows[:, 4], rows[:, 5] = -1.0, (arm_2 * np.cos(turned[1]) - height_2 * np.sin(turned[1])) / radii[1]
+    return rows

@@ -1,0 +1,69 @@
+"""The contact grid of one tooth pair: where its contact nodes lie across the line of action.
+
+A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows
+the moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with
+it: nodes then leave at the far, open end of the window one by one, and nothing jumps where the load is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.geometry.involute import flank_point
+from fenics_gears.geometry.pair import GearPair
+
+
+@dataclass(frozen=True)
+class ContactGrid:
+    """What spans the contact nodes: window length in mm and nodes in a whole window."""
+
+    length: float
+    nodes: int
+
+    @property
+    def spacing(self) -> float:
+        """Distance of neighbouring contact nodes, mm."""
+        return self.length / (self.nodes - 1)
+
+
+def contact_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
+    """Roll angles (rad) on pinion and wheel of the point of contact at `xi` (mm) from T1; model.md section 1."""
+    return xi / pair.pinion.base_radius, (pair.line_of_action_length - xi) / pair.wheel.base_radius
+
+
+def flank_limits(pair: GearPair, xi: float) -> tuple[float, float]:
+    """Offsets (mm) between which both flanks exist: tips on one side, form circles on the other."""
+    pinion, wheel = pair.pinion, pair.wheel
+    roll_1, roll_2 = contact_roll_angles(pair, xi)
+
+    def height(gear, roll, contact_roll):
+        return flank_point(gear.base_radius, roll, contact_roll)[1]
+
+    lowest = max(
+        pinion.base_radius - height(pinion, pinion.tip_roll_angle, roll_1),
+        height(wheel, wheel.form_roll_angle, roll_2) - wheel.base_radius,
+    )
+    highest = min(
+        height(wheel, wheel.tip_roll_angle, roll_2) - wheel.base_radius,
+        pinion.base_radius - height(pinion, pinion.form_roll_angle, roll_1),
+    )
+    return float(lowest), float(highest)
+
+
+def node_offsets(pair: GearPair, xi: float, grid: ContactGrid) -> np.ndarray:
+    """Offsets `y` (n,), mm, increasing, of the contact nodes of the pair at `xi`; empty when it cannot touch."""
+    half = 0.5 * grid.length
+    lowest, highest = flank_limits(pair, xi)
+    start, end = max(lowest, -half), min(highest, half)
+    length = end - start
+    if length <= 1e-9 * grid.length:
+        return np.empty(0)
+    cut_low, cut_high = lowest > -half, highest < half
+    if cut_low and cut_high:
+        return np.linspace(start, end, max(1, round(length / grid.spacing)) + 1)
+    # The tolerance keeps the node count of an uncut window whole in spite of round-off.
+    cells = max(1, int(np.floor(length / grid.spacing * (1.0 + 1e-12))))
+    steps = min(grid.spacing, length / cells if cells == 1 else grid.spacing) * np.arange(cells + 1)
+    return start + steps if cut_low else (end - steps)[::-1]

@@ -1,0 +1,65 @@
+"""The average acceleration method [14]: second order, no numerical dissipation.
+
+With x' and x'' at both ends of a step,
+
+    x_1 = x_0 + dt/2 (x'_0 + x'_1),   x'_1 = x'_0 + dt/2 (x''_0 + x''_1)
+
+the equation of motion M x'' + D x' + K x = F - G^T p at the end of the step reads
+
+    (4/dt^2 M + 2/dt D + K) x_1 + G^T p = F + M (4/dt^2 x_0 + 4/dt x'_0 + x''_0) + D (2/dt x_0 + x'_0).
+
+Without mass and damping this is the static equation at the end of the step: quasi-static scenes use the same march.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.dynamics.drivetrain import Drivetrain
+
+
+@dataclass(frozen=True)
+class State:
+    """Centre coordinates (k,), mm, their velocities, mm/s, and accelerations, mm/s^2."""
+
+    position: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+
+
+class AverageAcceleration:
+    """Effective stiffness and load of one step of length `step` (s); `inert` where the scene has inertia."""
+
+    def __init__(self, drivetrain: Drivetrain, step: float):
+        self.step = step
+        self.inert = drivetrain.mass is not None
+        self.stiffness = drivetrain.stiffness
+        self._load = drivetrain.load
+        if not self.inert:
+            return
+        mass = drivetrain.mass
+        damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
+        self.stiffness = drivetrain.stiffness + 4.0 / step**2 * mass + 2.0 / step * damping
+        # F + M (4/dt^2 x + 4/dt x' + x'') + D (2/dt x + x') as one product with the stacked state.
+        self._history = np.hstack(
+            [4.0 / step**2 * mass + 2.0 / step * damping, 4.0 / step * mass + damping, mass]
+        )
+
+    def load(self, state: State) -> np.ndarray:
+        """Right-hand side (k,), N, of the step that starts from `state`."""
+        if not self.inert:
+            return self._load
+        return self._load + self._history @ np.concatenate((state.position, state.velocity, state.acceleration))
+
+    def advance(self, state: State, position: np.ndarray) -> State:
+        """The state at the end of the step, from its position (k,), mm."""
+        if not self.inert:
+            return State(position, state.velocity, state.acceleration)
+        change = 2.0 / self.step * (position - state.position)
+        return State(
+            position,
+            change - state.velocity,
+            2.0 / self.step * (change - 2.0 * state.velocity) - state.acceleration,
+        )

@@ -1,0 +1,91 @@
+"""The drivetrain of model.md section 4: masses, shafts, bearings and load over those centre coordinates that move.
+
+Rotations are carried as arc lengths rb phi (mm), so that all coordinates are lengths and all rows forces.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.operator import CENTRE_COORDINATES
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.scene.data import Scene
+
+TRANSLATIONS = ("centre_x1", "centre_y1", "centre_x2", "centre_y2")
+
+
+@dataclass(frozen=True)
+class Drivetrain:
+    """Equations of motion [26]-[28] without the contact forces, over k of the seven centre coordinates.
+
+    `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
+    `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none.
+    """
+
+    coordinates: tuple[str, ...]
+    radii: np.ndarray
+    stiffness: np.ndarray
+    load: np.ndarray
+    mass: np.ndarray | None
+    damping: np.ndarray | None
+
+    @property
+    def indices(self) -> list[int]:
+        """Positions of the coordinates among CENTRE_COORDINATES."""
+        return [CENTRE_COORDINATES.index(name) for name in self.coordinates]
+
+    @property
+    def needs_contact(self) -> bool:
+        """Whether, without mass, only contact holds the load: the stiffness alone is singular."""
+        return np.linalg.matrix_rank(self.stiffness) < len(self.coordinates)
+
+    def value(self, states: np.ndarray, name: str) -> np.ndarray:
+        """Coordinate `name` of states (..., k), in mm or rad; zero where the scene holds it fixed."""
+        if name not in self.coordinates:
+            return np.zeros(states.shape[:-1])
+        position = self.coordinates.index(name)
+        return states[..., position] / self.radii[position]
+
+
+def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
+    """The drivetrain that the scene's sections call for; what no section frees does not appear."""
+    names = _moving_coordinates(scene)
+    radius = {"rotation_1": pair.pinion.base_radius, "rotation_2": pair.wheel.base_radius, "shaft_end": pair.wheel.base_radius}
+    radii = np.array([radius.get(name, 1.0) for name in names])
+    stiffness, mass = np.zeros((len(names), len(names))), None
+    if scene.bearings is not None:
+        for name in TRANSLATIONS:
+            stiffness[names.index(name), names.index(name)] = scene.bearings.stiffness
+    if scene.shafts is not None:
+        _add_torsion(stiffness, names, scene.shafts.torsional_stiffness)
+    if scene.inertia is not None:
+        mass = np.diag([scene.inertia.mass if name in TRANSLATIONS else scene.inertia.moment_of_inertia for name in names])
+    load = np.zeros(len(names))
+    load[names.index("shaft_end" if scene.shafts is not None else "rotation_2")] = scene.load.wheel_torque
+    scale = np.outer(1.0 / radii, 1.0 / radii)
+    stiffness, mass = stiffness * scale, None if mass is None else mass * scale
+    damping = None
+    if scene.damping is not None and mass is not None:
+        damping = scene.damping.stiffness_proportional * stiffness + scene.damping.mass_proportional * mass
+    return Drivetrain(names, radii, stiffness, load / radii, mass, damping)
+
+
+def _moving_coordinates(scene: Scene) -> tuple[str, ...]:
+    moving = {"rotation_2"}
+    if scene.bearings is not None:
+        moving.update(TRANSLATIONS)
+    if scene.shafts is not None:
+        moving.update(("rotation_1", "shaft_end"))
+    return tuple(name for name in CENTRE_COORDINATES if name in moving)
+
+
+def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], torsional_stiffness: float) -> None:
+    """Input shaft between the prescribed rotation and phi1; output shaft between phi2 and phi3 [4]-[6]."""
+    first, second, end = (names.index(name) for name in ("rotation_1", "rotation_2", "shaft_end"))
+    stiffness[first, first] += torsional_stiffness
+    stiffness[second, second] += torsional_stiffness
+    stiffness[end, end] += torsional_stiffness
+    stiffness[second, end] -= torsional_stiffness
+    stiffness[end, second] -= torsional_stiffness

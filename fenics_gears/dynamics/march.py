@@ -1,0 +1,144 @@
+"""The march through time: one contact step after another, from static equilibrium at the start."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mesh_cycle import MeshCycle, Position
+from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
+from fenics_gears.dynamics.drivetrain import Drivetrain
+
+SECONDS_BETWEEN_REPORTS = 0.1
+NO_SLIP = np.empty(0)
+# The start assumes long sliding before it: as much slip as this many steps bring.
+STEPS_SLID_BEFORE_START = 1e6
+
+
+@dataclass(frozen=True)
+class Record:
+    """What one stored step holds: the step's number, the state and the contact solution there."""
+
+    step: int
+    state: State
+    position: Position
+    solution: StepSolution
+
+
+@dataclass
+class March:
+    """What a march has produced so far.
+
+    `records`: the stored steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
+    `interrupted`: stopped by the user.
+    """
+
+    records: list[Record] = field(default_factory=list)
+    newton_iterations: int = 0
+    steps: int = 0
+    rungs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RUNGS, 0))
+    interrupted: bool = False
+    seconds: float = 0.0
+
+
+class Marcher:
+    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none."""
+
+    def __init__(self, cycle: MeshCycle, drivetrain: Drivetrain, time_step: float, friction: float):
+        self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
+        self.dynamic = AverageAcceleration(drivetrain, time_step)
+        static_drivetrain = Drivetrain(
+            drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
+        )
+        self.static = AverageAcceleration(static_drivetrain, time_step)
+        self.tolerance = Tolerance.of_load(float(np.abs(drivetrain.load).max()))
+        self._needs_contact = drivetrain.needs_contact
+
+    def run(self, steps: int, first_stored: int, report: Callable[[int, int], None] | None = None) -> March:
+        """March `steps` steps and keep those from `first_stored` on, the start being step 0.
+
+        Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
+        """
+        march, begun, reported = March(), time.perf_counter(), 0.0
+        try:
+            record = self.start()
+            march.records += [record] if first_stored <= 0 else []
+            for step in range(1, steps + 1):
+                record = self.step(self.dynamic, record, step)
+                march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
+                march.rungs[RUNGS[record.solution.rung]] += 1
+                if step >= first_stored:
+                    march.records.append(record)
+                now = time.perf_counter()
+                if report is not None and now - reported > SECONDS_BETWEEN_REPORTS:
+                    report(step, steps)
+                    reported = now
+        except KeyboardInterrupt:
+            march.interrupted = True
+        except ContactNotConverged as failure:
+            failure.partial = march
+            raise
+        finally:
+            march.seconds = time.perf_counter() - begun
+        return march
+
+    def start(self) -> Record:
+        """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the equations of motion."""
+        neighbours = [self._static_start(-1)]
+        for step in (0, 1) if self.dynamic.inert else (0,):
+            neighbours.append(self.step(self.static, neighbours[-1], step))
+        middle = neighbours[1]
+        if not self.dynamic.inert:
+            return middle
+        velocity = (neighbours[2].state.position - neighbours[0].state.position) / (2.0 * self.time_step)
+        # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
+        damping = self.drivetrain.damping
+        acceleration = np.zeros_like(velocity)
+        if damping is not None:
+            acceleration = -np.linalg.solve(self.drivetrain.mass, damping @ velocity)
+        return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
+
+    def step(self, scheme: AverageAcceleration, last: Record, step: int) -> Record:
+        """One step of `scheme` from `last`."""
+        position = self.cycle.position(step)
+        operator = position.operator
+        slip_before = NO_SLIP
+        if operator.sliding is not None:
+            # w_old of [25]: rigid slip less the tangential displacement that the same material points had.
+            displaced = operator.previous_rigid @ last.state.position
+            displaced -= operator.previous_compliance @ last.solution.forces
+            slip_before = operator.sliding - displaced
+        carried = position.carried_from
+        status = np.zeros(operator.nodes, dtype=np.int8)
+        known = carried >= 0
+        status[known] = last.solution.status[carried[known]]
+        solution = self._solve(scheme, scheme.load(last.state), position, slip_before, status, step)
+        return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
+
+    def _static_start(self, step: int) -> Record:
+        position = self.cycle.position(step)
+        operator = position.operator
+        slip_before = NO_SLIP if operator.sliding is None else STEPS_SLID_BEFORE_START * operator.sliding
+        rest = np.zeros(len(self.drivetrain.coordinates))
+        status = cold_start(operator.gap, operator.node_pair)
+        state = State(rest, rest, rest)
+        solution = self._solve(self.static, self.static.load(state), position, slip_before, status, step)
+        return Record(step, State(solution.coordinates, rest, rest), position, solution)
+
+    def _solve(self, scheme, load, position: Position, slip_before, status, step: int) -> StepSolution:
+        operator = position.operator
+        problem = StepProblem(
+            scheme.stiffness, load, operator.compliance, operator.rigid, operator.gap, slip_before,
+            self.friction, self._needs_contact and not scheme.inert, self.tolerance,
+        )  # fmt: skip
+        try:
+            return solve_step(problem, status)
+        except ContactNotConverged as failure:
+            failure.time, failure.step = step * self.time_step, step
+            raise
