@@ -1,0 +1,112 @@
+"""The kinds of fields a scene has: quantities with units, bare numbers, choices; each knows what it allows.
+
+Each function returns a pydantic field; its wording travels along as ``Allowed``, for the messages.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
+from pydantic_core import PydanticCustomError
+
+from fenics_gears.scene import units
+from fenics_gears.scene.names import did_you_mean
+
+
+@dataclass(frozen=True)
+class Allowed:
+    """What a field allows, in words, and how its text becomes a number.
+
+    ``kind`` is the kind of quantity ("a length"), None for a field without unit; ``words`` are texts that stand for
+    other values; ``below`` is added when a value lies below the range; ``planned`` are choices of the format that this version
+    does not have, with what they stand for.
+    """
+
+    description: str
+    example: str
+    kind: str | None = None
+    words: dict[str, Any] = field(default_factory=dict)
+    below: str = ""
+    planned: dict[str, str] = field(default_factory=dict)
+
+    def convert(self, value: Any) -> Any:
+        """The number in N, mm, s, rad for a quantity's text; anything else as it is.
+
+        Raises PydanticCustomError, whose type is "quantity", for a text that is not of this kind.
+        """
+        if self.kind is None:
+            return value
+        if not isinstance(value, str):
+            raise PydanticCustomError("quantity", "{reason}", {"reason": self._without_unit(value)})
+        if value in self.words:
+            return self.words[value]
+        try:
+            number, kind = units.quantity(value)
+        except units.QuantityError as error:
+            raise PydanticCustomError("quantity", "{reason}", {"reason": str(error) + did_you_mean(value, self.words)}) from None
+        if kind != self.kind:
+            raise PydanticCustomError("quantity", "{reason}", {"reason": f"is {kind}, not {self.kind}."})
+        return number
+
+    def _without_unit(self, value: Any) -> str:
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            return "is a number without its unit."
+        return "is not a text with a number and its unit."
+
+
+class Section(BaseModel):
+    """A section of the scene: unknown keys and values of a wrong type are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _to_program_units(cls, value: Any, info: ValidationInfo) -> Any:
+        allowed = allowed_in(cls, info.field_name)
+        return value if allowed is None else allowed.convert(value)
+
+
+def allowed_in(section: type[BaseModel], name: str) -> Allowed | None:
+    """What the field of that name allows; None for a section within a section."""
+    extra = section.model_fields[name].json_schema_extra
+    return extra["allowed"] if extra else None
+
+
+def quantity(lowest: str, highest: str, example: str, *, optional: bool = False, words: dict[str, Any] | None = None, below: str = "") -> Any:
+    """A quantity with a unit; bounds, both included, are written with units too."""
+    kind = units.quantity(example)[1]
+    words = words or {}
+    description = f'{kind} from {lowest} to {highest}, with its unit, such as "{example}"' + "".join(f', or "{word}"' for word in words)
+    allowed = Allowed(description, f'"{example}"', kind, words, below)
+    return _field(allowed, optional, ge=units.quantity(lowest)[0], le=units.quantity(highest)[0])
+
+
+def number(example: float, *, above: float | None = None, lowest: float | None = None, below: float | None = None, highest: float | None = None, default: Any = ..., too_low: str = "") -> Any:
+    """A bare number; ``above`` and ``below`` are excluded, ``lowest`` and ``highest`` included."""
+    least = f"above {above:g}" if lowest is None else f"from {lowest:g}"
+    most = f"below {below:g}" if highest is None else f"up to {highest:g}"
+    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", f"{example:g}", below=too_low)
+    return Field(default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
+
+
+def whole_number(lowest: int, highest: int, example: int, *, optional: bool = False) -> Any:
+    """A bare whole number, bounds included."""
+    allowed = Allowed(f"a whole number from {lowest} to {highest}, without unit, such as {example}", f"{example}")
+    return _field(allowed, optional, ge=lowest, le=highest)
+
+
+def choice(*names: str, planned: dict[str, str]) -> Any:
+    """One of a few names, optional; ``planned`` are names of the format that this version does not have, and what they stand for."""
+    listed = ", ".join(f'"{name}"' for name in names)
+    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}", f'"{names[0]}"', planned=planned), optional=True)
+
+
+def text(longest: int) -> Any:
+    """A text, optional."""
+    return _field(Allowed(f"a text of at most {longest} characters", '"..."'), optional=True, max_length=longest)
+
+
+def _field(allowed: Allowed, optional: bool, **bounds: Any) -> Any:
+    return Field(None if optional else ..., json_schema_extra={"allowed": allowed}, **bounds)

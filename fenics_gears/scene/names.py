@@ -1,0 +1,19 @@
+"""The nearest known name for a misspelt one."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+def nearest(word: str, names: Iterable[str], likeness: float = 0.6) -> str | None:
+    """The one of ``names`` that ``word`` most likely meant, whatever its case; None where none is alike."""
+    by_lower_case = {name.lower(): name for name in names}
+    found = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=likeness)
+    return by_lower_case[found[0]] if found else None
+
+
+def did_you_mean(word: str, names: Iterable[str], likeness: float = 0.6) -> str:
+    """A question naming the nearest known name, with a blank before it; empty where none is alike."""
+    name = nearest(word, names, likeness)
+    return f' Did you mean "{name}"?' if name else ""

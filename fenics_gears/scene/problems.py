@@ -1,0 +1,194 @@
+"""What is wrong with a scene file, in sentences that a person can act on."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from fenics_gears.effects import NOT_YET_AVAILABLE
+from fenics_gears.scene.fields import Allowed, allowed_in
+from fenics_gears.scene.names import did_you_mean, nearest
+from fenics_gears.scene.schema import SceneText
+
+Path = tuple[str, ...]
+_LONGEST_VALUE = 60
+
+
+class WrittenFloat(float):
+    """A number of a TOML file that remembers how it was written."""
+
+    def __new__(cls, text: str) -> WrittenFloat:
+        """The number that ``text`` stands for."""
+        number = super().__new__(cls, text)
+        number.text = text
+        return number
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One mistake: the field's path, its value as written, and what to do about it.
+
+    ``written`` is None where nothing is written and empty for a section; ``unknown`` marks a name that no scene has.
+    """
+
+    path: Path
+    written: str | None
+    message: str
+    unknown: bool = False
+
+    def describe(self, source: str, lines: Mapping[Path, int]) -> str:
+        """Two lines for people: file, line, field and value; then what is wrong and what is allowed."""
+        known = next((self.path[:n] for n in range(len(self.path), 0, -1) if self.path[:n] in lines), None)
+        place = f"{source}:{lines[known]}" if known else source
+        field = ".".join(self.path)
+        if self.written is not None:
+            field = f"{field} = {self.written}" if self.written else f"[{field}]"
+        return f"{place}: {field}\n    {self.message}"
+
+
+def as_written(value: Any) -> str:
+    """A value in TOML's own spelling, shortened where it is long; empty for a section."""
+    if isinstance(value, Mapping):
+        return ""
+    if isinstance(value, list):
+        return "a list"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and abs(value) >= 10**_LONGEST_VALUE:
+        return f"a number of more than {_LONGEST_VALUE} digits"
+    text = json.dumps(value, ensure_ascii=False) if isinstance(value, str) else getattr(value, "text", None) or str(value)
+    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
+
+
+def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
+    """The validated ``SceneText`` of a parsed TOML file, None where it is wrong, and all that is wrong with it."""
+    try:
+        return SceneText.model_validate(tree), []
+    except ValidationError as error:
+        return None, [_problem(each, tree) for each in error.errors(include_url=False)]
+
+
+def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
+    """The problems without those that only repeat another: a second one of a field, a field missing because it is misspelt."""
+    first = {problem.path: problem for problem in reversed(list(problems))}
+    unknown = [problem.path for problem in first.values() if problem.unknown]
+    return [problem for problem in reversed(first.values()) if problem.written is not None or not _is_misspelt(problem.path, unknown)]
+
+
+def _is_misspelt(missing: Path, unknown: Iterable[Path]) -> bool:
+    return any(path[:-1] == missing[:-1] and nearest(path[-1], missing[-1:]) for path in unknown)
+
+
+def _problem(error: Mapping[str, Any], tree: Mapping[str, Any]) -> Problem:
+    """The problem that one of pydantic's errors stands for."""
+    kind, path = error["type"], tuple(map(str, error["loc"]))
+    section = _section(path[:-1])
+    if kind == "extra_forbidden":
+        return Problem(path, as_written(_value(path, tree)), _why_unknown(path, section), unknown=True)
+    allowed = allowed_in(section, path[-1])
+    if allowed is None:
+        return _section_problem(kind, path, tree)
+    if kind == "missing":
+        return Problem(path, None, f"is missing. Allowed: {allowed.description}.")
+    value = _value(path, tree)
+    return Problem(path, as_written(value), f"{_reason(error, value, allowed)} Allowed: {allowed.description}.")
+
+
+_REASONS = {
+    "less_than": "is too large.",
+    "less_than_equal": "is too large.",
+    "finite_number": "is not a finite number.",
+    "literal_error": "is not known.",
+    "string_too_long": "is too long.",
+    "string_type": "is not a text.",
+}
+
+
+def _reason(error: Mapping[str, Any], value: Any, allowed: Allowed) -> str:
+    """What is wrong with a value as written, for the error that pydantic reports."""
+    kind, context = error["type"], error.get("ctx", {})
+    if kind == "quantity":
+        return context["reason"]
+    if kind in ("greater_than", "greater_than_equal"):
+        return f"{_too_low(error['input'], context)} {allowed.below}".rstrip()
+    if kind == "literal_error" and isinstance(value, str):
+        if value in allowed.planned:
+            return f"is not available: this version does not have {allowed.planned[value]}."
+        return "is not known." + did_you_mean(value, re.findall(r"'([^']+)'", context["expected"]))
+    if kind in _REASONS:
+        return _REASONS[kind]
+    if isinstance(value, str):
+        return "is a text, not a bare number."
+    if isinstance(value, bool):
+        return "is true or false, not a number."
+    if isinstance(value, int):
+        return "is too large."
+    if isinstance(value, float):
+        return "is not a whole number."
+    return "is not a number."
+
+
+def _too_low(number: float, context: Mapping[str, Any]) -> str:
+    lowest = context.get("ge", context.get("gt"))
+    if lowest < 0 or number > 0:
+        return "is too small."
+    return "is negative." if number < 0 else "is zero."
+
+
+def _section_problem(kind: str, path: Path, tree: Mapping[str, Any]) -> Problem:
+    name, fields = ".".join(path), ", ".join(_section(path).model_fields)
+    if kind == "missing":
+        return Problem(path, None, f"is missing. Add the section [{name}] with its fields: {fields}.")
+    return Problem(path, as_written(_value(path, tree)), f"is not a section. Write a line [{name}], and below it its fields: {fields}.")
+
+
+def _why_unknown(path: Path, section: type[BaseModel]) -> str:
+    name, home = path[-1], ".".join(path[:-1])
+    if not home and name in NOT_YET_AVAILABLE:
+        return f"is not available: this version does not have {NOT_YET_AVAILABLE[name]}. Leave the section out."
+    known = list(section.model_fields)
+    hint = did_you_mean(name, known) or _lives_elsewhere(name)
+    kind = f"a known field of [{home}]" if home else "a known section or field of a scene"
+    return f"is not {kind}.{hint} Known: {', '.join(known)}."
+
+
+def _lives_elsewhere(name: str) -> str:
+    homes = [f"[{'.'.join(path[:-1])}]" for path in _all_fields(SceneText) if path[-1] == name and len(path) > 1]
+    return f' "{name}" belongs to {" or ".join(homes)}.' if homes else ""
+
+
+def _all_fields(section: type[BaseModel], path: Path = ()) -> list[Path]:
+    """The paths of all fields and sections below ``section``."""
+    found = []
+    for name in section.model_fields:
+        inner = _inner(section, name)
+        found += [(*path, name)] + (_all_fields(inner, (*path, name)) if inner else [])
+    return found
+
+
+def _section(path: Path) -> type[BaseModel]:
+    """The schema of the section at ``path``."""
+    section: type[BaseModel] = SceneText
+    for name in path:
+        section = _inner(section, name)
+    return section
+
+
+def _inner(section: type[BaseModel], name: str) -> type[BaseModel] | None:
+    """The schema of a section within a section; None where the name is a plain field."""
+    annotation = section.model_fields[name].annotation
+    kinds = (annotation, *getattr(annotation, "__args__", ()))
+    return next((kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)), None)
+
+
+def _value(path: Path, tree: Mapping[str, Any]) -> Any:
+    """What the file has at ``path``."""
+    value: Any = tree
+    for name in path:
+        value = value[name]
+    return value

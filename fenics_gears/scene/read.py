@@ -1,0 +1,129 @@
+"""From a scene file to the frozen dataclasses of ``scene.data``."""
+
+from __future__ import annotations
+
+import math
+import os
+import tomllib
+from pathlib import Path
+
+from fenics_gears.errors import SceneError
+from fenics_gears.scene import data, schema
+from fenics_gears.scene.lines import line_numbers
+from fenics_gears.scene.names import did_you_mean
+from fenics_gears.scene.problems import Problem, WrittenFloat, problems_of_schema, without_echoes
+from fenics_gears.scene.rules import broken_rules
+
+
+def load_scene(path: str | os.PathLike) -> data.Scene:
+    """Read and validate a scene file; its name is the file's name without the ending.
+
+    Raises SceneError, naming every mistake at once, where the file cannot be read or is wrong.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise SceneError(f"{path}: there is no such file{_nearest_file(path)}") from None
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a scene is a TOML file") from None
+    except (OSError, ValueError) as error:
+        raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    return scene_from_text(text, path.stem, source=str(path))
+
+
+def scene_from_text(text: str, name: str = "scene", *, source: str | None = None) -> data.Scene:
+    """The scene that a TOML text describes; ``source`` is what messages call the text (the name, unless given).
+
+    Raises SceneError, naming every mistake at once.
+    """
+    source = source or name
+    try:
+        tree = tomllib.loads(text, parse_float=WrittenFloat)
+    except (ValueError, RecursionError) as error:
+        raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
+    checked, problems = problems_of_schema(tree)
+    problems = without_echoes(problems + broken_rules(tree))
+    if problems:
+        raise SceneError(_message(problems, text, source))
+    return _scene(checked, text, name)
+
+
+def _why_no_toml(error: Exception) -> str:
+    if isinstance(error, tomllib.TOMLDecodeError):
+        return str(error)
+    return "it is nested too deeply" if isinstance(error, RecursionError) else "a number in it has thousands of digits"
+
+
+def _message(problems: list[Problem], text: str, source: str) -> str:
+    lines = line_numbers(text)
+    count = "1 mistake" if len(problems) == 1 else f"{len(problems)} mistakes"
+    entries = [problem.describe(source, lines) for problem in problems]
+    return "\n".join([*entries, f"{count} in {source}. Nothing was computed or written."])
+
+
+def _nearest_file(path: Path) -> str:
+    neighbours = [each.name for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+    return "." + did_you_mean(path.name, neighbours)
+
+
+def _scene(checked, text: str, name: str) -> data.Scene:
+    """The dataclasses of a validated scene."""
+    return data.Scene(
+        title=checked.title or name,
+        gears=_gears(checked.gears),
+        load=_as(data.Load, checked.load),
+        motion=_motion(checked.motion, checked.gears.pinion.teeth),
+        shafts=_as(data.Shafts, checked.shafts),
+        bearings=_as(data.Bearings, checked.bearings),
+        inertia=_as(data.Inertia, checked.inertia),
+        damping=_as(data.Damping, checked.damping),
+        friction=_as(data.Friction, checked.friction),
+        tip_relief=_tip_relief(checked.tip_relief),
+        accuracy=_as(data.Accuracy, checked.accuracy),
+        text=text,
+        name=name,
+    )
+
+
+def _as(kind, section: schema.Section | None):
+    """The dataclass ``kind`` with the section's values, which have the same names; None for an absent section."""
+    if section is None:
+        return None
+    # Bare numbers leave their spelling behind here.
+    return kind(**{name: float(value) if isinstance(value, float) else value for name, value in section})
+
+
+def _gears(gears: schema.Gears) -> data.GearPairData:
+    return data.GearPairData(
+        module=gears.module,
+        pressure_angle=gears.pressure_angle,
+        centre_distance=gears.centre_distance,
+        face_width=gears.face_width,
+        pinion=_as(data.GearData, gears.pinion),
+        wheel=_as(data.GearData, gears.wheel),
+        material=_as(data.Material, gears.material),
+    )
+
+
+def _motion(motion: schema.Motion, pinion_teeth: int) -> data.Motion:
+    """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth."""
+    frequency = motion.mesh_frequency
+    if frequency is None:
+        frequency = motion.pinion_speed / (2 * math.pi) * pinion_teeth
+    recorded = motion.recorded_cycles or min(2, motion.mesh_cycles)
+    return data.Motion(frequency, motion.mesh_cycles, recorded)
+
+
+def _tip_relief(relief: schema.TipRelief | None) -> data.TipRelief | None:
+    if relief is None:
+        return None
+    return data.TipRelief(_relief(relief, relief.pinion), _relief(relief, relief.wheel))
+
+
+def _relief(both: schema.TipRelief, own: schema.Relief | None) -> data.Relief | None:
+    """One gear's relief: its own depth and start before those of both gears; None without a depth."""
+    own = own or schema.Relief()
+    depth = both.depth if own.depth is None else own.depth
+    start = own.start if "start" in own.model_fields_set else both.start
+    return None if depth is None else data.Relief(depth, start)

@@ -1,0 +1,147 @@
+"""The sections and fields of a scene file, with what each allows.
+
+Ranges are generous: what is physically possible is allowed. Whether teeth and diameters make a gear is for ``geometry`` to say.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, Optional
+
+from pydantic import create_model
+
+from fenics_gears.effects import EFFECTS
+from fenics_gears.scene.fields import Section, choice, number, quantity, text, whole_number
+
+_COAST_FLANKS = "A negative torque drives the pair from the wheel, on its coast flanks; this version does not have contact on the coast flanks."
+_NO_RELIEF = "For a gear without relief, leave its depth out."
+
+
+def _diameter(example: str):
+    return quantity("0.1 mm", "100 m", example)
+
+
+class Gear(Section):
+    """``[gears.pinion]`` and ``[gears.wheel]``; the rack's tip radius is in modules."""
+
+    teeth: int = whole_number(5, 1000, 16)
+    profile_shift: float = number(0.196, lowest=-5, highest=5)
+    tip_diameter: float = _diameter("82.64 mm")
+    root_diameter: float = _diameter("62.50 mm")
+    bore_diameter: float = _diameter("30 mm")
+    rack_tip_radius: float = number(0.38, lowest=0, highest=2, default=0.38)
+
+
+class Material(Section):
+    """``[gears.material]``."""
+
+    youngs_modulus: float = quantity("1 kPa", "1e9 GPa", "206 GPa")
+    poissons_ratio: float = number(0.3, above=-1, below=0.5)
+
+
+class Gears(Section):
+    """``[gears]``."""
+
+    module: float = quantity("0.01 mm", "1 m", "4.5 mm")
+    pressure_angle: float = quantity("10 deg", "35 deg", "20 deg")
+    centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm")
+    face_width: float = quantity("0.01 mm", "100 m", "15 mm")
+    pinion: Gear
+    wheel: Gear
+    material: Material
+
+
+class Load(Section):
+    """``[load]``."""
+
+    wheel_torque: float = quantity("0 N m", "1e12 N m", "437 N m", below=_COAST_FLANKS)
+
+
+class Motion(Section):
+    """``[motion]``: exactly one of the mesh frequency and the pinion's speed."""
+
+    mesh_frequency: Optional[float] = quantity("1e-6 Hz", "1e6 Hz", "200 Hz", optional=True)
+    pinion_speed: Optional[float] = quantity("1e-6 rpm", "1e6 rpm", "750 rpm", optional=True)
+    mesh_cycles: int = whole_number(1, 1_000_000, 30)
+    recorded_cycles: Optional[int] = whole_number(1, 1_000_000, 2, optional=True)
+
+
+class Shafts(Section):
+    """``[shafts]``."""
+
+    torsional_stiffness: float = quantity("1e-6 N mm/rad", "1e24 N mm/rad", "0.203e9 N mm/rad")
+
+
+class Bearings(Section):
+    """``[bearings]``."""
+
+    stiffness: float = quantity("1e-6 N/mm", "1e20 N/mm", "0.155e6 N/mm")
+
+
+class Inertia(Section):
+    """``[inertia]``."""
+
+    mass: float = quantity("1e-9 kg", "1e9 kg", "4.9 kg")
+    moment_of_inertia: float = quantity("1e-15 kg m^2", "1e15 kg m^2", "24.5e-3 kg m^2")
+
+
+class Damping(Section):
+    """``[damping]``."""
+
+    stiffness_proportional: float = quantity("0 s", "1e3 s", "0.4e-3 s")
+    mass_proportional: float = quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s")
+
+
+class Friction(Section):
+    """``[friction]``."""
+
+    coefficient: float = number(0.1, above=0, highest=5, too_low="For a pair without friction, leave the section [friction] out.")
+
+
+class Relief(Section):
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; what is left out is taken from ``[tip_relief]``."""
+
+    depth: Optional[float] = quantity("1e-6 um", "100 mm", "31 um", optional=True, below=_NO_RELIEF)
+    start: Optional[float] = quantity("1e-3 deg", "360 deg", "29.61 deg", optional=True, words={"HPSTC": None})
+
+
+class TipRelief(Relief):
+    """``[tip_relief]``: depth and start for both gears."""
+
+    pinion: Optional[Relief] = None
+    wheel: Optional[Relief] = None
+
+
+class Accuracy(Section):
+    """``[accuracy]``: what is left out is derived from the scene."""
+
+    element: Optional[Literal["P1", "P2", "Q1", "Q2"]] = choice("P1", "P2", "Q1", "Q2", planned={"Q1 incompatible": "the quadrilateral with incompatible modes"})
+    flank_element_size: Optional[float] = quantity("1e-6 mm", "1 m", "0.08 mm", optional=True)
+    contact_length: Optional[float] = quantity("1e-6 mm", "10 m", "1.5 mm", optional=True)
+    contact_nodes: Optional[int] = whole_number(1, 10_000, 20, optional=True)
+    steps_per_mesh_cycle: Optional[int] = whole_number(2, 1_000_000, 100, optional=True)
+    condensation: Optional[Literal["once"]] = choice("once", planned={"every step": "remeshing at every step"})
+
+
+class _AlwaysThere(Section):
+    title: Optional[str] = text(500)
+    gears: Gears
+    load: Load
+    motion: Motion
+    accuracy: Accuracy = Accuracy()
+
+
+_EFFECT_SECTIONS = {
+    "shafts": Shafts,
+    "bearings": Bearings,
+    "inertia": Inertia,
+    "damping": Damping,
+    "friction": Friction,
+    "tip_relief": TipRelief,
+}
+
+SceneText = create_model(
+    "SceneText",
+    __base__=_AlwaysThere,
+    __doc__="A whole scene file: the sections that are always there, and one optional section for each effect.",
+    **{effect.section: (Optional[_EFFECT_SECTIONS[effect.section]], None) for effect in EFFECTS},
+)

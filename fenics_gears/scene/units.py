@@ -1,0 +1,156 @@
+"""Quantities with units, converted once to N, mm, s and rad.
+
+The list of units is closed: no prefix is guessed, so that "Mm" is a mistake and not a megametre. An angle has a dimension of
+its own, so that "N m" is no torsional stiffness and "Hz" no angular speed.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+from tokenize import TokenError
+
+import pint
+
+from fenics_gears.scene.names import did_you_mean
+
+# Base units first; each further unit in terms of those before it.
+_UNITS = {
+    "mm": "[length]",
+    "um": "0.001 mm",
+    "cm": "10 mm",
+    "m": "1000 mm",
+    "in": "25.4 mm",
+    "N": "[force]",
+    "mN": "0.001 N",
+    "kN": "1000 N",
+    "MN": "1e6 N",
+    "lbf": "4.4482216152605 N",
+    "s": "[time]",
+    "us": "1e-6 s",
+    "ms": "0.001 s",
+    "min": "60 s",
+    "h": "3600 s",
+    "rad": "[angle]",
+    "mrad": "0.001 rad",
+    "urad": "1e-6 rad",
+    "deg": f"{math.pi / 180!r} rad",
+    "degree": "deg",
+    "arcmin": f"{math.pi / 10800!r} rad",
+    "arcsec": f"{math.pi / 648000!r} rad",
+    "rev": f"{2 * math.pi!r} rad",
+    "Nmm": "N * mm",
+    "Nm": "1000 N * mm",
+    "kNm": "1e6 N * mm",
+    "Pa": "1e-6 N / mm**2",
+    "kPa": "1e-3 N / mm**2",
+    "MPa": "N / mm**2",
+    "GPa": "1000 N / mm**2",
+    "bar": "0.1 N / mm**2",
+    "psi": f"{4.4482216152605 / 25.4**2!r} N / mm**2",
+    "g": "1e-6 N * s**2 / mm",
+    "kg": "0.001 N * s**2 / mm",
+    "t": "N * s**2 / mm",
+    "lb": "0.45359237e-3 N * s**2 / mm",
+    "Hz": "1 / s",
+    "kHz": "1000 / s",
+    "rpm": "rev / min",
+}
+
+# What a dimension is called, by its unit inside the program.
+_KINDS = {
+    "mm": "a length",
+    "N": "a force",
+    "s": "a time",
+    "rad": "an angle",
+    "N mm": "a couple",
+    "N/mm^2": "a stress",
+    "N/mm": "a stiffness",
+    "N mm/rad": "a torsional stiffness",
+    "N s^2/mm": "a mass",
+    "N mm s^2": "a moment of inertia",
+    "1/s": "a frequency (1/time)",
+    "rad/s": "an angular speed",
+    "mm/s": "a speed",
+    "mm^2": "an area",
+}
+
+_QUANTITY = re.compile(r"\s*([+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf|nan))(?![.,\d])\s*(.*?)\s*", re.DOTALL)
+_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "·": "*", "⋅": "*", "²": "^2", "³": "^3", "⁴": "^4"})
+_UNIT_TEXT = re.compile(r"[A-Za-z0-9 */^().-]{0,60}")
+
+
+class QuantityError(ValueError):
+    """A text that is no quantity; the message completes "the value ..." to whole sentences."""
+
+
+@functools.lru_cache(maxsize=1)
+def _registry() -> pint.UnitRegistry:
+    registry = pint.UnitRegistry(None)
+    for name, definition in _UNITS.items():
+        registry.define(f"{name} = {definition}")
+    return registry
+
+
+def quantity(text: str) -> tuple[float, str]:
+    """The number in N, mm, s, rad that ``text`` stands for, and what kind of quantity it is ("a length").
+
+    The number may be infinite or NaN; raises QuantityError where there is no number or the unit is unknown.
+    """
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise QuantityError(_why_no_number(text))
+    factor, kind = _unit(match[2])
+    return float(match[1]) * factor, kind
+
+
+def unit_of(text: str) -> str:
+    """The unit as written in ``text``: "mm" for "4.5 mm"."""
+    match = _QUANTITY.fullmatch(text)
+    return match[2] if match else ""
+
+
+@functools.lru_cache(maxsize=None)
+def _unit(written: str) -> tuple[float, str]:
+    """The factor from the unit to N, mm, s, rad, and its kind."""
+    if not written:
+        return 1.0, "a number without unit"
+    tidy = written.translate(_SPELLINGS)
+    if not _UNIT_TEXT.fullmatch(tidy):
+        raise QuantityError(f'has the unit "{written}", which is not understood.')
+    # Names are checked here because pint would also take a plural ("mms").
+    unknown = [word for word in re.findall(r"[A-Za-z]+", tidy) if word not in _UNITS]
+    if unknown:
+        raise QuantityError(f'has the unknown unit "{unknown[0]}".{did_you_mean(unknown[0], _UNITS, likeness=0.5)}')
+    try:
+        registry = _registry()
+        base = registry.Quantity(1.0, registry.parse_units(tidy)).to_base_units()
+    except (ValueError, TypeError, SyntaxError, ArithmeticError, AttributeError, KeyError, TokenError):
+        raise QuantityError(f'has the unit "{written}", which is not understood.') from None
+    return float(base.magnitude), _name(base.dimensionality)
+
+
+def _name(dimensionality) -> str:
+    """What a dimensionality is called, or its powers where it has no name."""
+    powers = _powers(dimensionality)
+    if not powers:
+        return "a number without unit"
+    return _kinds_by_powers().get(powers) or "a quantity in " + " ".join(f"{name}^{power:g}" for name, power in powers)
+
+
+@functools.lru_cache(maxsize=1)
+def _kinds_by_powers() -> dict[tuple, str]:
+    return {_powers(_registry().parse_units(unit).dimensionality): kind for unit, kind in _KINDS.items()}
+
+
+def _powers(dimensionality) -> tuple[tuple[str, float], ...]:
+    return tuple(sorted((name.strip("[]"), float(power)) for name, power in dimensionality.items()))
+
+
+def _why_no_number(text: str) -> str:
+    if not text.strip():
+        return "is empty."
+    if re.match(r"\s*[+-]?\d+,\d", text):
+        return "has a comma; the decimal sign is a point."
+    return "does not begin with a number."
