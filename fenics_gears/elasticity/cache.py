@@ -1,0 +1,95 @@
+"""Results kept on disk under the hash of all that they depend on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import os
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+LOGGER = logging.getLogger(__name__)
+DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"
+FORMAT = "fenics_gears cache 1"
+
+
+def content_key(inputs: dict) -> str:
+    """Hash of inputs made of numbers, strings, lists and dicts; equal inputs have equal keys on every machine."""
+    text = json.dumps(inputs, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def user_cache() -> Cache:
+    """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory."""
+    directory = os.environ.get(DIRECTORY_VARIABLE)
+    if not directory:
+        from platformdirs import user_cache_dir
+
+        directory = user_cache_dir("fenics_gears")
+    return Cache(Path(directory))
+
+
+@dataclass(frozen=True)
+class Cache:
+    """Named arrays by key, one HDF5 file each. It never raises: what cannot be read or kept is computed again."""
+
+    directory: Path
+
+    def path(self, key: str) -> Path:
+        """File of an entry."""
+        return Path(self.directory) / f"{key}.h5"
+
+    def load(self, key: str) -> dict[str, np.ndarray] | None:
+        """Arrays kept under a key; None, with a warning if the entry is damaged, where there are none."""
+        import h5py
+
+        path = self.path(key)
+        try:
+            if not path.exists():
+                return None
+            with h5py.File(path, "r") as file:
+                arrays = {name: np.asarray(file[name]) for name in file}
+                expected = (FORMAT, key, _digest(arrays))
+                if tuple(file.attrs.get(name) for name in ("format", "key", "digest")) != expected:
+                    raise ValueError("its contents do not have the digest that was written with them")
+            return arrays
+        # h5py reports a damaged file by many types, RuntimeError and KeyError among them.
+        except Exception as error:
+            LOGGER.warning("cache entry %s is not usable and is computed again: %s", path, error)
+            return None
+
+    def store(self, key: str, arrays: dict[str, np.ndarray]) -> None:
+        """Keep arrays under a key; the file appears under its name only when it is complete."""
+        import h5py
+
+        aside = None
+        try:
+            Path(self.directory).mkdir(parents=True, exist_ok=True)
+            # A name of its own for each writer, so that two runs cannot write into one file.
+            handle, aside = tempfile.mkstemp(prefix=f"{key}.", suffix=".part", dir=self.directory)
+            os.close(handle)
+            with h5py.File(aside, "w") as file:
+                for name, values in arrays.items():
+                    file[name] = values
+                file.attrs.update({"format": FORMAT, "key": key, "digest": _digest(arrays)})
+            with open(aside, "rb") as written:
+                os.fsync(written.fileno())
+            os.replace(aside, self.path(key))
+        except (OSError, RuntimeError, ValueError) as error:
+            LOGGER.warning("cache: nothing is kept in %s: %s", self.directory, error)
+        finally:
+            if aside is not None:
+                Path(aside).unlink(missing_ok=True)
+
+
+def _digest(arrays: dict[str, np.ndarray]) -> str:
+    digest = hashlib.sha256()
+    for name in sorted(arrays):
+        values = np.ascontiguousarray(arrays[name])
+        digest.update(f"{name} {values.dtype.str} {values.shape}\n".encode())
+        digest.update(values.tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,114 @@
+"""The only module that knows DOLFINx: what the program uses of it, alike on 0.5, 0.9 and 0.11."""
+
+from __future__ import annotations
+
+import inspect
+from importlib import metadata
+
+import numpy as np
+
+
+def _load_vtk_before_old_dolfinx() -> None:
+    """Load VTK first where DOLFINx 0.5 is installed.
+
+    DOLFINx 0.5 exports std::regex symbols that make VTK 9.7 abort when it is loaded after it.
+    """
+    try:
+        version = metadata.version("fenics-dolfinx")
+    except metadata.PackageNotFoundError:
+        version = "0.5"
+    if tuple(int(part) for part in version.split(".")[:2]) >= (0, 6):
+        return
+    try:
+        import vtkmodules.vtkCommonCore  # noqa: F401
+    except ImportError:
+        pass
+
+
+_load_vtk_before_old_dolfinx()
+
+import dolfinx  # noqa: E402
+import dolfinx.fem.petsc  # noqa: E402
+import ufl  # noqa: E402
+from dolfinx import fem  # noqa: E402
+from mpi4py import MPI  # noqa: E402
+from petsc4py import PETSc  # noqa: E402
+
+# gmsh numbers the corners of a quadrilateral around it, DOLFINx row by row.
+_CORNER_ORDER = {3: [0, 1, 2], 4: [0, 1, 3, 2]}
+_CELL_NAME = {3: "triangle", 4: "quadrilateral"}
+_HAS_FUNCTIONSPACE = hasattr(fem, "functionspace")
+
+
+def create_mesh(points, cells, comm=MPI.COMM_SELF):
+    """DOLFINx mesh of straight-sided cells.
+
+    points: (n, 2), mm. cells: (m, 3) or (m, 4), corners counter-clockwise.
+    """
+    corners = cells.shape[1]
+    domain = ufl.Mesh(_coordinate_element(_CELL_NAME[corners]))
+    parameters = inspect.signature(dolfinx.mesh.create_mesh).parameters
+    element_name = "domain" if "domain" in parameters else "e"  # 0.5 : 0.7 and later
+    ordered = np.ascontiguousarray(cells[:, _CORNER_ORDER[corners]], dtype=np.int64)
+    coordinates = np.ascontiguousarray(points, dtype=np.float64)
+    return dolfinx.mesh.create_mesh(
+        comm, cells=ordered, x=coordinates, **{element_name: domain}
+    )
+
+
+def _coordinate_element(cell_name):
+    if _HAS_FUNCTIONSPACE:
+        import basix.ufl
+
+        return basix.ufl.element("Lagrange", cell_name, 1, shape=(2,))
+    return ufl.VectorElement("Lagrange", cell_name, 1)
+
+
+def vector_space(mesh, order: int):
+    """Continuous Lagrange space of plane displacements."""
+    if _HAS_FUNCTIONSPACE:
+        return fem.functionspace(mesh, ("Lagrange", order, (2,)))
+    return fem.VectorFunctionSpace(mesh, ("Lagrange", order), dim=2)
+
+
+def node_coordinates(space) -> np.ndarray:
+    """Coordinates of the space's nodes, (nodes, 2); node i carries dofs 2 i and 2 i + 1."""
+    return space.tabulate_dof_coordinates()[:, :2]
+
+
+def constant(mesh, value: float):
+    """Number in a form that may change without compiling the form again."""
+    return fem.Constant(mesh, PETSc.ScalarType(value))
+
+
+def compile_form(expression):
+    """Compile a UFL form, or take it from DOLFINx's own form cache."""
+    return fem.form(expression)
+
+
+def assemble_matrix(form):
+    """Assembled PETSc matrix of a compiled bilinear form, no boundary conditions."""
+    matrix = fem.petsc.assemble_matrix(form)
+    matrix.assemble()
+    return matrix
+
+
+def assemble_vector(form) -> np.ndarray:
+    """Assembled entries of a compiled linear form, (dofs,)."""
+    vector = fem.petsc.assemble_vector(form)
+    entries = vector.array.copy()
+    vector.destroy()
+    return entries
+
+
+def assemble_scalar(form) -> float:
+    """Value of a compiled functional on this rank."""
+    return float(fem.assemble_scalar(form))
+
+
+def function(space, values=None):
+    """Function of a space, zero or with the given dof values, (dofs,)."""
+    result = fem.Function(space)
+    if values is not None:
+        result.x.array[:] = values
+    return result

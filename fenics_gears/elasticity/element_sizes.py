@@ -1,0 +1,94 @@
+"""How large the elements are, and where: fine at the flank, growing away from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+
+@dataclass(frozen=True)
+class ElementSizes:
+    """Element sizes of a sector, mm.
+
+    flank: along the working flank, kept down to ``depth`` times itself below it. fillet: along root
+    and fillets. coast: along the coast flank and the tip. body: largest size anywhere.
+    growth: increase of size per distance.
+    """
+
+    flank: float
+    fillet: float
+    coast: float
+    body: float
+    depth: float = 2.5
+    growth: float = 0.35
+
+
+@dataclass(frozen=True)
+class SizeSource:
+    """A set of points (n, 2) around which elements have a size; it grows from ``plateau`` outwards. mm."""
+
+    points: np.ndarray
+    size: float
+    plateau: float
+    growth: float
+
+
+@dataclass(frozen=True)
+class SizeField:
+    """The smallest size that any source asks for, at most ``largest`` (mm)."""
+
+    sources: tuple[SizeSource, ...]
+    largest: float
+
+    def at(self, points) -> np.ndarray:
+        """Element size (n,) at points (n, 2), mm."""
+        size = np.full(len(points), self.largest)
+        for source in self.sources:
+            distance = cKDTree(source.points).query(points)[0]
+            size = np.minimum(size, source.size + source.growth * np.maximum(distance - source.plateau, 0.0))
+        return size
+
+    def set_background(self, gmsh, points, tags, scale: float) -> None:
+        """Make ``scale`` times this field the mesh size of the current gmsh model.
+
+        points: (n, 2) and tags: (n,) of the model's geometric points, which hold all the sources' points.
+        """
+        lookup, fields = cKDTree(points), []
+        for source in self.sources:
+            distance, nearest = lookup.query(source.points)
+            near = gmsh.model.mesh.field.add("Distance")
+            own = np.unique(nearest[distance < 1e-9 * self.largest])
+            gmsh.model.mesh.field.setNumbers(near, "PointsList", [tags[i] for i in own])
+            rise = max(self.largest - source.size, 0.0)
+            fields.append(gmsh.model.mesh.field.add("Threshold"))
+            for option, value in {
+                "InField": near,
+                "SizeMin": scale * source.size,
+                "SizeMax": scale * (source.size + rise),
+                "DistMin": source.plateau,
+                "DistMax": source.plateau + max(rise / source.growth, 1e-6 * self.largest),
+            }.items():
+                gmsh.model.mesh.field.setNumber(fields[-1], option, value)
+        smallest = gmsh.model.mesh.field.add("Min")
+        gmsh.model.mesh.field.setNumbers(smallest, "FieldsList", fields)
+        gmsh.model.mesh.field.setAsBackgroundMesh(smallest)
+
+
+def divided(curve: np.ndarray, size: np.ndarray, fewest: int) -> np.ndarray:
+    """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand.
+
+    An even number of divisions, at least ``fewest``, both ends included.
+    """
+    steps = np.linalg.norm(np.diff(curve, axis=0), axis=1)
+    length = np.concatenate([[0.0], np.cumsum(steps)])
+    density = np.concatenate([[0.0], np.cumsum(steps * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])
+    count = max(2 * int(np.ceil(0.5 * density[-1] - 1e-9)), fewest)
+    return np.interp(np.linspace(0.0, density[-1], count + 1), density, length) / length[-1]
+
+
+def along(curve: np.ndarray, fractions: np.ndarray) -> np.ndarray:
+    """Points (k, 2) of a finely sampled curve (m, 2) at fractions (k,) of its arc length."""
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+    return np.stack([np.interp(fractions * length[-1], length, curve[:, i]) for i in range(2)], axis=-1)

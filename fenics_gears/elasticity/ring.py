@@ -1,0 +1,133 @@
+"""A gear as a ring of equal tooth sectors, joined exactly.
+
+Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
+``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
+exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.errors import ComputationError
+
+
+def condensed_sector(mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None) -> CondensedBody:
+    """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub"."""
+    hub = mesh.edge_nodes("hub", element.order)
+    points = {
+        "flank": by_radius(mesh.edge_nodes("flank", element.order)),
+        "lower": by_radius(without(mesh.edge_nodes("lower cut", element.order), hub)),
+        "upper": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
+        "hub": hub,
+    }
+    return condense(mesh, element, poissons_ratio, points, comm)
+
+
+def check_congruent(sector: CondensedBody, teeth: int) -> None:
+    """Raise ComputationError unless the upper cut is the lower cut turned by one pitch, node for node."""
+    lower, upper = sector.points["lower"], sector.points["upper"]
+    scale = np.abs(lower).max()
+    if lower.shape != upper.shape or np.abs(lower @ rotation(2.0 * np.pi / teeth).T - upper).max() > 1e-9 * scale:
+        raise ComputationError("ring of sectors: the two radial cuts of the sector do not match node for node")
+
+
+def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarray:
+    """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
+
+    With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]`` with
+    ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its inverse's flank block is
+    ``S_FF^-1 + X_k (D_k - B_k^H S_FF^-1 B_k)^-1 X_k^H`` with ``X_k = S_FF^-1 B_k`` (block inversion): one dense inverse of the flank,
+    and for each harmonic a system of the size of one cut.
+    """
+    check_congruent(sector, teeth)
+    held, lower, upper = _joined_blocks(sector, teeth)
+    flank_compliance = np.linalg.inv(sector.between("flank", "flank"))
+    couplings = np.hstack([lower, upper])
+    responses = flank_compliance @ couplings
+    joints = _joint_compliance(held, couplings.T @ responses, teeth, offsets)
+    blocks = np.stack([responses @ joint @ responses.T for joint in joints])
+    blocks[0] += flank_compliance
+    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
+    return blocks
+
+
+def _joined_blocks(sector: CondensedBody, teeth: int):
+    """Cut stiffness by the power of e^{ik} it goes with (0 and 1), and the flank's couplings to either cut."""
+    turn = _turned_nodes(teeth, len(sector.points["upper"]))
+    same = sector.between("lower", "lower") + turn.T @ sector.between("upper", "upper") @ turn
+    ahead = sector.between("lower", "upper") @ turn
+    return (same, ahead), sector.between("flank", "lower"), sector.between("flank", "upper") @ turn
+
+
+def _joint_compliance(held, products, teeth: int, offsets: int) -> np.ndarray:
+    """Response (offsets + 1, 2c, 2c) of the two cuts of the tooth m ahead to forces on those of tooth 0; c cut dofs.
+
+    ``products`` is ``[B_L, B_U]^T S_FF^-1 [B_L, B_U]``. Harmonics k and teeth - k are complex conjugates.
+    """
+    same, ahead = held
+    size = len(same)
+    joints = np.zeros((offsets + 1, 2 * size, 2 * size))
+    for harmonic in range(teeth // 2 + 1):
+        phase = np.exp(2j * np.pi * harmonic / teeth)
+        # X_k = [X_L, X_U] spread
+        spread = np.vstack([np.eye(size), phase * np.eye(size)])
+        system = same + ahead * phase + ahead.T * np.conj(phase) - spread.conj().T @ products @ spread
+        response = spread @ np.linalg.solve(system, spread.conj().T)
+        own_conjugate = harmonic == 0 or 2 * harmonic == teeth
+        weight = (1.0 if own_conjugate else 2.0) / teeth
+        for offset in range(offsets + 1):
+            joints[offset] += weight * (phase**offset * response).real
+    return joints
+
+
+def ring_stiffness(sector: CondensedBody, teeth: int, loaded: tuple[int, ...]) -> np.ndarray:
+    """Stiffness (2n len(loaded) + 3, ...) over the flanks of the loaded teeth and the centre (dx, dy, phi), E = 1 MPa.
+
+    Assembled without the Fourier transform from all sectors. Flank dofs are in each tooth's own frame, the centre's in that
+    of tooth 0. The dense route: for tests and small meshes.
+    """
+    check_congruent(sector, teeth)
+    flank, cut = len(sector.dofs("flank")), len(sector.dofs("lower"))
+    size = teeth * (flank + cut) + 3
+    turn = _turned_nodes(teeth, cut // 2)
+    total = np.zeros((size, size))
+    for tooth in range(teeth):
+        map_to_ring = np.zeros((len(sector.stiffness), size))
+        first = teeth * flank
+        ahead = first + (tooth + 1) % teeth * cut
+        map_to_ring[sector.dofs("flank"), tooth * flank + np.arange(flank)] = 1.0
+        map_to_ring[sector.dofs("lower"), first + tooth * cut + np.arange(cut)] = 1.0
+        map_to_ring[np.ix_(sector.dofs("upper"), ahead + np.arange(cut))] = turn
+        map_to_ring[np.ix_(sector.dofs("hub"), np.arange(size - 3, size))] = centre_motion(
+            sector.points["hub"], 2.0 * np.pi * tooth / teeth
+        )
+        total += map_to_ring.T @ sector.stiffness @ map_to_ring
+    kept = np.concatenate([tooth * flank + np.arange(flank) for tooth in loaded] + [np.arange(size - 3, size)])
+    free = np.setdiff1d(np.arange(size), kept)
+    eliminated = np.linalg.solve(total[np.ix_(free, free)], total[np.ix_(free, kept)])
+    stiffness = total[np.ix_(kept, kept)] - total[np.ix_(kept, free)] @ eliminated
+    return 0.5 * (stiffness + stiffness.T)
+
+
+def centre_motion(points: np.ndarray, frame_angle: float = 0.0) -> np.ndarray:
+    """Displacement (2n, 3) of points (n, 2) per unit rigid motion (dx, dy, phi) of the gear.
+
+    The points are given in a tooth frame that stands ``frame_angle`` (rad) counter-clockwise of the one (dx, dy) is given in.
+    """
+    motion = np.empty((len(points), 2, 3))
+    motion[:, :, :2] = rotation(-frame_angle)
+    motion[:, 0, 2], motion[:, 1, 2] = -points[:, 1], points[:, 0]
+    return motion.reshape(-1, 3)
+
+
+def rotation(angle: float) -> np.ndarray:
+    """Counter-clockwise rotation (2, 2) by an angle (rad)."""
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+
+
+def _turned_nodes(teeth: int, nodes: int) -> np.ndarray:
+    return np.kron(np.eye(nodes), rotation(2.0 * np.pi / teeth))

@@ -1,0 +1,133 @@
+"""The boundary nodes of one tooth sector, from bore to outline between two tooth-space centres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.elasticity.element_sizes import ElementSizes, SizeField, SizeSource, along, divided
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import arc_length, canonical_point, roll_angle_at_arc_length
+from fenics_gears.geometry.outline import ToothOutline, tooth_outline
+
+FILLET_SAMPLES = 201
+CURVE_SAMPLES = 400
+
+
+@dataclass(frozen=True)
+class SectorBoundary:
+    """Closed boundary of a sector.
+
+    points: (n, 2), mm, clockwise from the bore's counter-clockwise corner, none repeated; every named part
+    starts and ends at an even index. parts: the first and last index of each part (the last may be n).
+    """
+
+    points: np.ndarray
+    parts: dict[str, tuple[int, int]]
+
+    def part(self, name: str) -> np.ndarray:
+        """Indices of the points of a part, in order."""
+        first, last = self.parts[name]
+        return np.arange(first, last + 1) % len(self.points)
+
+
+def flank_roll_angles(gear: Gear, size: float) -> np.ndarray:
+    """Roll angles (rad) of the flank's element vertices, even in arc length, an even number of elements."""
+    ends = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
+    elements = max(2 * int(np.ceil((ends[1] - ends[0]) / (2.0 * size) - 1e-9)), 4)
+    return roll_angle_at_arc_length(gear.base_radius, np.linspace(*ends, elements + 1))
+
+
+def sector_boundary(gear: Gear, sizes: ElementSizes) -> tuple[SectorBoundary, SizeField]:
+    """Nodes along the boundary of a sector and the size field that its inside is to follow."""
+    outline = tooth_outline(gear, FILLET_SAMPLES)
+    flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank))
+    root = _root_curve(outline)
+    tip = _arc(gear.tip_radius, flank[-1], outline.coast(flank[-1]))
+    coast = outline.coast(flank[::-1])
+    hub_angles = outline.centreline_angle + 0.5 * gear.angular_pitch * np.array([-1.0, 1.0])
+    hub = gear.bore_radius * _directions(np.linspace(*hub_angles, CURVE_SAMPLES))
+    field = _size_field(gear, sizes, outline, flank, root, coast, hub)
+
+    def nodes(curve, fewest=2):
+        return along(curve, divided(curve, field.at(curve), fewest))
+
+    radii = _cut_radii(gear, field, hub_angles)
+    pieces = {
+        "upper cut": radii[:, None] * _directions(hub_angles[1:]),
+        "root": _on_circle(gear.root_radius, nodes(root, 12), root),
+        "flank": flank,
+        "tip": _on_circle(gear.tip_radius, nodes(tip), tip),
+        "coast": nodes(coast, 4),
+        "coast root": outline.coast(_on_circle(gear.root_radius, nodes(root, 12), root))[::-1],
+        "lower cut": radii[::-1, None] * _directions(hub_angles[:1]),
+        "hub": _on_circle(gear.bore_radius, nodes(hub), hub),
+    }
+    return _joined(pieces), field
+
+
+def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
+    growth, sector_angle = sizes.growth, gear.angular_pitch
+    body = min(sizes.body, 0.5 * (gear.root_radius - gear.bore_radius))
+    hub_size = min(body, 0.7 * gear.bore_radius * sector_angle)
+    fillet_size = min(sizes.fillet, body)
+    roots = np.vstack([root, outline.coast(root)])
+    return SizeField(
+        sources=(
+            SizeSource(flank, min(sizes.flank, body), sizes.depth * sizes.flank, growth),
+            SizeSource(roots, fillet_size, fillet_size, growth),
+            SizeSource(coast, min(sizes.coast, body), sizes.coast, growth),
+            # In a slender wedge elements may not outgrow the sector's own width.
+            SizeSource(hub, hub_size, 0.0, min(growth, 0.7 * sector_angle)),
+        ),
+        largest=body,
+    )
+
+
+def _cut_radii(gear: Gear, field: SizeField, hub_angles) -> np.ndarray:
+    """Radii of the nodes of either cut, following the finer of the sizes wanted along the two."""
+    radii = np.linspace(gear.bore_radius, gear.root_radius, CURVE_SAMPLES)
+    sides = [radii[:, None] * _directions(hub_angles[i:i + 1]) for i in (0, 1)]
+    size = np.minimum(*(field.at(side) for side in sides))
+    return gear.bore_radius + (gear.root_radius - gear.bore_radius) * divided(sides[1], size, 4)
+
+
+def _root_curve(outline: ToothOutline) -> np.ndarray:
+    """Root circle from the tooth space's centre, then the drive side's fillet, finely sampled."""
+    gear = outline.gear
+    corner = gear.root_radius * _directions(np.array([outline.space_angle]))[0]
+    if np.linalg.norm(outline.fillet[0] - corner) < 1e-9 * gear.root_radius:
+        return outline.fillet
+    return np.vstack([_arc(gear.root_radius, corner, outline.fillet[0])[:-1], outline.fillet])
+
+
+def _arc(radius: float, start, end) -> np.ndarray:
+    """Finely sampled arc about the gear's centre between two points on it."""
+    turn = np.angle(complex(*end) / complex(*start))
+    angles = np.angle(complex(*start)) + np.linspace(0.0, turn, CURVE_SAMPLES)
+    arc = radius * _directions(angles)
+    arc[0], arc[-1] = start, end
+    return arc
+
+
+def _on_circle(radius: float, points, curve) -> np.ndarray:
+    """Points interpolated between samples of an arc moved back onto it; others and the ends stay."""
+    distance = np.linalg.norm(points, axis=1)
+    sagitta = (np.linalg.norm(np.diff(curve, axis=0), axis=1).max() ** 2) / radius
+    on_arc = np.abs(distance - radius) < sagitta
+    on_arc[[0, -1]] = False
+    return np.where(on_arc[:, None], points * (radius / distance)[:, None], points)
+
+
+def _directions(angles) -> np.ndarray:
+    return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+
+
+def _joined(pieces: dict[str, np.ndarray]) -> SectorBoundary:
+    parts, points, first = {}, [], 0
+    for name, piece in pieces.items():
+        points.append(piece[:-1])
+        parts[name] = (first, first + len(piece) - 1)
+        first += len(piece) - 1
+    return SectorBoundary(points=np.vstack(points), parts=parts)

@@ -1,0 +1,121 @@
+"""Meshes of one tooth sector and of the whole gear made of its copies."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from fenics_gears.elasticity.element_sizes import ElementSizes, SizeField
+from fenics_gears.elasticity.gmsh_session import gmsh_model
+from fenics_gears.elasticity.mesh_data import BodyMesh, oriented, split_to_quadrilaterals
+from fenics_gears.elasticity.sector_boundary import SectorBoundary, sector_boundary
+from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear import Gear
+
+CONDENSED_PARTS = ("flank", "hub", "lower cut", "upper cut")
+TRIANGLE, QUADRILATERAL = 2, 3  # gmsh's numbers of cell types
+
+
+def sector_mesh(gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False) -> BodyMesh:
+    """Mesh of one tooth sector, its two cuts congruent node for node.
+
+    Flank vertices stand on the exact involute, even in arc length. Quadrilaterals come from a mesh of twice the size
+    whose every cell is split, so that no triangle is left over in any version of gmsh.
+    Raises ComputationError when gmsh fails or a cell is folded.
+    """
+    boundary, field = sector_boundary(gear, sizes)
+    if not quadrilaterals:
+        points, cells = filled(boundary.points, field, 1.0, recombine=False)
+        return BodyMesh(points, oriented(points, cells[0]), _edges(boundary, np.arange(len(boundary.points))))
+    coarse = boundary.points[::2]
+    points, cells = filled(coarse, field, 2.0, recombine=True)
+    exact = _odd_points(boundary)
+    points, split, middle = split_to_quadrilaterals(points, cells, exact)
+    index = np.empty(len(boundary.points), dtype=int)
+    index[::2] = np.arange(len(coarse))
+    index[1::2] = [middle[side] for side in exact]
+    return BodyMesh(points, oriented(points, split), _edges(boundary, index))
+
+
+def filled(
+    boundary: np.ndarray, field: SizeField, scale: float, recombine: bool
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Mesh the inside of a closed polygon (n, 2) whose edges stay undivided.
+
+    Returns points, the boundary's first and in its order, and the cells: triangles, then with ``recombine`` quadrilaterals.
+    """
+    with gmsh_model("gear sector") as gmsh:
+        try:
+            tags = [gmsh.model.geo.addPoint(x, y, 0.0) for x, y in boundary]
+            lines = [gmsh.model.geo.addLine(a, b) for a, b in zip(tags, tags[1:] + tags[:1])]
+            surface = gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(lines)])
+            gmsh.model.geo.synchronize()
+            for line in lines:
+                gmsh.model.mesh.setTransfiniteCurve(line, 2)
+            if recombine:
+                gmsh.model.mesh.setRecombine(2, surface)
+            field.set_background(gmsh, boundary, tags, scale)
+            gmsh.model.mesh.generate(2)
+            return _read(gmsh, boundary, recombine)
+        except ComputationError:
+            raise
+        except Exception as error:  # gmsh raises nothing more precise
+            raise ComputationError(
+                f"gmsh could not mesh the tooth sector ({error}); choose other element sizes"
+            ) from error
+
+
+def _read(gmsh, boundary, recombine: bool):
+    node_tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    points = np.asarray(coordinates).reshape(-1, 3)[:, :2]
+    distance, first = cKDTree(points).query(boundary)
+    if distance.max() > 1e-9 * np.abs(boundary).max() or len(np.unique(first)) != len(boundary):
+        raise ComputationError("gmsh moved or divided the boundary of the tooth sector")
+    order = np.concatenate([first, np.setdiff1d(np.arange(len(points)), first)])
+    new_index = np.empty(int(np.max(node_tags)) + 1, dtype=int)
+    new_index[np.asarray(node_tags, dtype=int)[order]] = np.arange(len(order))
+    cells = []
+    for cell_type, corners in ((TRIANGLE, 3), (QUADRILATERAL, 4))[: 2 if recombine else 1]:
+        tags = gmsh.model.mesh.getElementsByType(cell_type)[1]
+        cells.append(new_index[np.asarray(tags, dtype=int)].reshape(-1, corners))
+    used = np.unique(np.concatenate([part.ravel() for part in cells]))
+    if len(used) != len(points):
+        raise ComputationError("gmsh left points of the tooth sector without a cell")
+    ordered = points[order]
+    ordered[: len(boundary)] = boundary
+    return ordered, cells
+
+
+def _odd_points(boundary: SectorBoundary) -> dict[tuple[int, int], np.ndarray]:
+    """Position of each odd boundary point, by the coarse edge (smaller index first) that it divides."""
+    coarse = len(boundary.points) // 2
+    edges = [(i, (i + 1) % coarse) for i in range(coarse)]
+    return {(min(edge), max(edge)): boundary.points[2 * edge[0] + 1] for edge in edges}
+
+
+def _edges(boundary: SectorBoundary, index: np.ndarray) -> dict[str, np.ndarray]:
+    parts = {name: index[boundary.part(name)] for name in CONDENSED_PARTS}
+    return {name: np.stack([part[:-1], part[1:]], axis=-1) for name, part in parts.items()}
+
+
+def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
+    """Mesh of the whole gear: ``teeth`` copies of the sector, merged along their cuts.
+
+    Tooth t stands t pitches counter-clockwise of tooth 0 and its flank is "flank t".
+    """
+    pitch = 2.0 * np.pi / teeth
+    by_radius = lambda name: sorted(  # noqa: E731
+        sector.edge_points(name), key=lambda i: np.linalg.norm(sector.points[i])
+    )
+    lower, upper = by_radius("lower cut"), by_radius("upper cut")
+    own = np.setdiff1d(np.arange(len(sector.points)), upper)
+    points, index = [], np.empty((teeth, len(sector.points)), dtype=int)
+    for tooth in range(teeth):
+        cosine, sine = np.cos(tooth * pitch), np.sin(tooth * pitch)
+        points.append(sector.points[own] @ np.array([[cosine, sine], [-sine, cosine]]))
+        index[tooth, own] = tooth * len(own) + np.arange(len(own))
+    index[:, upper] = np.roll(index, -1, axis=0)[:, lower]
+    edges = {f"flank {tooth}": index[tooth][sector.edges["flank"]] for tooth in range(teeth)}
+    edges["hub"] = np.vstack([index[tooth][sector.edges["hub"]] for tooth in range(teeth)])
+    cells = np.vstack([index[tooth][sector.cells] for tooth in range(teeth)])
+    return BodyMesh(np.vstack(points), cells, edges)

@@ -1,0 +1,56 @@
+"""Plane strain stiffness of a meshed body for Young's modulus 1 MPa and unit thickness."""
+
+from __future__ import annotations
+
+import numpy as np
+import ufl
+from scipy.spatial import cKDTree
+
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.errors import ComputationError
+
+
+def stress(displacement, poissons_ratio):
+    """UFL stress sigma = lambda tr(eps) I + 2 mu eps in plane strain, Young's modulus 1."""
+    strain = ufl.sym(ufl.grad(displacement))
+    shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
+    first_lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
+    return first_lame * ufl.tr(strain) * ufl.Identity(2) + 2.0 * shear_modulus * strain
+
+
+def stiffness_form(space, element: Element, poissons_ratio: float):
+    """Compiled bilinear form of the strain energy on a displacement space."""
+    trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+    poisson = adapter.constant(space.mesh, poissons_ratio)
+    measure = ufl.dx(metadata={"quadrature_degree": element.quadrature_degree})
+    return adapter.compile_form(ufl.inner(stress(trial, poisson), ufl.sym(ufl.grad(test))) * measure)
+
+
+def displacement_space(mesh: BodyMesh, element: Element, comm=None):
+    """DOLFINx displacement space on a body; comm: communicator, COMM_SELF when None."""
+    comm = adapter.MPI.COMM_SELF if comm is None else comm
+    return adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells, comm), element.order)
+
+
+def compile_ahead(element: Element) -> None:
+    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time."""
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    cell = BodyMesh(square[: element.corners], np.arange(element.corners)[None], {})
+    stiffness_form(displacement_space(cell, element), element, 0.3)
+
+
+def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
+    """Numbers (k,) of the space's nodes at coordinates (k, 2).
+
+    Raises ComputationError where there is no node, or more than one (as on the faces of a crack).
+    """
+    nodes = adapter.node_coordinates(space)
+    distance, found = cKDTree(nodes).query(coordinates, k=2)
+    tolerance = 1e-9 * np.abs(nodes).max()
+    for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):
+        if wrong.any():
+            x, y = coordinates[np.flatnonzero(wrong)[0]]
+            raise ComputationError(f"stiffness: {what} at x = {x:.6f} mm, y = {y:.6f} mm of a loaded or held boundary")
+    return found[:, 0]
