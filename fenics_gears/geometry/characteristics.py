@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import degrees
 
-from .gear import Gear
-from .pair import GearPair
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.pair import GearPair
 
 
 def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:

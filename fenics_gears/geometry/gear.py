@@ -7,8 +7,8 @@ from math import cos, pi, sin, tan
 
 import numpy as np
 
-from ..errors import GeometryError
-from .involute import inverse_involute, involute_function
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.involute import inverse_involute, involute_function
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from math import degrees, isfinite
 
 import numpy as np
 
-from ..errors import GeometryError
-from ..scene.data import Relief, TipRelief
-from .gear import Gear
-from .pair import GearPair
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.scene.data import Relief, TipRelief
 
 
 @dataclass(frozen=True)

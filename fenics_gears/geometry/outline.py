@@ -7,9 +7,9 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from ..errors import GeometryError
-from .gear import Gear
-from .involute import canonical_point
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import canonical_point
 
 ARC_LENGTH_SAMPLES = 401
 
@@ -79,10 +79,14 @@ def fillet_speed(gear: Gear, parameter) -> np.ndarray:
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
     """Outline of one tooth.
 
-    Raises GeometryError when the gear is undercut, or when neighbouring fillets would overlap because the rack's tip
+    Raises GeometryError when the gear is undercut, has no involute above its fillet, or when neighbouring fillets would overlap because the rack's tip
     has no room for its rounding.
     """
-    gear.form_radius  # refuses an undercut gear
+    if gear.tip_radius <= gear.form_radius:
+        raise GeometryError(
+            f"no involute: the tip circle of the gear with {gear.teeth} teeth, radius {gear.tip_radius:.6g} mm, must lie "
+            f"above its fillet, which reaches up to {gear.form_radius:.6g} mm"
+        )
     if gear.rack_tip_centre[0] < 0.0:
         raise GeometryError(
             f"the fillets of neighbouring teeth overlap: the tip of the rack that cuts the gear with {gear.teeth} teeth has room for "

@@ -1,0 +1,122 @@
+"""Pairs that cannot run, named as what they are.
+
+Every message says what is wrong, on which gear, the value, the limit, and the field of the scene to change.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_checks import ROUNDING, in_degrees, refuse
+from fenics_gears.geometry.interference import fillet_clearance
+
+if TYPE_CHECKING:
+    from fenics_gears.geometry.pair import GearPair
+
+THIN_TIP = 0.2
+"""Tip thickness in modules below which design practice calls a tooth pointed."""
+
+
+def check_pair(pair: GearPair) -> None:
+    """Refuse a pair that cannot run; raises GeometryError."""
+    _check_centres(pair)
+    _check_backlash(pair)
+    _check_tip_clearance(pair)
+    _check_contact_ratio(pair)
+    _check_interference(pair)
+    _check_fillet_clearance(pair)
+
+
+def design_warnings(pair: GearPair) -> list[str]:
+    """Sentences on what can be computed but is unusual design."""
+    found = []
+    for name, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
+        if gear.tip_thickness < THIN_TIP * gear.module:
+            found.append(
+                f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
+                f"= {THIN_TIP * gear.module:.4g} mm; lower gears.{name}.tip_diameter or profile_shift"
+            )
+    return found
+
+
+def _check_centres(pair: GearPair) -> None:
+    bases = pair.pinion.base_radius + pair.wheel.base_radius
+    if not (isfinite(pair.centre_distance) and pair.centre_distance > bases):
+        refuse(
+            "pair",
+            f"centre distance {pair.centre_distance:.6g} mm, but the base circles overlap below {bases:.6g} mm: "
+            "raise gears.centre_distance, or check gears.module and the teeth",
+        )
+    if not (isfinite(pair.face_width) and pair.face_width > 0.0):
+        refuse("pair", f"gears.face_width must be a positive length, not {pair.face_width}")
+
+
+def _check_backlash(pair: GearPair) -> None:
+    if pair.backlash < -ROUNDING:
+        refuse(
+            "pair",
+            f"no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre distance "
+            f"{pair.centre_distance:.6g} mm; they fit from {pair.centre_distance_without_backlash:.6g} mm up: raise "
+            "gears.centre_distance or lower gears.pinion.profile_shift or gears.wheel.profile_shift",
+        )
+
+
+def _check_tip_clearance(pair: GearPair) -> None:
+    for name, other, clearance in (
+        ("pinion", "wheel", pair.pinion_tip_clearance),
+        ("wheel", "pinion", pair.wheel_tip_clearance),
+    ):
+        if clearance < -ROUNDING:
+            refuse(
+                name,
+                f"no tip clearance: its tip circle reaches {-clearance:.4g} mm into the {other}'s root circle: lower "
+                f"gears.{name}.tip_diameter or gears.{other}.root_diameter, or raise gears.centre_distance",
+            )
+
+
+def _check_contact_ratio(pair: GearPair) -> None:
+    if pair.contact_ratio < 1.0:
+        refuse(
+            "pair",
+            f"contact ratio {pair.contact_ratio:.4g}, must be at least 1, otherwise a tooth pair leaves before the next one "
+            f"enters: raise gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance "
+            f"({pair.centre_distance:.6g} mm)",
+        )
+
+
+def _check_interference(pair: GearPair) -> None:
+    for name, other, gear, lowest in (
+        ("pinion", "wheel", pair.pinion, pair.pinion_sap_roll_angle),
+        ("wheel", "pinion", pair.wheel, pair.wheel_sap_roll_angle),
+    ):
+        if lowest * gear.base_radius < gear.form_roll_angle * gear.base_radius - ROUNDING:
+            largest_tip = 2.0 * _largest_mating_tip_radius(pair, other, gear)
+            refuse(
+                name,
+                f"interference: the {other}'s tip reaches its fillet: contact down to roll angle {in_degrees(lowest)}, but the "
+                f"involute begins at {in_degrees(gear.form_roll_angle)}: lower gears.{other}.tip_diameter to {largest_tip:.6g} mm "
+                f"or less, or lower gears.{name}.root_diameter or gears.{name}.rack_tip_radius",
+            )
+
+
+def _check_fillet_clearance(pair: GearPair) -> None:
+    for name, other, gear, mate in (
+        ("pinion", "wheel", pair.pinion, pair.wheel),
+        ("wheel", "pinion", pair.wheel, pair.pinion),
+    ):
+        clearance = fillet_clearance(gear, mate, pair.centre_distance)
+        if clearance < -ROUNDING:
+            refuse(
+                name,
+                f"interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its fillet, off the line of action "
+                f"(clearance must not be negative): lower gears.{other}.tip_diameter, gears.{name}.root_diameter or "
+                f"gears.{name}.rack_tip_radius",
+            )
+
+
+def _largest_mating_tip_radius(pair: GearPair, other: str, gear: Gear) -> float:
+    mate = pair.wheel if other == "wheel" else pair.pinion
+    roll = (pair.line_of_action_length - gear.form_roll_angle * gear.base_radius) / mate.base_radius
+    return float(mate.radius(roll))
