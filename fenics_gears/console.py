@@ -1,0 +1,47 @@
+"""Tables for people: drawn by rich on a terminal, plain aligned lines elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+Row = tuple[str, Any, str]
+
+
+def print_rows(heading: str, rows: Sequence[Row]) -> None:
+    """Print rows of label, value and unit under a heading to the standard output."""
+    cells = [(label, _number(value), unit) for label, value, unit in rows]
+    if sys.stdout.isatty():
+        _print_rich(heading, cells)
+    else:
+        _print_plain(heading, cells)
+
+
+def _print_rich(heading: str, cells: Sequence[tuple[str, str, str]]) -> None:
+    from rich.console import Console
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
+    table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    for label, value, unit in cells:
+        table.add_row(Text(label), Text(f"{value} {unit}".rstrip()))
+    console = Console(highlight=False)
+    console.print(Text(heading, style="bold"))
+    console.print(Padding(table, (0, 0, 1, 2)))
+
+
+def _print_plain(heading: str, cells: Sequence[tuple[str, str, str]]) -> None:
+    width = max((len(label) for label, _, _ in cells), default=0)
+    print(heading)
+    for label, value, unit in cells:
+        print(f"  {label:<{width}}  {value} {unit}".rstrip())
+    print()
+
+
+def _number(value: Any) -> str:
+    """A value for people: six significant digits are more than a picture or a drawing shows."""
+    return f"{float(value):.6g}" if hasattr(value, "__float__") and not isinstance(value, (str, int)) else str(value)

@@ -1,0 +1,57 @@
+"""The directory a run writes to: every file is written aside and then renamed, so that a final name never holds half a file."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import tempfile
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+from fenics_gears.errors import ComputationError, SceneError
+
+
+def check_writable(directory: Path) -> None:
+    """Say before the computation, not after it, that a result could not be written; creates nothing.
+
+    Raises SceneError.
+    """
+    existing = next(parent for parent in (directory.absolute(), *directory.absolute().parents) if parent.exists())
+    if not existing.is_dir():
+        raise SceneError(f"{existing} is a file; the result needs a directory. Choose another one with --output DIR.")
+    if not os.access(existing, os.W_OK | os.X_OK):
+        raise SceneError(f"{existing} cannot be written to. Choose another directory with --output DIR.")
+
+
+@contextlib.contextmanager
+def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
+    """A directory to write files into; at the end they move to ``directory``, and their final names are added to ``written``.
+
+    Files that exist under these names are replaced. What was written before an exception is not moved.
+    Raises ComputationError where the disk is full or the directory cannot be written.
+    """
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        # Beside the final names, because a rename is atomic only within a file system.
+        with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=directory) as aside:
+            yield Path(aside)
+            for file in sorted(Path(aside).iterdir()):
+                os.replace(file, directory / file.name)
+                written.append(directory / file.name)
+    except OSError as error:
+        raise ComputationError(f"{directory}: the result could not be written: {error.strerror or error}") from error
+
+
+@contextlib.contextmanager
+def undisturbed() -> Iterator[None]:
+    """Let no further Ctrl-C come between a result and its file."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
