@@ -45,7 +45,7 @@ EFFECTS: tuple[Effect, ...] = (
         terms=("torsional springs",),
         variables=(
             ResultVariable("shaft_end_rotation", "rad", "rotation of the output shaft's end"),
-            ResultVariable("reaction_couple", "N mm", "couple at the input shaft"),
+            ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
         ),
     ),
     Effect(
@@ -57,8 +57,7 @@ EFFECTS: tuple[Effect, ...] = (
         variables=(
             ResultVariable("centre_x", "mm", "displacement of the centre along the line of action"),
             ResultVariable("centre_y", "mm", "displacement of the centre off the line of action"),
-            ResultVariable("reaction_x", "N", "bearing reaction along the line of action"),
-            ResultVariable("reaction_y", "N", "bearing reaction off the line of action"),
+            ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
         ),
     ),
     Effect(
@@ -67,9 +66,7 @@ EFFECTS: tuple[Effect, ...] = (
         absent="quasi-static",
         terms=("inertia forces, average acceleration in time",),
         variables=(
-            ResultVariable("energy", "N mm", "kinetic and elastic energy"),
             ResultVariable("energy_kinetic", "N mm", "kinetic energy"),
-            ResultVariable("energy_elastic", "N mm", "elastic energy of gears, shafts and bearings"),
         ),
     ),
     Effect(
@@ -99,6 +96,24 @@ EFFECTS: tuple[Effect, ...] = (
     ),
 )
 
+# What every run has, whatever its effects.
+COMMON_VARIABLES: tuple[ResultVariable, ...] = (
+    ResultVariable("transmission_error", "rad", "transmission error"),
+    ResultVariable("rotation", "rad", "rotation of the hub from its nominal motion"),
+    ResultVariable("normal_force", "N", "contact force of the mesh along the line of action"),
+    ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action"),
+    ResultVariable("contact_pressure", "MPa", "contact pressure"),
+    ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion"),
+    ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank"),
+    ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action"),
+    ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action"),
+    ResultVariable("reaction_couple", "N mm", "couple of the gear on its shaft"),
+    ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
+    ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
+    ResultVariable("energy", "N mm", "elastic and kinetic energy"),
+    ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
+)
+
 # Announced sections of the scene format that this version refuses, with what each would be.
 NOT_YET_AVAILABLE: dict[str, str] = {"coast_flanks": "contact on the unloaded (coast) flanks"}
 
@@ -111,6 +126,11 @@ def effect(section: str) -> Effect:
 def effects_on(scene) -> tuple[Effect, ...]:
     """The effects that a scene (``scene.data.Scene``) switches on, in the order of the list."""
     return tuple(each for each in EFFECTS if getattr(scene, each.section) is not None)
+
+
+def result_variables(scene) -> tuple[ResultVariable, ...]:
+    """Every variable that the result of a scene has."""
+    return COMMON_VARIABLES + tuple(variable for each in effects_on(scene) for variable in each.variables)
 
 
 def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:

@@ -13,6 +13,7 @@ import numpy as np
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
 from fenics_gears.contact.tooth_pair import Flanks, ToothPair, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
+from fenics_gears.geometry.pair import GearPair
 
 
 @dataclass(frozen=True)
@@ -23,12 +24,11 @@ class Position:
     carried_from: np.ndarray
 
 
-def pair_positions(flanks: Flanks, grid: ContactGrid, phase: float) -> list[tuple[int, float]]:
+def pair_positions(pair: GearPair, grid: ContactGrid, phase: float) -> list[tuple[int, float]]:
     """Index and position `xi` (mm from T1) of every tooth pair whose window is not empty at `phase` (0 <= phase < 1).
 
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come.
     """
-    pair = flanks.pair
     half = 0.5 * grid.length
 
     def can_touch(index: int) -> bool:
@@ -41,9 +41,13 @@ def pair_positions(flanks: Flanks, grid: ContactGrid, phase: float) -> list[tupl
     return [(k, pair.path_start + (phase + k) * pair.base_pitch) for k in candidates if can_touch(k)]
 
 
-def tooth_span(flanks_pair_counts: list[int]) -> int:
-    """Pitches between the outermost teeth that can be loaded together."""
-    return max(flanks_pair_counts) - 1
+def tooth_span(pair: GearPair, grid: ContactGrid, steps: int) -> int:
+    """Pitches between the outermost teeth whose flanks interact, from one step to the next included."""
+    spans = []
+    for step in range(steps):
+        indices = [index for index, _ in pair_positions(pair, grid, step / steps)]
+        spans.append(indices[-1] - indices[0] if indices else 0)
+    return max(spans) + 1
 
 
 class MeshCycle:
@@ -74,7 +78,7 @@ class MeshCycle:
         if index not in self._pairs:
             built = (
                 tooth_pair(self.flanks, self.grid, k, xi)
-                for k, xi in pair_positions(self.flanks, self.grid, index / self.steps)
+                for k, xi in pair_positions(self.flanks.pair, self.grid, index / self.steps)
             )
             self._pairs[index] = tuple(pair for pair in built if pair is not None)
         return self._pairs[index]

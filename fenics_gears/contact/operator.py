@@ -22,6 +22,8 @@ CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "cent
 class ContactOperator:
     """Contact at one position: n nodes, m = n without friction, 2 n with it; k centre coordinates.
 
+    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order.
+
     `compliance` C (m, m), mm/N; `rigid` G (m, k); `gap` (n,), mm; `sliding` (n,), mm: rigid slip during the step that ends
     here; `previous_compliance` E (n, m of the step before) and `previous_rigid` (n, k): the tangential displacement that
     the material points touching now had at the end of the step before is `previous_rigid q - E p`. The last three are
@@ -29,6 +31,7 @@ class ContactOperator:
     """
 
     pairs: tuple[ToothPair, ...]
+    base_radii: tuple[float, float]
     compliance: np.ndarray
     rigid: np.ndarray
     gap: np.ndarray
@@ -42,14 +45,19 @@ class ContactOperator:
         return len(self.gap)
 
     @property
-    def node_pair(self) -> np.ndarray:
-        """Tooth pair index of each node (n,)."""
-        return np.concatenate([np.full(len(pair.offsets), pair.index) for pair in self.pairs]) if self.pairs else np.empty(0, int)
+    def arms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Arms (n,), mm, of a tangential force about the pinion's and the wheel's centre."""
+        return _joined(self.pairs, "pinion_arm"), _joined(self.pairs, "wheel_arm")
 
     @property
-    def node_offset(self) -> np.ndarray:
-        """Offset of each node (n,), mm, from the line of action."""
-        return np.concatenate([pair.offsets for pair in self.pairs]) if self.pairs else np.empty(0)
+    def node_pair(self) -> np.ndarray:
+        """Tooth pair index of each node (n,)."""
+        return np.repeat([pair.index for pair in self.pairs], [len(pair.offsets) for pair in self.pairs])
+
+
+def _joined(pairs: tuple[ToothPair, ...], name: str) -> np.ndarray:
+    """An array of every pair's contact nodes, one pair after the other."""
+    return np.concatenate([getattr(pair, name) for pair in pairs]) if pairs else np.empty(0)
 
 
 def rigid_rows(pairs: tuple[ToothPair, ...], base_radii: tuple[float, float], tangential: bool) -> np.ndarray:
@@ -63,8 +71,8 @@ def rigid_rows(pairs: tuple[ToothPair, ...], base_radii: tuple[float, float], ta
     rows[:nodes, 0], rows[:nodes, 2] = 1.0, 1.0
     rows[:nodes, 3], rows[:nodes, 5] = -1.0, 1.0
     if tangential and nodes:
-        rows[nodes:, 1], rows[nodes:, 2] = 1.0, np.concatenate([pair.pinion_arm for pair in pairs]) / base_radii[0]
-        rows[nodes:, 4], rows[nodes:, 5] = -1.0, np.concatenate([pair.wheel_arm for pair in pairs]) / base_radii[1]
+        rows[nodes:, 1], rows[nodes:, 2] = 1.0, _joined(pairs, "pinion_arm") / base_radii[0]
+        rows[nodes:, 4], rows[nodes:, 5] = -1.0, _joined(pairs, "wheel_arm") / base_radii[1]
     return rows
 
 
@@ -159,19 +167,19 @@ def contact_operator(
     radii = (flanks.pair.pinion.base_radius, flanks.pair.wheel.base_radius)
     own = own_directions(tangential)
     compliance = pairing.product(pairs, pairs, own, own, symmetric=True)
-    gap = np.concatenate([pair.gap for pair in pairs]) if pairs else np.empty(0)
     sliding = previous_compliance = previous_rigid = None
     if tangential:
-        # The wheel's roll angle at contact falls as the pinion's rises.
+        # v_rigid = omega1 (x - (z1/z2) (L - x)), zero at the pitch point; the wheel's roll angle falls as the pinion's rises.
         turned = (advance, -advance * radii[0] / radii[1])
-        sliding = np.concatenate([pair.sliding_distance(advance, flanks.pair) for pair in pairs]) if pairs else np.empty(0)
+        sliding = advance * (_joined(pairs, "pinion_arm") - flanks.pair.rotation_ratio * _joined(pairs, "wheel_arm"))
         previous_compliance = pairing.product(pairs, previous, earlier_tangent(turned), own)
         previous_rigid = np.ascontiguousarray(_earlier_rigid_tangent(pairs, radii, turned)[:, coordinates])
     return ContactOperator(
         pairs=pairs,
+        base_radii=radii,
         compliance=compliance,
         rigid=np.ascontiguousarray(rigid_rows(pairs, radii, tangential)[:, coordinates]),
-        gap=gap,
+        gap=_joined(pairs, "gap"),
         sliding=sliding,
         previous_compliance=previous_compliance,
         previous_rigid=previous_rigid,
@@ -181,11 +189,7 @@ def contact_operator(
 def _earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
     rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
-    if not pairs:
-        return rows
-    offsets = np.concatenate([pair.offsets for pair in pairs])
-    arm_1 = np.concatenate([pair.pinion_arm for pair in pairs])
-    arm_2 = np.concatenate([pair.wheel_arm for pair in pairs])
+    offsets, arm_1, arm_2 = (_joined(pairs, name) for name in ("offsets", "pinion_arm", "wheel_arm"))
     height_1, height_2 = radii[0] - offsets, radii[1] + offsets
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
     rows[:, 1], rows[:, 2] = 1.0, (arm_1 * np.cos(turned[0]) - height_1 * np.sin(turned[0])) / radii[0]

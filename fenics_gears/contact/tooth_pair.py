@@ -53,13 +53,6 @@ class ToothPair:
     contact_roll: tuple[float, float]
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
-    def sliding_distance(self, advance: float, pair: GearPair) -> np.ndarray:
-        """Rigid tangential slip (n,), mm, of pinion on wheel while the pinion turns by `advance` (rad).
-
-        model.md section 3: v_rigid = omega1 (x - (z1/z2) (L - x)), zero at the pitch point.
-        """
-        return advance * (self.pinion_arm - pair.pinion.teeth / pair.wheel.teeth * self.wheel_arm)
-
 
 def tooth_pair(flanks: Flanks, grid: ContactGrid, index: int, xi: float) -> ToothPair | None:
     """The tooth pair whose theoretical contact lies at `xi` (mm from T1), or None where its window is empty."""

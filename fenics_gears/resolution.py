@@ -1,0 +1,113 @@
+"""How finely a scene is computed: the scene's own `[accuracy]` values, and for the rest defaults derived from the scene.
+
+Flank elements and contact nodes come from the Hertz half-width at the whole load on one tooth pair and the smallest
+relative radius on the path of contact; the contact window from the deflection that lets teeth touch off the line of
+action; the time step from the mesh cycle and the drivetrain's frequencies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, pi, sqrt
+
+import numpy as np
+
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.scene.data import Scene
+
+ELEMENTS_PER_HALF_WIDTH = 4.0
+# Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
+FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
+# ISO 6336-1 puts the stiffness of a steel tooth pair near 14 N/(mm um); half of it bounds the deflection from above.
+LEAST_PAIR_STIFFNESS = 7e3 / 206e3
+HALF_WIDTHS_BESIDE = 2.0
+STEPS_PER_MESH_CYCLE = 100
+STEPS_PER_PERIOD = 20
+MOST_STEPS_PER_MESH_CYCLE = 1000
+PAIR_STIFFNESS = 14e3 / 206e3
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle.
+
+    `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load.
+    """
+
+    element: str
+    flank_element_size: float
+    contact_grid: ContactGrid
+    steps_per_mesh_cycle: int
+    half_width: float
+
+
+def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:
+    """Half-width (mm) of a Hertz line contact: sqrt(4 F' R / (pi E*)); Johnson, Contact Mechanics, 1985, eq. 4.43.
+
+    `line_load` N/mm; `relative_radius` mm; `plane_modulus` MPa: E* with 1/E* = 2 (1 - nu^2)/E for equal materials.
+    """
+    return sqrt(4.0 * line_load * relative_radius / (pi * plane_modulus))
+
+
+def relative_radius(pair: GearPair, xi: float) -> float:
+    """Relative radius of curvature (mm) of the flanks that touch at `xi` (mm from T1)."""
+    return xi * (pair.line_of_action_length - xi) / pair.line_of_action_length
+
+
+def plane_contact_modulus(scene: Scene) -> float:
+    """E* (MPa) of two gears of the scene's material."""
+    material = scene.gears.material
+    return 0.5 * material.youngs_modulus / (1.0 - material.poissons_ratio**2)
+
+
+def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
+    """Decide every accuracy setting: the scene's where it has one, else the default."""
+    asked, module = scene.accuracy, scene.gears.module
+    line_load = scene.load.wheel_torque / pair.wheel.base_radius / pair.face_width
+    smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
+    half_width = hertz_half_width(line_load, smallest, plane_contact_modulus(scene))
+    size = asked.flank_element_size or float(
+        np.clip(half_width / ELEMENTS_PER_HALF_WIDTH, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
+    )
+    length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
+    nodes = asked.contact_nodes or max(ceil(length / size), 2) + 1
+    return Resolution(
+        element=asked.element or "P2",
+        flank_element_size=size,
+        contact_grid=ContactGrid(length, nodes),
+        steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
+        half_width=half_width,
+    )
+
+
+def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: float, size: float) -> float:
+    """Window (mm) outside which nothing touches: there the flanks' own curvature opens more than the teeth deflect."""
+    deflection = line_load / (LEAST_PAIR_STIFFNESS * scene.gears.material.youngs_modulus)
+    middle = 0.5 * pair.line_of_action_length
+    widest = max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end)))
+    return 2.0 * (sqrt(2.0 * widest * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
+
+
+def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
+    """Steps that resolve the mesh cycle and, with inertia, the drivetrain's highest frequency."""
+    if drivetrain.mass is None:
+        return STEPS_PER_MESH_CYCLE
+    highest = natural_frequencies(drivetrain, mesh_stiffness(scene))[-1]
+    wanted = ceil(STEPS_PER_PERIOD * highest / scene.motion.mesh_frequency)
+    return int(np.clip(wanted, STEPS_PER_MESH_CYCLE, MOST_STEPS_PER_MESH_CYCLE))
+
+
+def mesh_stiffness(scene: Scene) -> float:
+    """Rough stiffness (N/mm) of one tooth pair along the line of action; ISO 6336-1, about 14 N/(mm um) for steel."""
+    return PAIR_STIFFNESS * scene.gears.material.youngs_modulus * scene.gears.face_width
+
+
+def natural_frequencies(drivetrain: Drivetrain, stiffness: float) -> np.ndarray:
+    """Natural frequencies (Hz, ascending) of the drivetrain with the mesh as a spring (N/mm) along the line of action."""
+    direction = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
+    normal = np.array([direction.get(name, 0.0) for name in drivetrain.coordinates])
+    scale = 1.0 / np.sqrt(np.diag(drivetrain.mass))
+    total = drivetrain.stiffness + stiffness * np.outer(normal, normal)
+    return np.sqrt(np.maximum(np.linalg.eigvalsh(total * np.outer(scale, scale)), 0.0)) / (2.0 * pi)

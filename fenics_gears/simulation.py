@@ -1,0 +1,130 @@
+"""A scene from its data to its result: the stages of a run, in order."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import xarray as xr
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_span
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
+from fenics_gears.dynamics.march import March, Marcher
+from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.geometry.modification import tip_reliefs
+from fenics_gears.geometry.pair import GearPair, gear_pair
+from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.resolution import Resolution, resolve
+from fenics_gears.results import dataset
+from fenics_gears.scene.data import Scene
+from fenics_gears.warm_up import compile_kernels
+
+
+@dataclass(frozen=True)
+class Model:
+    """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either flank."""
+
+    scene: Scene
+    pair: GearPair
+    drivetrain: Drivetrain
+    resolution: Resolution
+    removal: tuple
+
+    @property
+    def time_step(self) -> float:
+        """Length of a step, s."""
+        return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
+
+    @property
+    def steps(self) -> int:
+        """Steps of the whole run."""
+        return self.scene.motion.mesh_cycles * self.resolution.steps_per_mesh_cycle
+
+    @property
+    def first_stored(self) -> int:
+        """The step from which on steps are kept."""
+        return self.steps - self.scene.motion.recorded_cycles * self.resolution.steps_per_mesh_cycle
+
+
+def model(scene: Scene) -> Model:
+    """Everything about a scene that needs no computing to speak of. Raises GeometryError for impossible gears."""
+    pair = gear_pair(scene.gears)
+    shafts = drivetrain(scene, pair)
+    removal = (None, None) if scene.tip_relief is None else tip_reliefs(pair, scene.tip_relief)
+    return Model(scene, pair, shafts, resolve(scene, pair, shafts), removal)
+
+
+def simulate(scene: Scene, *, progress: Progress | None = None, cache: Cache | None = None) -> xr.Dataset:
+    """Run a scene and return its result (design.md, Result).
+
+    Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
+    computation; ComputationError when a stage fails, with what was done before as its attribute `partial`.
+    """
+    progress = progress if progress is not None else SilentProgress()
+    built = model(scene)
+    compliances = gear_compliances(built, progress, cache if cache is not None else user_cache())
+    progress.stage("compile")
+    compiled = compile_kernels(tangential=scene.friction is not None)
+    cycle = mesh_cycle(built, compliances)
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, scene.friction.coefficient if scene.friction else 0.0)
+    progress.stage("march")
+    try:
+        march = marcher.run(built.steps, built.first_stored, progress.update)
+    except ContactNotConverged as failure:
+        failure.partial = _result(built, cycle, failure.partial, compliances, compiled, complete=False)
+        raise
+    return _result(built, cycle, march, compliances, compiled, complete=not march.interrupted)
+
+
+def gear_compliances(
+    built: Model, progress: Progress, cache: Cache | None
+) -> tuple[FlankCompliance, FlankCompliance]:
+    """Flank compliance of pinion and wheel, reaching as many teeth as can be loaded together."""
+    resolution, material = built.resolution, built.scene.gears.material
+    span = tooth_span(built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle)
+    compliances = []
+    for name, gear in (("pinion", built.pair.pinion), ("wheel", built.pair.wheel)):
+        progress.stage(f"condense {name}")
+        compliances.append(
+            flank_compliance(
+                gear,
+                material,
+                element=resolution.element,
+                flank_element_size=resolution.flank_element_size,
+                tooth_offsets=span,
+                cache=cache,
+            )
+        )
+    return compliances[0], compliances[1]
+
+
+def mesh_cycle(built: Model, compliances: tuple[FlankCompliance, FlankCompliance]) -> MeshCycle:
+    """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
+    return MeshCycle(
+        Flanks(built.pair, compliances, built.removal),
+        built.resolution.contact_grid,
+        built.resolution.steps_per_mesh_cycle,
+        built.drivetrain.indices,
+        tangential=built.scene.friction is not None,
+    )
+
+
+def _result(built: Model, cycle: MeshCycle, march: March, compliances, compiled: float, complete: bool) -> xr.Dataset:
+    result = dataset(built.scene, cycle, built.drivetrain, march, built.time_step)
+    resolution = built.resolution
+    return result.assign_attrs(
+        complete=int(complete),
+        base_radius_wheel=built.pair.wheel.base_radius,
+        element=resolution.element,
+        flank_element_size=resolution.flank_element_size,
+        contact_length=resolution.contact_grid.length,
+        contact_nodes=resolution.contact_grid.nodes,
+        steps_per_mesh_cycle=resolution.steps_per_mesh_cycle,
+        time_mesh=sum(gear.timings["time_mesh"] for gear in compliances),
+        time_condense=sum(gear.timings["time_condense"] for gear in compliances),
+        time_compile=compiled + sum(gear.timings["time_compile"] for gear in compliances),
+    )
