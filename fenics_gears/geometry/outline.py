@@ -79,8 +79,8 @@ def fillet_speed(gear: Gear, parameter) -> np.ndarray:
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
     """Outline of one tooth.
 
-    Raises GeometryError when the gear is undercut, has no involute above its fillet, or when neighbouring fillets would overlap because the rack's tip
-    has no room for its rounding.
+    Raises GeometryError when the gear is undercut, has no involute above its fillet, or when neighbouring fillets would
+    overlap because the rack's tip has no room for its rounding.
     """
     if gear.tip_radius <= gear.form_radius:
         raise GeometryError(

@@ -1,0 +1,95 @@
+"""Gears and pairs that cannot be: each is named, with its number, its gear and the field to change."""
+
+from dataclasses import replace
+from math import nan
+
+import pytest
+
+from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.geometry.pair_checks import design_warnings
+
+IMPOSSIBLE = {
+    "undercut": ({"pinion.profile_shift": -0.2, "pinion.root_diameter": 58.9}, ["pinion: undercut", "58.9 mm", "gears.pinion.root_diameter"]),
+    "pointed tip": ({"wheel.tip_diameter": 127.0}, ["wheel: pointed tip", "127 mm", "gears.wheel.tip_diameter"]),
+    "no backlash": ({"centre_distance": 91.3}, ["pair: no backlash", "91.3 mm", "91.3697", "gears.centre_distance"]),
+    "contact ratio": (
+        {"pinion.tip_diameter": 78.5, "wheel.tip_diameter": 114.0},
+        ["pair: contact ratio 0.8", "at least 1", "gears.pinion.tip_diameter"],
+    ),
+    "interference on the pinion": (
+        {"wheel.tip_diameter": 120.4, "pinion.root_diameter": 61.5, "wheel.root_diameter": 98.0, "pinion.rack_tip_radius": 0.25},
+        ["pinion: interference: the wheel's tip reaches its fillet", "deg", "gears.wheel.tip_diameter to"],
+    ),
+    "interference on the wheel": (
+        {"pinion.tip_diameter": 85.0, "wheel.rack_tip_radius": 0.0},
+        ["wheel: interference: the pinion's tip reaches its fillet", "gears.pinion.tip_diameter to"],
+    ),
+    "tip in root": ({"wheel.tip_diameter": 120.8}, ["wheel: no tip clearance", "0.15 mm", "gears.pinion.root_diameter"]),
+    "tip below root": ({"pinion.tip_diameter": 60.0}, ["pinion: no teeth", "60 mm", "62.5 mm", "gears.pinion.tip_diameter"]),
+    "tip below base circle": ({"pinion.tip_diameter": 67.0}, ["pinion: no flank", "67 mm", "67.6579 mm", "gears.pinion.tip_diameter"]),
+    "tip in the fillet": ({"wheel.tip_diameter": 102.5}, ["wheel: no involute", "102.5 mm", "102.643 mm", "gears.wheel.tip_diameter"]),
+    "bore through the root": ({"wheel.bore_diameter": 98.0}, ["wheel: no rim", "98 mm", "96.57 mm", "gears.wheel.bore_diameter"]),
+    "root above the pitch line": (
+        {"pinion.root_diameter": 74.5, "pinion.tip_diameter": 90.0},
+        ["pinion: no dedendum", "74.5 mm", "72 mm", "gears.pinion.profile_shift"],
+    ),
+    "root far too deep": ({"pinion.root_diameter": 52.0}, ["pinion: dedendum too deep", "2.418 modules", "2.158", "gears.pinion.root_diameter"]),
+    "rack tip too round": (
+        {"pinion.rack_tip_radius": 0.6},
+        ["pinion: fillets of neighbouring teeth overlap", "0.6 modules", "0.471", "gears.pinion.rack_tip_radius"],
+    ),
+    "base circles overlap": ({"centre_distance": 84.0}, ["pair: centre distance 84 mm", "84.5723 mm", "gears.centre_distance"]),
+    "not a number": ({"pinion.profile_shift": nan}, ["pinion: gears.pinion.profile_shift", "finite"]),
+    "negative bore": ({"wheel.bore_diameter": -1.0}, ["wheel: gears.wheel.bore_diameter", "positive"]),
+    "two teeth": ({"pinion.teeth": 2}, ["pinion: 2 teeth", "at least 3", "gears.pinion.teeth"]),
+    "pressure angle in degrees": ({"pressure_angle": 20.0}, ["gears.pressure_angle", "between 0 and 45 deg"]),
+    "no face": ({"face_width": 0.0}, ["pair: gears.face_width", "positive"]),
+    "negative rack tip radius": ({"wheel.rack_tip_radius": -0.1}, ["wheel: gears.wheel.rack_tip_radius", "-0.1"]),
+}
+
+
+def changed(data, changes):
+    for path, value in changes.items():
+        if "." in path:
+            gear, field = path.split(".")
+            data = replace(data, **{gear: replace(getattr(data, gear), **{field: value})})
+        else:
+            data = replace(data, **{path: value})
+    return data
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_impossible_gears_are_named_as_what_they_are(paper_data, name):
+    """Authority: issue 2, point 3, and the house rule on errors: what, which gear, the value, the limit, the field."""
+    changes, said = IMPOSSIBLE[name]
+    with pytest.raises(GeometryError) as refused:
+        gear_pair(changed(paper_data, changes))
+    assert isinstance(refused.value, SceneError) and refused.value.exit_code == 2
+    for part in said:
+        assert part in str(refused.value)
+
+
+def test_the_remedies_given_are_the_limits(paper_data):
+    """Authority: what the messages promise: just beyond the named limit the pair is accepted, just short of it refused."""
+    with pytest.raises(GeometryError, match="no backlash"):
+        gear_pair(replace(paper_data, centre_distance=91.36968))
+    assert gear_pair(replace(paper_data, centre_distance=91.36970)).backlash < 1e-5
+    tip = 2.0 * gear_pair(paper_data).wheel.pointed_radius
+    assert tip > 118.64
+    with pytest.raises(GeometryError, match="pointed tip"):
+        gear_pair(changed(paper_data, {"wheel.tip_diameter": tip + 1e-4}))
+
+
+def test_touching_on_both_flanks_is_allowed(paper_data):
+    """Authority: zero backlash within 1e-9 m is zero, not an overlap: the pair at its own touching centre distance."""
+    touching = gear_pair(paper_data).centre_distance_without_backlash
+    assert abs(gear_pair(replace(paper_data, centre_distance=touching)).backlash) < 1e-9
+
+
+def test_thin_tips_are_remarked_upon_not_refused(paper_data):
+    """Authority: design practice (e.g. DIN 3960 / ISO 21771 recommend at least 0.2 modules); the paper's pair has 0.6."""
+    assert design_warnings(gear_pair(paper_data)) == []
+    thin = gear_pair(changed(paper_data, {"pinion.tip_diameter": 86.0, "wheel.root_diameter": 96.0, "wheel.rack_tip_radius": 0.45}))
+    (sentence,) = design_warnings(thin)
+    assert sentence.startswith("pinion: thin tip") and "gears.pinion.tip_diameter" in sentence

@@ -1,0 +1,132 @@
+"""The involute, its coordinates on the line of action and their inverse."""
+
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+import pytest
+
+from fenics_gears.geometry.involute import (
+    arc_length,
+    canonical_normal,
+    canonical_point,
+    flank_point,
+    inverse_involute,
+    involute_function,
+    roll_angle_at_arc_length,
+    roll_angle_at_height,
+)
+
+ROLLS = np.linspace(0.01, 1.2, 40)
+
+
+def turned(vectors, angle):
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return vectors @ np.array([[cosine, sine], [-sine, cosine]])
+
+
+@pytest.mark.parametrize(
+    ("pressure_angle", "table"), [(14.5, 0.005545), (20.0, 0.014904), (25.0, 0.029975), (26.0, 0.033947)]
+)
+def test_involute_function_is_the_table_s(pressure_angle, table):
+    """Authority: tables of the involute function in gear handbooks (inv 20 deg = 0.014904), to their six decimals."""
+    assert involute_function(np.tan(radians(pressure_angle))) == pytest.approx(table, abs=6e-7)
+    assert np.degrees(np.arctan(inverse_involute(table))) == pytest.approx(pressure_angle, abs=1e-3)
+
+
+def test_inverse_involute_undoes_the_involute_function():
+    """Authority: exact identity; the slope v^2 near the base circle is what limits the digits there."""
+    rolls = np.concatenate([[1e-3], ROLLS, [5.0]])
+    found = np.array([inverse_involute(involute_function(roll)) for roll in rolls])
+    assert np.all(np.abs(found - rolls) <= 1e-15 * (2.0 + 10.0 / rolls**2))
+    assert inverse_involute(0.0) == 0.0
+
+
+def test_every_normal_is_tangent_to_the_base_circle():
+    """Authority: definition of the involute: going back along the normal by rb v ends on the base circle, at a right angle."""
+    feet = canonical_point(40.0, ROLLS) - (40.0 * ROLLS)[:, None] * canonical_normal(ROLLS)
+    assert np.hypot(*feet.T) == pytest.approx(40.0, rel=1e-14)
+    assert np.sum(feet * canonical_normal(ROLLS), axis=1) == pytest.approx(0.0, abs=1e-13)
+
+
+def test_the_normal_is_perpendicular_to_the_curve_and_points_out_of_the_tooth(paper_pair):
+    """Authority: central differences of the curve; material lies at -x."""
+    step = 1e-5
+    chord = canonical_point(40.0, ROLLS + step) - canonical_point(40.0, ROLLS - step)
+    assert np.sum(chord * canonical_normal(ROLLS), axis=1) == pytest.approx(0.0, abs=1e-12)
+    pinion = paper_pair.pinion
+    centreline = -0.5 * np.pi - pinion.tooth_half_angle_at_base
+    flank = canonical_point(pinion.base_radius, 0.4)
+    middle = np.hypot(*flank) * np.array([np.cos(centreline), np.sin(centreline)])
+    assert (middle - flank) @ canonical_normal(0.4) < 0.0
+
+
+def test_flank_coordinates_are_the_turned_body_frame():
+    """Authority: model.md section 1 against a plain rotation of the body frame by the contact roll angle."""
+    x, h = flank_point(40.0, ROLLS, 0.6)
+    turned_points = turned(canonical_point(40.0, ROLLS), 0.6)
+    assert x == pytest.approx(turned_points[:, 0], rel=1e-14)
+    assert h == pytest.approx(-turned_points[:, 1], rel=1e-14)
+
+
+@pytest.mark.parametrize("contact_roll", [0.0, 0.02, 0.5, 1.1])
+def test_roll_angle_at_height_undoes_flank_point(contact_roll):
+    """Authority: exact identity; near the base circle h changes with v^2, which halves the digits of v itself."""
+    rolls = np.concatenate([[0.0, 1e-3], np.linspace(0.01, contact_roll + 1.4, 300)])
+    heights = flank_point(40.0, rolls, contact_roll)[1]
+    found = roll_angle_at_height(40.0, contact_roll, heights)
+    assert flank_point(40.0, found, contact_roll)[1] == pytest.approx(heights, rel=1e-14)
+    assert found**2 == pytest.approx(rolls**2, abs=2e-14)
+
+
+def test_heights_without_a_flank_point_give_nan():
+    """Authority: the range of h: from rb cos(vc) at v = 0 to rb (vc + pi/2) where the involute turns away."""
+    lowest, highest = 40.0 * np.cos(0.5), 40.0 * (0.5 + 0.5 * np.pi)
+    found = roll_angle_at_height(40.0, 0.5, [lowest - 1e-9, lowest + 1e-9, 40.0, highest - 1e-3, highest + 1e-9])
+    assert np.isnan(found).tolist() == [True, False, False, False, True]
+
+
+def test_roll_angle_at_height_broadcasts():
+    """Authority: column of contact angles against row of heights equals the entries one by one."""
+    contact, heights = np.array([[0.3], [0.6]]), np.array([39.5, 40.0, 40.7])
+    together = roll_angle_at_height(40.0, contact, heights)
+    single = [[float(roll_angle_at_height(40.0, vc, h)) for h in heights] for vc in contact[:, 0]]
+    assert together == pytest.approx(np.array(single), rel=1e-14)
+
+
+def test_arc_length_is_the_length_of_the_curve():
+    """Authority: sum of chords, whose error falls with the square of their number (Richardson: 4th order)."""
+
+    def chords(count):
+        points = canonical_point(40.0, np.linspace(0.0, 0.9, count + 1))
+        return np.hypot(*np.diff(points, axis=0).T).sum()
+
+    assert (4.0 * chords(800) - chords(400)) / 3.0 == pytest.approx(arc_length(40.0, 0.9), rel=1e-9)
+    assert roll_angle_at_arc_length(40.0, arc_length(40.0, ROLLS)) == pytest.approx(ROLLS, rel=1e-14)
+
+
+def gap(pair, position, offset):
+    """Distance along the line of action between the unloaded flanks at an offset from it."""
+    roll_1, roll_2 = pair.pinion_roll_angle(position), pair.wheel_roll_angle(position)
+    rb_1, rb_2 = pair.pinion.base_radius, pair.wheel.base_radius
+    flank_1 = roll_angle_at_height(rb_1, roll_1, rb_1 - offset)
+    flank_2 = roll_angle_at_height(rb_2, roll_2, rb_2 + offset)
+    return pair.line_of_action_length - flank_point(rb_1, flank_1, roll_1)[0] - flank_point(rb_2, flank_2, roll_2)[0]
+
+
+def test_two_flanks_touch_on_the_line_of_action_with_their_relative_curvature(paper_pair):
+    """Authority: gap = y^2/2 (1/xi + 1/(L - xi)) + O(y^3), the involute's radii of curvature; order 3 over two decades of y."""
+    for position in np.linspace(paper_pair.path_start, paper_pair.path_end, 7):
+        curvature = 1.0 / position + 1.0 / (paper_pair.line_of_action_length - position)
+        assert gap(paper_pair, position, 0.0) == pytest.approx(0.0, abs=1e-13)
+        offsets = np.array([-0.2, -0.02, -0.002, 0.002, 0.02, 0.2])
+        remainder = gap(paper_pair, position, offsets) - 0.5 * curvature * offsets**2
+        assert np.all(np.abs(remainder) < curvature**2 * np.abs(offsets) ** 3)
+
+
+def test_gap_is_symmetric_in_the_two_gears(paper_pair):
+    """Authority: gears swapped, the same gap with the offset reversed (exact identity)."""
+    swapped = replace(paper_pair, pinion=paper_pair.wheel, wheel=paper_pair.pinion)
+    offsets = np.linspace(-0.5, 0.5, 11)
+    mirrored = gap(swapped, paper_pair.line_of_action_length - 11.0, -offsets)
+    assert mirrored == pytest.approx(gap(paper_pair, 11.0, offsets), abs=1e-13)

@@ -1,0 +1,166 @@
+"""The tooth outline against the rack that cuts it."""
+
+from math import cos, pi, radians, sin, tan
+
+import numpy as np
+import pytest
+
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.involute import canonical_normal
+from fenics_gears.geometry.outline import fillet_end, fillet_point, fillet_speed, fillet_tangent, tooth_outline
+
+CUTS = {
+    "standard 20 teeth": dict(teeth=20),
+    "paper's wheel": dict(teeth=24, profile_shift=0.125, dedendum=1.195, module=4.5),
+    "few teeth, large shift": dict(teeth=8, profile_shift=0.7, addendum=0.6),
+    "many teeth, negative shift": dict(teeth=120, profile_shift=-0.6),
+    "sharp rack": dict(teeth=30, rack_tip=0.0),
+    "rounding centre above the pitch line": dict(teeth=20, profile_shift=1.0, addendum=0.5),
+    "25 deg, full radius": dict(teeth=17, pressure_angle=25.0, rack_tip=0.3178),
+}
+
+
+@pytest.fixture(params=CUTS)
+def gear(request, cut_gear):
+    return cut_gear(**CUTS[request.param])
+
+
+def distance_to_rack(gear, points, rotation):
+    """Signed distance (n_points, n_rotations), negative inside the rack's tooth, of points of the gear in its tooth's frame.
+
+    Written from the rack's definition alone: straight flanks at the pressure angle, tooth thickness pi m/2 at the datum
+    line (the profile shift above the pitch line), tip line at the root circle, corners rounded. The rounded
+    tooth is a sharp one, smaller by the rounding all round, grown by it again.
+    """
+    alpha, module, rounding = gear.pressure_angle, gear.module, gear.rack_tip_radius
+    r = 0.5 * gear.teeth * module
+    half_tooth = (0.5 * pi + 2.0 * gear.profile_shift * tan(alpha)) / gear.teeth + tan(alpha) - alpha
+    pose = rotation - pi / gear.teeth + half_tooth
+    x = np.cos(pose) * points[:, :1] - np.sin(pose) * points[:, 1:] - r * rotation
+    depth = np.sin(pose) * points[:, :1] + np.cos(pose) * points[:, 1:] + r
+    half_at_pitch = 0.25 * pi * module - gear.profile_shift * module * tan(alpha)
+    half_small = half_at_pitch - rounding / cos(alpha)
+    top = r - gear.root_radius - rounding
+    corner = half_small - top * tan(alpha)
+    beyond_flank = (np.abs(x) - half_small) * cos(alpha) + depth * sin(alpha)
+    beyond_top = depth - top
+    along_flank = (np.abs(x) - corner) * sin(alpha) - (depth - top) * cos(alpha)
+    to_corner = np.hypot(np.abs(x) - corner, depth - top)
+    outside = np.where(along_flank > 0.0, beyond_flank, np.where(np.abs(x) < corner, beyond_top, to_corner))
+    inside = np.maximum(beyond_flank, beyond_top)
+    return np.where(inside < 0.0, inside, outside) - rounding
+
+
+def least_distance(gear, points):
+    """Smallest distance (n_points,) to the rack over all its positions: grid, then the grid refined about the least."""
+    width = 2.5 * pi / gear.teeth + 0.6
+    centre = np.zeros((len(points), 1))
+    for _ in range(7):
+        rotation = centre + width * np.linspace(-1.0, 1.0, 601)
+        distance = distance_to_rack(gear, points, rotation)
+        least = np.argmin(distance, axis=1)[:, None]
+        centre = np.take_along_axis(rotation, least, axis=1)
+        width *= 0.02
+    return np.min(distance, axis=1)
+
+
+def test_the_outline_is_what_the_rack_leaves(gear):
+    """Authority: brute force: over all rack positions no point of fillet, root arc and involute is cut away, and each is touched."""
+    outline = tooth_outline(gear, fillet_points=25)
+    first = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
+    arc = np.linspace(first, outline.space_angle, 5)
+    root = gear.root_radius * np.stack([np.cos(arc), np.sin(arc)], axis=1)
+    flank = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 25))
+    points = np.concatenate([root, outline.fillet, flank])
+    assert least_distance(gear, points) == pytest.approx(0.0, abs=2e-10 * gear.module)
+
+
+def test_brute_force_sees_a_shift_of_a_micrometre(gear):
+    """Authority: the yardstick itself: points moved into the tooth stay clear by just that much, into the space are cut.
+
+    Inside a sharp corner the nearest face is nearer than the corner, hence the lower bound there.
+    """
+    parameter = np.linspace(0.1, 1.0, 5) * fillet_end(gear)
+    speed = fillet_speed(gear, parameter)[:, None]
+    into_space = fillet_tangent(gear, parameter) @ np.array([[0.0, 1.0], [-1.0, 0.0]]) / speed
+    clear = least_distance(gear, fillet_point(gear, parameter) - 1e-3 * into_space)
+    cut = least_distance(gear, fillet_point(gear, parameter) + 1e-3 * into_space)
+    assert clear == pytest.approx(1e-3, rel=1e-3)
+    assert np.all((cut > -1.001e-3) & (cut < (-0.5e-3 if gear.rack_tip_radius == 0.0 else -0.999e-3)))
+
+
+def test_fillet_ends_on_root_circle_and_involute_exactly(gear):
+    """Authority: exact identities: both end points, tangent to the root circle, tangent to the involute."""
+    outline = tooth_outline(gear)
+    start, end = outline.fillet[0], outline.fillet[-1]
+    assert np.hypot(*start) == pytest.approx(gear.root_radius, rel=1e-14)
+    assert end == pytest.approx(outline.involute(gear.form_roll_angle), abs=1e-14 * gear.tip_radius)
+    assert np.hypot(*end) == pytest.approx(gear.form_radius, rel=1e-14)
+    tangents = fillet_tangent(gear, np.array([0.0, fillet_end(gear)]))
+    tangents /= np.hypot(*tangents.T)[:, None]
+    assert tangents[0] @ start == pytest.approx(0.0, abs=1e-13 * gear.root_radius)
+    assert tangents[1] @ canonical_normal(gear.form_roll_angle) == pytest.approx(0.0, abs=1e-14)
+    assert tangents[1] @ end > 0.0
+
+
+def test_fillet_tangent_is_the_derivative(gear):
+    """Authority: central differences, error of second order in a step of 1e-5."""
+    parameter, step = np.linspace(0.05, 0.95, 9) * fillet_end(gear), 1e-5
+    difference = (fillet_point(gear, parameter + step) - fillet_point(gear, parameter - step)) / (2.0 * step)
+    assert fillet_tangent(gear, parameter) == pytest.approx(difference, abs=1e-8 * gear.module)
+
+
+def test_fillet_rises_towards_the_flank_in_even_steps(gear):
+    """Authority: what a mesh needs: radius and polar angle are monotone, neighbouring points equally far apart."""
+    fillet = tooth_outline(gear, fillet_points=60).fillet
+    steps = np.hypot(*np.diff(fillet, axis=0).T)
+    assert np.all(np.diff(np.hypot(*fillet.T)) > 0.0)
+    assert np.all(np.diff(np.arctan2(fillet[:, 1], fillet[:, 0])) < 0.0)
+    assert steps == pytest.approx(steps.mean(), rel=2e-3)
+
+
+def test_coast_side_is_the_mirror_image(gear):
+    """Authority: mirror about the centreline keeps radii, reverses angles from it, and twice is nothing; the tip is as thick as said."""
+    outline = tooth_outline(gear)
+    coast = outline.coast(outline.fillet)
+    angle = np.arctan2(outline.fillet[:, 1], outline.fillet[:, 0]) - outline.centreline_angle
+    mirrored = np.arctan2(coast[:, 1], coast[:, 0]) - outline.centreline_angle
+    assert np.hypot(*coast.T) == pytest.approx(np.hypot(*outline.fillet.T), rel=1e-14)
+    assert np.exp(1j * mirrored) == pytest.approx(np.exp(-1j * angle), abs=1e-14)
+    assert outline.coast(coast) == pytest.approx(outline.fillet, abs=1e-13 * gear.tip_radius)
+    tip = outline.involute(gear.tip_roll_angle)
+    chord = np.hypot(*(outline.coast(tip) - tip))
+    assert chord == pytest.approx(2.0 * gear.tip_radius * sin(0.5 * gear.tip_thickness / gear.tip_radius), rel=1e-12)
+
+
+def test_fillets_of_neighbouring_teeth_meet_at_full_radius(cut_gear):
+    """Authority: at the largest rack tip radius the root arc has no length; its value by the closed form of a
+    circle inscribed between tip line and flanks (0.472 modules in ISO 53); above it there is no outline."""
+    dedendum, alpha = 1.25, radians(20.0)
+    largest = (0.25 * pi - dedendum * tan(alpha)) * cos(alpha) / (1.0 - sin(alpha))
+    assert largest == pytest.approx(0.472, abs=5e-4)
+    outline = tooth_outline(cut_gear(30, rack_tip=largest * (1.0 - 1e-12)))
+    assert np.arctan2(*outline.fillet[0, ::-1]) == pytest.approx(outline.space_angle, abs=1e-10)
+    with pytest.raises(GeometryError, match="overlap"):
+        tooth_outline(cut_gear(30, rack_tip=largest + 1e-6))
+
+
+@pytest.mark.parametrize(("pressure_angle", "fewest"), [(14.5, 31.903), (20.0, 17.097), (25.0, 11.198)])
+def test_undercut_begins_at_the_textbook_s_number_of_teeth(cut_gear, pressure_angle, fewest):
+    """Authority: z_min = 2/sin^2(alpha) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 6): 32, 17 (17.1) and 12
+    (11.2) teeth, as every textbook's table has them."""
+    assert 2.0 / sin(radians(pressure_angle)) ** 2 == pytest.approx(fewest, abs=1e-3)
+    for teeth in range(10, 40):
+        gear = cut_gear(teeth, dedendum=1.0, rack_tip=0.0, pressure_angle=pressure_angle)
+        assert (gear.form_roll_angle < 0.0) == (teeth < fewest)
+        if teeth < fewest:
+            with pytest.raises(GeometryError, match="undercut"):
+                gear.form_radius
+
+
+def test_profile_shift_that_avoids_undercut_is_the_textbook_s(cut_gear):
+    """Authority: x_min = 1 - z sin^2(alpha)/2 (e.g. ISO/TR 21771, Litvin & Fuentes): the form circle is then the base circle."""
+    for teeth in (8, 10, 12, 14):
+        least = 1.0 - 0.5 * teeth * sin(radians(20.0)) ** 2
+        gear = cut_gear(teeth, profile_shift=least, dedendum=1.0, rack_tip=0.0)
+        assert gear.form_roll_angle == pytest.approx(0.0, abs=1e-14)
