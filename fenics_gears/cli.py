@@ -84,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
     files = _write(dataset, directory)
     complete = bool(dataset.attrs.get("complete", 1))
     if not options.quiet:
-        _print_summary(scene, dataset, files)
+        _print_summary(scene.title, dataset, files)
     if not complete:
         print(f"Interrupted. What was done until then is kept, marked incomplete: {files[0]}", file=sys.stderr)
     return 0 if complete else INTERRUPTED
@@ -103,8 +103,9 @@ def plot(options: argparse.Namespace) -> int:
 
     try:
         dataset = results.load(file)
-    except (OSError, ValueError) as error:
-        raise SceneError(f"{file}: is not the result of a run: {error}") from error
+    except ComputationError as error:
+        # Nothing was computed: the call is wrong.
+        raise SceneError(str(error)) from error
     for picture in _draw(dataset, directory):
         if not options.quiet:
             print(picture)
@@ -162,11 +163,11 @@ def _draw(dataset, directory: Path) -> list[Path]:
     return written
 
 
-def _print_summary(scene, dataset, files: Sequence[Path]) -> None:
+def _print_summary(title: str, dataset, files: Sequence[Path]) -> None:
     from fenics_gears.console import print_rows
     from fenics_gears.summary import summary_rows
 
-    print_rows(scene.title, summary_rows(scene, dataset))
+    print_rows(title, summary_rows(dataset))
     print_rows("Files", [("", str(file), "") for file in files])
 
 

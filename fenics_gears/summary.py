@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from fenics_gears.scene.data import Scene
-
 MICROMETRES = 1e3
 
 # The stages of a run whose wall time the result carries, and what they are called.
@@ -17,13 +15,13 @@ STAGES = {
 }
 
 
-def summary_rows(scene: Scene, dataset) -> list[tuple[str, str, str]]:
+def summary_rows(dataset) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: transmission error as angle and length at the wheel's base circle, times, Newton iterations."""
     rows = []
     for name, label in (("mean_transmission_error", "transmission error, mean"), ("peak_to_peak_transmission_error", "transmission error, peak to peak")):
         angle = dataset.attrs.get(name, math.nan)
         if math.isfinite(angle):
-            rows.append((label, f"{angle:.5g} rad = {angle * wheel_base_radius(scene) * MICROMETRES:.4g} um", ""))
+            rows.append((label, f"{angle:.5g} rad = {angle * dataset.attrs['base_radius_wheel'] * MICROMETRES:.4g} um", ""))
         else:
             rows.append((label, "not determined", ""))
     if "newton_iterations" in dataset:
@@ -31,8 +29,3 @@ def summary_rows(scene: Scene, dataset) -> list[tuple[str, str, str]]:
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
     rows += [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
     return rows
-
-
-def wheel_base_radius(scene: Scene) -> float:
-    """Base radius of the wheel, mm; the transmission error times it is the length that other programs print."""
-    return 0.5 * scene.gears.module * scene.gears.wheel.teeth * math.cos(scene.gears.pressure_angle)

@@ -13,20 +13,21 @@ from pydantic_core import PydanticCustomError
 
 from fenics_gears.scene import units
 from fenics_gears.scene.names import did_you_mean
+from fenics_gears.scene.written import as_written
 
 
 @dataclass(frozen=True)
 class Allowed:
     """What a field allows, in words, and how its text becomes a number.
 
-    ``kind`` is the kind of quantity ("a length"), None for a field without unit; ``words`` are texts that stand for
-    other values; ``below`` is added when a value lies below the range; ``planned`` are choices of the format that this version
-    does not have, with what they stand for.
+    ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one; ``words`` are
+    texts that stand for other values; ``below`` is added when a value lies below the range; ``planned`` are choices of the
+    format that this version does not have, with what they stand for.
     """
 
     description: str
-    example: str
     kind: str | None = None
+    unit: str = ""
     words: dict[str, Any] = field(default_factory=dict)
     below: str = ""
     planned: dict[str, str] = field(default_factory=dict)
@@ -51,9 +52,11 @@ class Allowed:
         return number
 
     def _without_unit(self, value: Any) -> str:
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            return "is a number without its unit."
-        return "is not a text with a number and its unit."
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            return "is not a text with a number and its unit."
+        written = f"{as_written(value)} {self.unit}"
+        in_unit = f' In {self.unit} it is written "{written}".' if written[0] in "0123456789" else ""
+        return f"is a number without its unit.{in_unit}"
 
 
 class Section(BaseModel):
@@ -74,38 +77,50 @@ def allowed_in(section: type[BaseModel], name: str) -> Allowed | None:
     return extra["allowed"] if extra else None
 
 
-def quantity(lowest: str, highest: str, example: str, *, optional: bool = False, words: dict[str, Any] | None = None, below: str = "") -> Any:
+def quantity(
+    lowest: str, highest: str, example: str, *, optional: bool = False, words: dict[str, Any] | None = None, below: str = ""
+) -> Any:
     """A quantity with a unit; bounds, both included, are written with units too."""
     kind = units.quantity(example)[1]
     words = words or {}
-    description = f'{kind} from {lowest} to {highest}, with its unit, such as "{example}"' + "".join(f', or "{word}"' for word in words)
-    allowed = Allowed(description, f'"{example}"', kind, words, below)
+    description = f'{kind} from {lowest} to {highest}, with its unit, such as "{example}"'
+    description += "".join(f', or "{word}"' for word in words)
+    allowed = Allowed(description, kind, units.unit_of(example), words, below)
     return _field(allowed, optional, ge=units.quantity(lowest)[0], le=units.quantity(highest)[0])
 
 
-def number(example: float, *, above: float | None = None, lowest: float | None = None, below: float | None = None, highest: float | None = None, default: Any = ..., too_low: str = "") -> Any:
+def number(
+    example: float,
+    *,
+    above: float | None = None,
+    lowest: float | None = None,
+    below: float | None = None,
+    highest: float | None = None,
+    default: Any = ...,
+    too_low: str = "",
+) -> Any:
     """A bare number; ``above`` and ``below`` are excluded, ``lowest`` and ``highest`` included."""
     least = f"above {above:g}" if lowest is None else f"from {lowest:g}"
     most = f"below {below:g}" if highest is None else f"up to {highest:g}"
-    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", f"{example:g}", below=too_low)
+    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", below=too_low)
     return Field(default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
 
 
 def whole_number(lowest: int, highest: int, example: int, *, optional: bool = False) -> Any:
     """A bare whole number, bounds included."""
-    allowed = Allowed(f"a whole number from {lowest} to {highest}, without unit, such as {example}", f"{example}")
+    allowed = Allowed(f"a whole number from {lowest} to {highest}, without unit, such as {example}")
     return _field(allowed, optional, ge=lowest, le=highest)
 
 
 def choice(*names: str, planned: dict[str, str]) -> Any:
     """One of a few names, optional; ``planned`` are names of the format that this version does not have, and what they stand for."""
     listed = ", ".join(f'"{name}"' for name in names)
-    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}", f'"{names[0]}"', planned=planned), optional=True)
+    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}", planned=planned), optional=True)
 
 
 def text(longest: int) -> Any:
     """A text, optional."""
-    return _field(Allowed(f"a text of at most {longest} characters", '"..."'), optional=True, max_length=longest)
+    return _field(Allowed(f"a text of at most {longest} characters"), optional=True, max_length=longest)
 
 
 def _field(allowed: Allowed, optional: bool, **bounds: Any) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -14,19 +13,9 @@ from fenics_gears.effects import NOT_YET_AVAILABLE
 from fenics_gears.scene.fields import Allowed, allowed_in
 from fenics_gears.scene.names import did_you_mean, nearest
 from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.written import as_written
 
 Path = tuple[str, ...]
-_LONGEST_VALUE = 60
-
-
-class WrittenFloat(float):
-    """A number of a TOML file that remembers how it was written."""
-
-    def __new__(cls, text: str) -> WrittenFloat:
-        """The number that ``text`` stands for."""
-        number = super().__new__(cls, text)
-        number.text = text
-        return number
 
 
 @dataclass(frozen=True)
@@ -49,20 +38,6 @@ class Problem:
         if self.written is not None:
             field = f"{field} = {self.written}" if self.written else f"[{field}]"
         return f"{place}: {field}\n    {self.message}"
-
-
-def as_written(value: Any) -> str:
-    """A value in TOML's own spelling, shortened where it is long; empty for a section."""
-    if isinstance(value, Mapping):
-        return ""
-    if isinstance(value, list):
-        return "a list"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, int) and abs(value) >= 10**_LONGEST_VALUE:
-        return f"a number of more than {_LONGEST_VALUE} digits"
-    text = json.dumps(value, ensure_ascii=False) if isinstance(value, str) else getattr(value, "text", None) or str(value)
-    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
 
 
 def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:

@@ -11,8 +11,9 @@ from fenics_gears.errors import SceneError
 from fenics_gears.scene import data, schema
 from fenics_gears.scene.lines import line_numbers
 from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.problems import Problem, WrittenFloat, problems_of_schema, without_echoes
+from fenics_gears.scene.problems import Problem, problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
+from fenics_gears.scene.written import WrittenFloat
 
 
 def load_scene(path: str | os.PathLike) -> data.Scene:

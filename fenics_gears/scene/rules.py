@@ -11,7 +11,8 @@ from typing import Any
 from fenics_gears import effects
 from fenics_gears.scene import units
 from fenics_gears.scene.names import nearest
-from fenics_gears.scene.problems import Problem, as_written
+from fenics_gears.scene.problems import Problem
+from fenics_gears.scene.written import as_written
 
 Tree = Mapping[str, Any]
 
@@ -44,7 +45,7 @@ def _one_speed(tree: Tree) -> Iterator[Problem]:
 def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
     motion = _table(tree, "motion") or {}
     recorded, run = motion.get("recorded_cycles"), motion.get("mesh_cycles")
-    if type(recorded) is int and type(run) is int and recorded > run:
+    if type(recorded) is int and type(run) is int and recorded > run > 0:
         yield Problem(("motion", "recorded_cycles"), as_written(recorded), f"is more than mesh_cycles = {as_written(run)}. Allowed: at most as many cycles as are run.")
 
 
@@ -80,7 +81,7 @@ def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
     accuracy = _table(tree, "accuracy") or {}
     for name, modules in (("flank_element_size", 1.0), ("contact_length", 3.0)):
         size = _quantity(accuracy.get(name))
-        if module is not None and size is not None and size > modules * module:
+        if module is not None and size is not None and size > modules * module > 0:
             yield Problem(("accuracy", name), as_written(accuracy[name]), f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.")
 
 

@@ -1,0 +1,63 @@
+"""The one list of effects and what hangs on it."""
+
+import dataclasses
+import re
+from pathlib import Path
+
+import pytest
+
+from fenics_gears import effects
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.scene.schema import SceneText
+
+DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+SECTIONS = [effect.section for effect in effects.EFFECTS]
+
+
+def without(*sections):
+    """The demo without some sections."""
+    text = DEMO
+    for section in sections:
+        text = re.sub(rf"^\[{section}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
+    return text
+
+
+def test_schema_data_and_list_know_the_same_sections():
+    """Authority: identity; what is not one of the four sections that are always there, is an effect."""
+    always = {"title", "gears", "load", "motion", "accuracy"}
+    assert set(SceneText.model_fields) - always == set(SECTIONS)
+    assert {field.name for field in dataclasses.fields(Scene)} - always - {"text", "name"} == set(SECTIONS)
+
+
+@pytest.mark.parametrize("section", [section for section in SECTIONS if section not in ("tip_relief", "inertia")])
+def test_an_absent_section_takes_its_effect_and_variables_away(section):
+    """Authority: house rule 9; an effect that a scene does not name has no result variables."""
+    scene, plain = scene_from_text(DEMO), scene_from_text(without(section))
+    assert getattr(plain, section) is None
+    gone = {variable.name for variable in effects.result_variables(scene)} - {variable.name for variable in effects.result_variables(plain)}
+    assert gone == {variable.name for variable in effects.effect(section).variables}
+    assert effects.effect(section) not in effects.effects_on(plain)
+
+
+def test_a_scene_without_effects_is_one():
+    """Authority: design.md; every effect's section may be absent."""
+    scene = scene_from_text(without(*SECTIONS))
+    assert effects.effects_on(scene) == ()
+    assert [getattr(scene, section) for section in SECTIONS] == [None] * len(SECTIONS)
+
+
+def test_names_in_the_list_are_consistent():
+    """Authority: identity; needs and excludes name sections of the list, no variable belongs to two effects."""
+    named = [name for effect in effects.EFFECTS for name in (*effect.needs, *effect.excludes)]
+    assert set(named) <= set(SECTIONS)
+    variables = [variable.name for effect in effects.EFFECTS for variable in effect.variables]
+    variables += [variable.name for variable in effects.COMMON_VARIABLES]
+    assert len(set(variables)) == len(variables)
+
+
+def test_needs_and_conflicts_are_found():
+    """Authority: design.md; damping is that of moving masses."""
+    assert effects.missing_needs(["damping"]) == [(effects.effect("damping"), "inertia")]
+    assert effects.missing_needs(["damping", "inertia"]) == []
+    assert effects.conflicts(SECTIONS) == []

@@ -1,0 +1,134 @@
+"""The paper's scene arrives in N, mm, s, rad as converted by hand from its Tables 1 and 2; sections switch effects."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+import fenics_gears
+from fenics_gears.scene import data
+from fenics_gears.scene.read import load_scene, scene_from_text
+
+DEMO_FILE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
+DEMO = DEMO_FILE.read_text(encoding="utf-8")
+ROUND_OFF = 4e-16
+
+
+def numbers(section):
+    """The values of a dataclass, those of dataclasses within it too."""
+    values = vars(section).values()
+    return [number for value in values for number in (numbers(value) if hasattr(value, "__dataclass_fields__") else [value])]
+
+
+@pytest.mark.parametrize(
+    ("section", "by_hand"),
+    [
+        (
+            "gears",
+            [4.5, math.pi / 9, 91.5, 15.0]
+            + [16, 0.196, 82.64, 62.5, 30.0, 0.38]
+            + [24, 0.125, 118.64, 98.37, 40.0, 0.38]
+            + [2.06e5, 0.3],
+        ),
+        ("load", [0.437e6]),
+        ("motion", [200.0, 30, 2]),
+        ("shafts", [0.203e9]),
+        ("bearings", [0.155e6]),
+        ("inertia", [4.9e-3, 24.5]),
+        ("damping", [0.4e-3, 0.5e-3]),
+        ("friction", [0.1]),
+        ("accuracy", ["P2", 0.08, 1.5, 20, 100, "once"]),
+    ],
+)
+def test_the_demo_has_the_papers_numbers(section, by_hand):
+    """Authority: Lundvall et al. 2004, Tables 1 and 2, which are in N, mm, s; J and the bore as model.md, section 5, reads them."""
+    read = numbers(getattr(load_scene(DEMO_FILE), section))
+    assert len(read) == len(by_hand)
+    for value, expected in zip(read, by_hand):
+        assert value == (expected if isinstance(expected, (str, int)) else pytest.approx(expected, rel=ROUND_OFF))
+        assert type(value) is type(expected)
+
+
+def test_the_scene_keeps_its_text_and_name():
+    """Authority: design.md, Result; the scene's text goes into the result, its file's name names the directory."""
+    scene = load_scene(DEMO_FILE)
+    assert (scene.text, scene.name, scene.title) == (DEMO, "lundvall2004", "Lundvall, Strömberg, Klarbring 2004")
+    assert scene.tip_relief is None
+    assert load_scene(str(DEMO_FILE)) == scene == fenics_gears.load_scene(DEMO_FILE)
+
+
+def test_the_speed_of_the_pinion_gives_the_mesh_frequency():
+    """Authority: identity, mesh frequency = teeth * turns a second; 16 * 750/60 = 200 Hz (design.md's own pair of values)."""
+    scene = scene_from_text(DEMO.replace('mesh_frequency = "200 Hz"', 'pinion_speed = "750 rpm"'))
+    assert scene.motion.mesh_frequency == pytest.approx(200.0, rel=ROUND_OFF)
+
+
+def test_other_units_give_the_same_scene():
+    """Authority: identity; the same quantities in other units."""
+    other = DEMO
+    for old, new in [
+        ('"4.5 mm"', '"0.0045 m"'),
+        ('"437 N m"', '"0.437 kN m"'),
+        ('"206 GPa"', '"206000 N/mm^2"'),
+        ('"4.9 kg"', '"4900 g"'),
+        ('"24.5e-3 kg m^2"', '"24.5 N mm s^2"'),
+        ('"0.203e9 N mm/rad"', '"203 kN m/rad"'),
+        ('"0.4e-3 s"', '"0.4 ms"'),
+        ('"0.08 mm"', '"80 µm"'),
+    ]:
+        assert old in other
+        other = other.replace(old, new)
+    one, two = scene_from_text(DEMO), scene_from_text(other)
+    for section in ("gears", "load", "shafts", "inertia", "damping", "accuracy"):
+        for value, same in zip(numbers(getattr(one, section)), numbers(getattr(two, section))):
+            assert value == (same if isinstance(value, str) else pytest.approx(same, rel=ROUND_OFF))
+
+
+@pytest.mark.parametrize(
+    ("section", "pinion", "wheel"),
+    [
+        ('depth = "31 um"\nstart = "HPSTC"', data.Relief(0.031, None), data.Relief(0.031, None)),
+        ('depth = "31 um"\nstart = "90 deg"', data.Relief(0.031, math.pi / 2), data.Relief(0.031, math.pi / 2)),
+        ('[tip_relief.pinion]\ndepth = "31 um"\nstart = "HPSTC"', data.Relief(0.031, None), None),
+        ('start = "90 deg"\n[tip_relief.wheel]\ndepth = "31 um"', None, data.Relief(0.031, math.pi / 2)),
+        (
+            'depth = "31 um"\nstart = "90 deg"\n[tip_relief.wheel]\ndepth = "20 um"\nstart = "HPSTC"',
+            data.Relief(0.031, math.pi / 2),
+            data.Relief(0.02, None),
+        ),
+    ],
+)
+def test_relief_of_both_gears_and_of_one(section, pinion, wheel):
+    """Authority: design.md; [tip_relief] speaks of both gears, its subsections of one."""
+    assert scene_from_text(f"{DEMO}\n[tip_relief]\n{section}\n").tip_relief == data.TipRelief(pinion, wheel)
+
+
+def test_what_is_left_out_has_its_default():
+    """Authority: design.md; rack tip radius 0.38 modules, two cycles recorded (as many as there are), accuracy from the scene."""
+    text = DEMO[: DEMO.index("[accuracy]")].replace("recorded_cycles = 2\n", "")
+    scene = scene_from_text(text, "pair")
+    assert scene.accuracy == data.Accuracy()
+    assert scene.motion.recorded_cycles == 2
+    assert scene_from_text(text.replace("mesh_cycles = 30", "mesh_cycles = 1")).motion.recorded_cycles == 1
+    assert scene_from_text(text.replace('title = "Lundvall, Strömberg, Klarbring 2004"\n', ""), "pair").title == "pair"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('"437 N m"', '"0 N m"'),
+        ('"437 N m"', '"1e-12 N mm"'),
+        ('"200 Hz"', '"0.01 Hz"'),
+        ('"200 Hz"', '"20 kHz"'),
+        ('"0.203e9 N mm/rad"', '"0.203e21 N mm/rad"'),
+        ('"0.155e6 N/mm"', '"155 N/mm"'),
+        ("coefficient = 0.1", "coefficient = 2"),
+        ("coefficient = 0.1", "coefficient = 1e-12"),
+        ("poissons_ratio = 0.3", "poissons_ratio = 0.499"),
+        ("contact_nodes = 20", "contact_nodes = 1"),
+    ],
+)
+def test_what_the_hard_cases_ask_for_is_allowed(old, new):
+    """Authority: hard cases 10, 14, 15, 16, 19, 20 and 23, which must run."""
+    assert old in DEMO
+    assert scene_from_text(DEMO.replace(old, new)).text != DEMO

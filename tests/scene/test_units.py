@@ -1,0 +1,115 @@
+"""Units at the edge of the program, against the definitions of the units (SI brochure, international inch and pound)."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fenics_gears.scene.units import QuantityError, quantity, unit_of
+
+ROUND_OFF = 4e-16
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "kind"),
+    [
+        ("4.5 mm", 4.5, "a length"),
+        ("4.5mm", 4.5, "a length"),
+        ("0.0045 m", 4.5, "a length"),
+        ("31 um", 0.031, "a length"),
+        ("31 µm", 0.031, "a length"),
+        ("31 μm", 0.031, "a length"),
+        ("1 in", 25.4, "a length"),
+        ("20 deg", math.pi / 9, "an angle"),
+        ("20°", math.pi / 9, "an angle"),
+        ("1200 arcmin", math.pi / 9, "an angle"),
+        ("206 GPa", 206000.0, "a stress"),
+        ("206e9 Pa", 206000.0, "a stress"),
+        ("206e3 N/mm^2", 206000.0, "a stress"),
+        ("206e3 N/mm²", 206000.0, "a stress"),
+        ("437 N m", 437000.0, "a couple"),
+        ("437 Nm", 437000.0, "a couple"),
+        ("437 N*m", 437000.0, "a couple"),
+        ("437 N·m", 437000.0, "a couple"),
+        ("1 lbf in", 4.4482216152605 * 25.4, "a couple"),
+        ("0.203e9 N mm/rad", 2.03e8, "a torsional stiffness"),
+        ("1 N mm/deg", 180 / math.pi, "a torsional stiffness"),
+        ("0.155e6 N/mm", 155000.0, "a stiffness"),
+        ("155 N/um", 155000.0, "a stiffness"),
+        ("4.9 kg", 4.9e-3, "a mass"),
+        ("4900 g", 4.9e-3, "a mass"),
+        ("4.9e-3 N s^2/mm", 4.9e-3, "a mass"),
+        ("24.5e-3 kg m^2", 24.5, "a moment of inertia"),
+        ("24.5 N mm s^2", 24.5, "a moment of inertia"),
+        ("24.5 kg mm^2", 24.5e-3, "a moment of inertia"),
+        ("200 Hz", 200.0, "a frequency (1/time)"),
+        ("0.5e-3 1/s", 0.5e-3, "a frequency (1/time)"),
+        ("0.4 ms", 0.4e-3, "a time"),
+        ("750 rpm", 25 * math.pi, "an angular speed"),
+        ("12.5 rev/s", 25 * math.pi, "an angular speed"),
+        ("4500 deg/s", 25 * math.pi, "an angular speed"),
+        ("-3 mm", -3.0, "a length"),
+        ("5", 5.0, "a number without unit"),
+    ],
+)
+def test_a_quantity_is_what_its_unit_says(text, value, kind):
+    """Authority: the definition of each unit; the last bit may differ."""
+    number, found = quantity(text)
+    assert found == kind
+    assert number == pytest.approx(value, rel=ROUND_OFF)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [("437 N m", "437 N m/rad"), ("200 Hz", "200 rad/s"), ("200 Hz", "200 rpm"), ("1 mm", "1 rad"), ("1 1/s", "1 rad/s")],
+)
+def test_an_angle_is_a_dimension(one, other):
+    """Authority: design.md's units; a couple is no torsional stiffness and a frequency no angular speed."""
+    assert quantity(one)[1] != quantity(other)[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "fragment"),
+    [
+        ("4.5 Mm", 'unknown unit "Mm". Did you mean "mm"?'),
+        ("206 Gpa", 'unknown unit "Gpa". Did you mean "GPa"?'),
+        ("4.5 mms", 'unknown unit "mms"'),
+        ("4.5 furlong", 'unknown unit "furlong"'),
+        ("4,5 mm", "decimal sign is a point"),
+        ("mm", "does not begin with a number"),
+        ("1.2.3 mm", "does not begin with a number"),
+        ("", "is empty"),
+        ("   ", "is empty"),
+        ("20 deg 3 arcmin", "not understood"),
+        ("5 mm^(", "not understood"),
+        ("5 N/0", "not understood"),
+        ("5 mm; import os", "not understood"),
+    ],
+)
+def test_what_is_no_quantity_is_named(text, fragment):
+    """Authority: house rule 7, an error says what and the remedy."""
+    with pytest.raises(QuantityError) as error:
+        quantity(text)
+    assert fragment in str(error.value)
+
+
+UNIT_LIKE = st.text(alphabet="0123456789.eE+-*/^() mNkgsradHzP°µ²\n[]{}'\"", max_size=20)
+
+
+@settings(max_examples=400, deadline=None)
+@given(st.one_of(UNIT_LIKE, st.text(max_size=12), UNIT_LIKE.map(lambda text: "3 " + text)))
+def test_any_text_is_a_quantity_or_is_refused(text):
+    """Authority: hard case 26; no text a user can write escapes as another error."""
+    try:
+        number, kind = quantity(text)
+    except QuantityError as error:
+        assert str(error)
+    else:
+        assert isinstance(number, float) and kind
+
+
+def test_the_unit_is_found_as_written():
+    """Authority: the text itself."""
+    assert unit_of("4.5 mm") == "mm"
+    assert unit_of("nonsense") == ""

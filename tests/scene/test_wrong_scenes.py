@@ -1,0 +1,350 @@
+"""Wrong scenes are refused before any computation, in words that a person can act on (hard case 26).
+
+Authority of every test here: hard case 26 and design.md's scene format. A refusal names file, field, value as written, what is
+allowed and the nearest known name; the exit code is 2; nothing is written.
+"""
+
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fenics_gears.cli import main
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.read import scene_from_text
+
+DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+RELIEF = '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n'
+
+
+def with_line(text, section, key, line):
+    """The scene with the line of ``key`` in ``section`` replaced by ``line`` (added where the key is absent)."""
+    head, header, rest = text.partition(f"[{section}]\n")
+    assert header, f"no section {section}"
+    body, following, tail = rest.partition("\n[")
+    pattern = rf"^{re.escape(key)} *=.*$"
+    body = re.sub(pattern, lambda _: line, body, flags=re.M) if re.search(pattern, body, re.M) else f"{line}\n{body}"
+    return head + header + body + following + tail
+
+
+@pytest.fixture
+def refusal(tmp_path, monkeypatch, capsys):
+    """A function that runs a scene text and returns the refusal; it fails unless that is complete and nothing was written."""
+    monkeypatch.chdir(tmp_path)
+
+    def refuse(text):
+        file = tmp_path / "pair.toml"
+        file.write_text(text, encoding="utf-8")
+        assert main(["run", "pair.toml"]) == 2
+        assert [each.name for each in tmp_path.rglob("*")] == ["pair.toml"]
+        output = capsys.readouterr()
+        assert output.out == ""
+        assert output.err.startswith("pair.toml:")
+        assert "Nothing was computed or written." in output.err
+        assert "Traceback" not in output.err
+        return output.err
+
+    return refuse
+
+
+# Section, key, a text with a wrong unit, and "zero" where that is allowed.
+QUANTITIES = [
+    ("gears", "module", "4.5 N", ""),
+    ("gears", "pressure_angle", "20 mm", ""),
+    ("gears", "centre_distance", "91.5 deg", ""),
+    ("gears", "face_width", "15 kg", ""),
+    ("gears.pinion", "tip_diameter", "82.64 mm^2", ""),
+    ("gears.pinion", "root_diameter", "62.50 N", ""),
+    ("gears.pinion", "bore_diameter", "30 s", ""),
+    ("gears.wheel", "tip_diameter", "118.64 rad", ""),
+    ("gears.wheel", "root_diameter", "98.37 kN", ""),
+    ("gears.wheel", "bore_diameter", "40 mm/s", ""),
+    ("gears.material", "youngs_modulus", "206 N", ""),
+    ("load", "wheel_torque", "437 N", "zero"),
+    ("motion", "mesh_frequency", "1257 rad/s", ""),
+    ("shafts", "torsional_stiffness", "0.203e9 N mm", ""),
+    ("bearings", "stiffness", "0.155e6 N mm", ""),
+    ("inertia", "mass", "4.9 N", ""),
+    ("inertia", "moment_of_inertia", "24.5e-3 kg", ""),
+    ("damping", "stiffness_proportional", "0.4e-3 1/s", "zero"),
+    ("damping", "mass_proportional", "0.5e-3 s", "zero"),
+    ("tip_relief", "depth", "31 MPa", ""),
+    ("tip_relief", "start", "31 um", ""),
+    ("accuracy", "flank_element_size", "0.08 deg", ""),
+    ("accuracy", "contact_length", "1.5 s", ""),
+]
+# Section, key, and "negative", "zero" where these are allowed.
+NUMBERS = [
+    ("gears.pinion", "teeth", ""),
+    ("gears.wheel", "teeth", ""),
+    ("gears.pinion", "profile_shift", "negative zero"),
+    ("gears.wheel", "profile_shift", "negative zero"),
+    ("gears.pinion", "rack_tip_radius", "zero"),
+    ("gears.material", "poissons_ratio", "negative zero"),
+    ("motion", "mesh_cycles", ""),
+    ("motion", "recorded_cycles", ""),
+    ("friction", "coefficient", ""),
+    ("accuracy", "contact_nodes", ""),
+    ("accuracy", "steps_per_mesh_cycle", ""),
+]
+OPTIONAL = {"recorded_cycles", "rack_tip_radius"}
+
+
+# The unit of each quantity as the demo writes it.
+UNITS = dict(re.findall(r'^(\w+) = "[^"\s]+ ([^"]+)"', DEMO + RELIEF, flags=re.M)) | {"start": "deg"}
+
+
+def quantity_cases():
+    for section, key, wrong_unit, allowed in QUANTITIES:
+        own = UNITS[key]
+        yield section, key, f'"nan {own}"', "is not a finite number"
+        yield section, key, f'"inf {own}"', "is not a finite number"
+        yield section, key, f'"1e400 {own}"', "is not a finite number"
+        yield section, key, f'"-3 {own}"', "is negative"
+        yield section, key, f'"1e300 {own}"', "is too large"
+        yield section, key, f'"{wrong_unit}"', ", not a"
+        yield section, key, f'"3 {own}x"', "unit"
+        yield section, key, "3.5", "is a number without its unit"
+        yield section, key, "nan", "is a number without its unit"
+        yield section, key, '"3"', "is a number without unit, not a"
+        yield section, key, "true", "is not a text with a number and its unit"
+        yield section, key, "[1, 2]", "is not a text with a number and its unit"
+        yield section, key, '""', "is empty"
+        yield section, key, f'"3,5 {own}"', "the decimal sign is a point"
+        if "zero" not in allowed:
+            yield section, key, f'"0 {own}"', "is zero"
+
+
+def number_cases():
+    for section, key, allowed in NUMBERS:
+        yield section, key, "nan", "is not a"
+        yield section, key, "inf", "is not a"
+        yield section, key, "1e400", "is not a"
+        yield section, key, "1" + 400 * "0", "is too large"
+        yield section, key, "123456789", "is too large"
+        yield section, key, "-123", "is too small" if "negative" in allowed else "is negative"
+        yield section, key, "true", "is true or false, not a number"
+        yield section, key, '"3"', "is a text, not a bare number"
+        yield section, key, '"3 mm"', "is a text, not a bare number"
+        yield section, key, "[3]", "is not a number"
+        yield section, key, "1979-05-27", "is not a number"
+        if "zero" not in allowed:
+            yield section, key, "0", "is zero"
+
+
+@pytest.mark.parametrize(("section", "key", "value", "fragment"), [*quantity_cases(), *number_cases()])
+def test_a_wrong_value_is_refused(refusal, section, key, value, fragment):
+    """NaN, infinity, negative, zero, huge, wrong unit, no unit, wrong type in every field."""
+    message = refusal(with_line(DEMO + RELIEF, section, key, f"{key} = {value}"))
+    written = "a number of more than 60 digits" if len(value) > 60 else "a list" if value.startswith("[") else value
+    assert re.search(rf"^pair\.toml:\d+: {re.escape(f'{section}.{key} = {written}')}\n", message, re.M)
+    assert fragment in message
+    assert "Allowed: " in message
+    assert message.endswith("1 mistake in pair.toml. Nothing was computed or written.\n")
+
+
+FIELDS = [(section, key) for section, key, *_ in QUANTITIES + NUMBERS] + [("accuracy", "element"), ("accuracy", "condensation")]
+
+
+@pytest.mark.parametrize(("section", "key"), [field for field in FIELDS if field[0] != "accuracy" and field[1] not in OPTIONAL])
+def test_a_missing_field_is_named(refusal, section, key):
+    """Every field without a default."""
+    message = refusal(with_line(DEMO + RELIEF, section, key, ""))
+    assert re.search(rf"^pair\.toml:\d+: {section}\.{key}\n    is missing\. Allowed: ", message, re.M)
+
+
+@pytest.mark.parametrize(("section", "key"), FIELDS)
+def test_a_misspelt_field_is_answered_with_the_right_one(refusal, section, key):
+    """A letter lost; the field is not reported as missing on top of it."""
+    misspelt = key[:2] + key[3:]
+    text = with_line(DEMO + RELIEF, section, key, "")
+    message = refusal(with_line(text, section, misspelt, f'{misspelt} = "1 mm"'))
+    assert f'{section}.{misspelt} = "1 mm"\n    is not a known field of [{section}]. Did you mean "{key}"?' in message
+    assert "1 mistake in" in message
+
+
+@pytest.mark.parametrize(
+    "section",
+    "gears load motion shafts bearings inertia damping friction tip_relief accuracy".split(),
+)
+def test_a_misspelt_section_is_answered_with_the_right_one(refusal, section):
+    """A letter lost, in the header and below it; what needs the section is not reported on top of it."""
+    misspelt = section[:-2] + section[-1]
+    message = refusal((DEMO + RELIEF).replace(f"[{section}]", f"[{misspelt}]").replace(f"[{section}.", f"[{misspelt}."))
+    assert f"[{misspelt}]\n    is not a known section or field of a scene. Did you mean \"{section}\"?" in message
+    assert "1 mistake in" in message
+
+
+@pytest.mark.parametrize("section", ["gears", "gears.pinion", "gears.wheel", "gears.material", "load", "motion"])
+def test_a_missing_section_is_named(refusal, section):
+    """Sections that a scene always has."""
+    headers = re.sub(rf"^\[{re.escape(section)}[\].].*?(?=^\[(?!{re.escape(section)}\.)|\Z)", "", DEMO, flags=re.M | re.S)
+    message = refusal(headers)
+    assert f"{section}\n    is missing. Add the section [{section}] with its fields: " in message
+
+
+# (what to replace, by what, field and value in the message, further fragments)
+MUTATIONS = [
+    ("teeth = 16", "teeth = 16.5", "gears.pinion.teeth = 16.5", ["is not a whole number", "from 5 to 1000"]),
+    ("teeth = 16", "teeth = 4", "gears.pinion.teeth = 4", ["is too small", "from 5 to 1000"]),
+    ("teeth = 16", "teeth = 1001", "gears.pinion.teeth = 1001", ["is too large", "from 5 to 1000"]),
+    ("teeth = 16", "module = 16", "gears.pinion.module = 16", ['"module" belongs to [gears]', "teeth, profile_shift"]),
+    ('module = "4.5 mm"', 'module = "4.5 Mm"', 'gears.module = "4.5 Mm"', ['unknown unit "Mm". Did you mean "mm"?']),
+    ('module = "4.5 mm"', "module = 4.5", "gears.module = 4.5", ['In mm it is written "4.5 mm"']),
+    ('"20 deg"', '"0.35"', 'gears.pressure_angle = "0.35"', ["not an angle", "from 10 deg to 35 deg"]),
+    ('"20 deg"', '"9 deg"', 'gears.pressure_angle = "9 deg"', ["is too small", "from 10 deg to 35 deg"]),
+    ('"20 deg"', '"20 rad"', 'gears.pressure_angle = "20 rad"', ["is too large", "from 10 deg to 35 deg"]),
+    ("poissons_ratio = 0.3", "poissons_ratio = 0.5", "gears.material.poissons_ratio = 0.5", ["is too large", "above -1 and below 0.5"]),
+    ("poissons_ratio = 0.3", "poissons_ratio = -1", "gears.material.poissons_ratio = -1", ["is too small", "above -1 and below 0.5"]),
+    ('"437 N m"', '"-437 N m"', 'load.wheel_torque = "-437 N m"', ["is negative", "coast flanks", "does not have"]),
+    ('"437 N m"', '"437 N m/rad"', 'load.wheel_torque = "437 N m/rad"', ["is a torsional stiffness, not a couple"]),
+    ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 rpm"', 'motion.mesh_frequency = "200 rpm"', ["is an angular speed", '"200 Hz"']),
+    ('mesh_frequency = "200 Hz"', 'pinion_speed = "12.5 Hz"', 'motion.pinion_speed = "12.5 Hz"', ["is a frequency", '"750 rpm"']),
+    ('mesh_frequency = "200 Hz"', 'pinion_speed = "nan rpm"', 'motion.pinion_speed = "nan rpm"', ["is not a finite number"]),
+    ('mesh_frequency = "200 Hz"', 'pinion_speed = "-5 rpm"', 'motion.pinion_speed = "-5 rpm"', ["is negative", "1e6 rpm"]),
+    ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 Hz"\npinion_speed = "750 rpm"', 'motion.pinion_speed = "750 rpm"', ["one of the two"]),
+    ("recorded_cycles = 2", "recorded_cycles = 31", "motion.recorded_cycles = 31", ["is more than mesh_cycles = 30"]),
+    ("mesh_cycles = 30", "mesh_cycles = 30.0", "motion.mesh_cycles = 30.0", ["is not a whole number"]),
+    ("coefficient = 0.1", "coefficient = 0", "friction.coefficient = 0", ["is zero", "leave the section [friction] out", "up to 5"]),
+    ("coefficient = 0.1", "coefficient = -0.1", "friction.coefficient = -0.1", ["is negative", "up to 5"]),
+    ("coefficient = 0.1", "coefficient = 5.01", "friction.coefficient = 5.01", ["is too large", "up to 5"]),
+    ("coefficient = 0.1", "", "friction.coefficient", ["is missing", "above 0 and up to 5"]),
+    ("[inertia]", "[damping.inertia]", "[damping.inertia]", ["is not a known field of [damping]", "needs the section [inertia]"]),
+    ('"0.4e-3 s"\nmass_proportional = "0.5e-3 1/s"', '"0 s"\nmass_proportional = "0 1/s"', "[damping]", ["damps nothing", "leave the section [damping] out"]),
+    ('element = "P2"', 'element = "P3"', 'accuracy.element = "P3"', ["is not known", '"P1", "P2", "Q1", "Q2"']),
+    ('element = "P2"', 'element = "p2"', 'accuracy.element = "p2"', ['Did you mean "P2"?']),
+    ('element = "P2"', "element = 2", "accuracy.element = 2", ['"P1", "P2", "Q1", "Q2"']),
+    ('element = "P2"', 'element = "Q1 incompatible"', 'accuracy.element = "Q1 incompatible"', ["this version does not have", "incompatible modes"]),
+    ('"once"', '"every step"', 'accuracy.condensation = "every step"', ["this version does not have", 'only "once"']),
+    ('"once"', '"onse"', 'accuracy.condensation = "onse"', ['Did you mean "once"?']),
+    ('"0.08 mm"', '"5 mm"', 'accuracy.flank_element_size = "5 mm"', ["too large for a module of 4.5 mm", "up to 4.5 mm"]),
+    ('"1.5 mm"', '"15 mm"', 'accuracy.contact_length = "15 mm"', ["too large for a module of 4.5 mm", "up to 13.5 mm"]),
+    ("[load]", "[[load]]", "load = a list", ["is not a section", "Write a line [load]"]),
+    ("[load]\nwheel_torque", "load = 3\n[wheel]\nwheel_torque", "gears.material.load = 3", ["is not a known field of [gears.material]"]),
+    ('title = "', 'friction = 0.3\ntitle2 = "', "friction = 0.3", ["is not a section", "[friction]"]),
+    ('title = "Lundvall, Strömberg, Klarbring 2004"', "title = 2004", "title = 2004", ["is not a text"]),
+    ('title = "', 'title = "' + 600 * "x", "title = ", ["is too long", "500 characters"]),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "field", "fragments"), MUTATIONS)
+def test_a_wrong_scene_is_refused(refusal, old, new, field, fragments):
+    """Mistakes as people make them."""
+    text = DEMO
+    if new.startswith("friction = "):
+        text = text.replace("[friction]\ncoefficient = 0.1\n", "")
+    assert old in text
+    message = refusal(text.replace(old, new, 1))
+    assert re.search(rf"^pair\.toml:\d+: {re.escape(field)}", message, re.M)
+    for fragment in fragments:
+        assert fragment in message
+
+
+def without(section, text=DEMO):
+    """The scene without one section."""
+    return re.sub(rf"^\[{section}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
+
+
+@pytest.mark.parametrize(
+    ("text", "fragments"),
+    [
+        (without("inertia"), ["[damping]\n", "needs the section [inertia], which is missing", "leave [damping] out"]),
+        (DEMO + "\n[coast_flanks]\n", ["[coast_flanks]\n", "this version does not have contact on the unloaded (coast) flanks"]),
+        (DEMO + "\n[thermal]\n", ["[thermal]\n", "is not a known section", "tip_relief"]),
+        (DEMO + "\n[tip_relief]\n", ["tip_relief.depth\n", "tip_relief.start\n", "is missing", '"HPSTC"', "2 mistakes"]),
+        (DEMO + '\n[tip_relief]\ndepth = "31 um"\nstart = "hpstc"\n', ['tip_relief.start = "hpstc"', 'Did you mean "HPSTC"?']),
+        (DEMO + '\n[tip_relief]\nstart = "HPSTC"\n[tip_relief.pinion]\n', ["tip_relief.pinion.depth\n", "is missing"]),
+        (DEMO + '\n[tip_relief.wheel]\ndepth = "31 um"\n', ["tip_relief.wheel.start\n", "is missing"]),
+        (DEMO + '\n[tip_relief.wheel]\ndepth = "0 um"\nstart = "HPSTC"\n', ['tip_relief.wheel.depth = "0 um"', "leave its depth out"]),
+        (DEMO + '\n[tip_relief.weel]\ndepth = "3 um"\nstart = "HPSTC"\n', ["[tip_relief.weel]\n", 'Did you mean "wheel"?']),
+        (
+            without("shafts", without("bearings")).replace('"0.5e-3 1/s"', '"0 1/s"'),
+            ['damping.stiffness_proportional = "0.4e-3 s"', "no stiffness without [shafts] or [bearings]"],
+        ),
+        (DEMO.replace("[gears]", "[gears"), ["is not valid TOML", "line 7"]),
+        (DEMO + "\n[friction]\ncoefficient = 0.2\n", ["is not valid TOML", "line 68"]),
+        (DEMO.replace("teeth = 16", "teeth = 16 mm"), ["is not valid TOML", "line 14"]),
+        (DEMO.replace("teeth = 16", "teeth = " + 5000 * "9"), ["is not valid TOML", "thousands of digits"]),
+        ("a = " + 3000 * "[" + 3000 * "]", ["pair.toml"]),
+        ("", ["gears\n", "load\n", "motion\n", "3 mistakes"]),
+    ],
+    ids=lambda value: value[0].split()[0] if isinstance(value, list) else "",
+)
+def test_sections_that_do_not_fit_are_refused(refusal, text, fragments):
+    """Needs, effects that are not there yet, incomplete sections, broken TOML."""
+    message = refusal(text)
+    for fragment in fragments:
+        assert fragment in message
+
+
+def test_every_mistake_is_named_at_once(refusal):
+    """Authority: the interface; a person corrects a file once."""
+    text = without("inertia", DEMO + RELIEF)
+    for section, key, value in [
+        ("gears", "module", "4.5"),
+        ("gears.pinion", "teeth", "true"),
+        ("load", "wheel_torque", '"-1 N m"'),
+        ("motion", "recorded_cycles", "40"),
+        ("friction", "coefficient", "nan"),
+        ("tip_relief", "start", '"hpstc"'),
+    ]:
+        text = with_line(text, section, key, f"{key} = {value}")
+    message = refusal(text.replace("[bearings]", "[bearing]"))
+    for field in (
+        "gears.module = 4.5",
+        "gears.pinion.teeth = true",
+        'load.wheel_torque = "-1 N m"',
+        "motion.recorded_cycles = 40",
+        "friction.coefficient = nan",
+        'tip_relief.start = "hpstc"',
+        "[bearing]",
+        "[damping]",
+    ):
+        assert f": {field}\n" in message
+    assert "8 mistakes in" in message
+
+
+def test_the_line_is_that_of_the_field():
+    """Authority: the text itself, also behind a text over several lines that looks like a scene."""
+    text = DEMO.replace('title = "Lundvall, Strömberg, Klarbring 2004"', 'title = """\n[gears.pinion]\nteeth = 3\n"""')
+    text = text.replace('bore_diameter = "30 mm" ', "bore_diameter = 30 ")
+    line = next(number for number, each in enumerate(text.splitlines(), 1) if each.startswith("bore_diameter = 30 "))
+    with pytest.raises(SceneError) as error:
+        scene_from_text(text, "pair")
+    assert f"pair:{line}: gears.pinion.bore_diameter = 30\n" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "fragment"), [(None, "there is no such file"), (b"\xff\xfe\x00", "is not a text in UTF-8"), ("directory", "cannot be read")]
+)
+def test_a_file_that_cannot_be_read_is_named(tmp_path, capsys, content, fragment):
+    """Missing, binary, a directory."""
+    file = tmp_path / "pair.toml"
+    if content == "directory":
+        file.mkdir()
+    elif content is not None:
+        file.write_bytes(content)
+    assert main(["run", str(file)]) == 2
+    assert f"{file}: {fragment}" in capsys.readouterr().err
+
+
+ANY_VALUE = st.sampled_from(
+    ["0", "-1", "1e-320", "nan", "-inf", '""', '"mm"', '"1 mm"', '"HPSTC"', "true", "[]", "{}", "{depth = 3}", "12:30:00", "9" * 60, '"1e308 m"', "'''3 mm'''"]
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.sampled_from(FIELDS), ANY_VALUE, st.sampled_from(FIELDS), ANY_VALUE)
+def test_any_two_values_are_taken_or_refused(one, value, other, other_value):
+    """Any value in any two fields gives a scene or a SceneError, never another error."""
+    text = with_line(DEMO + RELIEF, *one, f"{one[1]} = {value}")
+    text = with_line(text, *other, f"{other[1]} = {other_value}")
+    try:
+        scene = scene_from_text(text)
+    except SceneError as error:
+        assert "mistake" in str(error)
+    else:
+        assert isinstance(scene, Scene)
