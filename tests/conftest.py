@@ -1,0 +1,38 @@
+"""What tests of several folders share: the paper's pair, with and without finite elements."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from tests.stand_in import stand_in_compliance
+
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.read import load_scene
+
+DEMOS = Path(__file__).parents[1] / "demos"
+
+
+@pytest.fixture(scope="session")
+def paper_scene():
+    """The paper's scene: 200 Hz, friction, all sections but tip relief."""
+    return load_scene(DEMOS / "lundvall2004.toml")
+
+
+@pytest.fixture(scope="session")
+def quasi_static_scene(paper_scene):
+    """The paper's scene without inertia, one mesh cycle."""
+    return replace(paper_scene, inertia=None, damping=None, motion=Motion(200.0, 1, 1))
+
+
+@pytest.fixture(scope="session")
+def paper_pair(paper_scene):
+    """The paper's gear pair."""
+    return gear_pair(paper_scene.gears)
+
+
+@pytest.fixture(scope="session")
+def stand_in_flanks(paper_pair):
+    """The paper's flanks on teeth without finite elements."""
+    return Flanks(paper_pair, tuple(stand_in_compliance(gear) for gear in (paper_pair.pinion, paper_pair.wheel)))

@@ -1,0 +1,61 @@
+"""Hat-averaged interpolation against brute-force quadrature and exact identities."""
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.interpolation import (
+    flank_interpolation,
+    hat_average,
+    hat_integrals,
+    quadrature_offsets,
+)
+from fenics_gears.contact.window import ContactGrid, node_offsets
+from fenics_gears.geometry.involute import roll_angle_at_height
+
+
+def interpolation_at(pair, xi, order, grid=ContactGrid(2.0, 21), elements=50):
+    pinion = pair.pinion
+    offsets, contact_roll = node_offsets(pair, xi, grid), xi / pinion.base_radius
+    rolls = roll_angle_at_height(pinion.base_radius, contact_roll, pinion.base_radius - offsets)
+    arc = np.linspace(pinion.form_roll_angle**2, pinion.tip_roll_angle**2, order * elements + 1)
+    flank_rolls = np.sqrt(arc)
+    result = flank_interpolation(offsets, rolls, pinion.base_radius, contact_roll, -1.0, flank_rolls, order)
+    return offsets, contact_roll, flank_rolls, result
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_polynomials_of_the_arc_length_are_averaged_exactly(paper_pair, order):
+    """Exact: the trace space holds polynomials of its order in the arc length; brute force is 400-point quadrature a cell."""
+    offsets, contact_roll, flank_rolls, result = interpolation_at(paper_pair, 12.0, order)
+    radius = paper_pair.pinion.base_radius
+    for power in range(order + 1):
+        nodal = (0.5 * radius * flank_rolls**2) ** power
+        averaged = np.array([w[f:l] @ nodal[f:l] for w, f, l in zip(result.weights, result.first, result.last)])
+        local, weight = np.polynomial.legendre.leggauss(400)
+        y = offsets[:-1, None] + np.diff(offsets)[:, None] * 0.5 * (local + 1.0)
+        arc = 0.5 * radius * roll_angle_at_height(radius, contact_roll, radius - y) ** 2
+        integrand = arc**power * 0.5 * weight * np.diff(offsets)[:, None]
+        expected = np.zeros(len(offsets))
+        expected[:-1] += (integrand * 0.5 * (1.0 - local)).sum(axis=1)
+        expected[1:] += (integrand * 0.5 * (1.0 + local)).sum(axis=1)
+        assert averaged == pytest.approx(expected / hat_integrals(offsets), rel=1e-9)
+
+
+def test_interpolation_of_a_smooth_function_is_of_second_order(paper_pair):
+    """Known order: a hat average of a smooth function differs from its point value by O(h^2)."""
+    errors = []
+    for nodes in (11, 21, 41):
+        offsets, _, flank_rolls, result = interpolation_at(paper_pair, 12.0, 2, ContactGrid(2.0, nodes), 200)
+        radius = paper_pair.pinion.base_radius
+        rolls = roll_angle_at_height(radius, 12.0 / radius, radius - offsets)
+        inside = np.abs(offsets) < 0.65
+        errors.append(np.abs(result.weights @ np.cos(5.0 * flank_rolls) - np.cos(5.0 * rolls))[inside].max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders == pytest.approx([2.0, 2.0], abs=0.1)
+
+
+def test_average_of_linear_values_is_exact():
+    """Exact: the average of y over a hat of a uniform grid is the node's own offset."""
+    offsets = np.linspace(-1.0, 1.0, 9)
+    assert hat_average(offsets, quadrature_offsets(offsets))[1:-1] == pytest.approx(offsets[1:-1], abs=1e-14)
+    assert hat_integrals(offsets).sum() == pytest.approx(2.0)

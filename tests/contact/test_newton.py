@@ -1,0 +1,233 @@
+"""The contact step against other methods, the laws themselves, and inputs that need the fallback ladder."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import nnls
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.ladder import RUNGS, StepProblem, run_newton, solve_step
+from fenics_gears.contact.laws import (
+    OPEN,
+    SLIP_BACKWARD,
+    SLIP_FORWARD,
+    STICK,
+    Tolerance,
+    law_residual,
+    project,
+)
+from fenics_gears.contact.newton import CONVERGED, ONE_AT_A_TIME, THROUGH_STICK, solve_sets
+
+
+def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4):
+    """Random positive definite compliance and stiffness, of the size that gears have; gaps and loads of any sign."""
+    rng = np.random.default_rng(seed)
+    size = 2 * nodes if friction else nodes
+    root = rng.normal(size=(size, size)) / np.sqrt(size)
+    compliance = 1e-6 * (root @ root.T + 0.2 * np.eye(size))
+    bend = rng.normal(size=(coordinates, coordinates))
+    rigid = rng.normal(size=(size, coordinates))
+    return StepProblem(
+        stiffness=1e5 * (bend @ bend.T + np.eye(coordinates)),
+        load=load_scale * rng.normal(size=coordinates),
+        compliance=compliance,
+        rigid=rigid,
+        gap=0.02 * rng.normal(size=nodes),
+        slip_before=0.02 * rng.normal(size=nodes) if friction else np.empty(0),
+        friction=friction,
+        keep_one=False,
+        tolerance=Tolerance.of_load(load_scale),
+    )
+
+
+def all_open(problem):
+    return np.full(len(problem.gap), OPEN, dtype=np.int8)
+
+
+@given(st.integers(0, 10**9), st.integers(1, 12))
+@settings(max_examples=60, deadline=None)
+def test_frictionless_step_is_the_minimum_of_the_energy(seed, nodes):
+    """Other method: with q eliminated, p solves min 1/2 p^T W p - p^T d over p >= 0; SciPy's NNLS does that."""
+    problem = random_problem(seed, nodes)
+    flexibility = problem.rigid @ np.linalg.solve(problem.stiffness, problem.rigid.T) + problem.compliance
+    drive = problem.rigid @ np.linalg.solve(problem.stiffness, problem.load) - problem.gap
+    root = np.linalg.cholesky(flexibility)
+    expected, _ = nnls(root.T, np.linalg.solve(root, drive))
+    solution = solve_step(problem, all_open(problem))
+    assert solution.forces == pytest.approx(expected, rel=1e-7, abs=1e-7 * (1.0 + np.abs(expected).max()))
+
+
+@given(st.integers(0, 10**9), st.floats(0.01, 0.3))
+@settings(max_examples=80, deadline=None)
+def test_a_solution_obeys_signorini_and_coulomb(seed, friction):
+    """Row 1 and 2 of the hard cases: p_n >= 0, no penetration, p_n gap = 0, inside the cone, slip against friction."""
+    problem = random_problem(seed, friction=friction)
+    try:
+        solution = solve_step(problem, all_open(problem))
+    except ContactNotConverged as failure:
+        # Random couplings of normals and tangents may have no solution; then every rung must have been tried.
+        assert [attempt[0] for attempt in failure.attempts] == list(RUNGS)
+        return
+    scale = np.abs(problem.load).max()
+    residual = law_residual(solution.forces, solution.displacement, problem.gap, problem.slip_before, friction)
+    assert residual["penetration"] <= 1e-7
+    assert residual["tension"] == 0.0
+    assert residual["force_across_gap"] <= 1e-10 * scale
+    assert residual["cone_excess"] <= 1e-10 * scale
+    assert residual["stick_slip"] <= 1e-10
+    n = len(problem.gap)
+    slip = solution.displacement[n:] + problem.slip_before
+    slipping = (solution.status == SLIP_FORWARD) | (solution.status == SLIP_BACKWARD)
+    assert np.all(solution.forces[n:][slipping] * slip[slipping] >= -1e-10 * scale)
+
+
+def test_frictional_step_against_enumeration_of_all_sets():
+    """Brute force: of all 4^4 sets the solution is one that satisfies every law; with small friction it is the only one."""
+    for seed in range(12):
+        problem = random_problem(seed, nodes=4, friction=0.05)
+        found = []
+        for sets in itertools.product((OPEN, SLIP_FORWARD, SLIP_BACKWARD, STICK), repeat=4):
+            status = np.array(sets, dtype=np.int8)
+            forces, q = np.zeros(8), np.zeros(3)
+            solve_sets(
+                problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap,
+                problem.slip_before, problem.friction, status, forces, q,
+            )  # fmt: skip
+            u = problem.rigid @ q - problem.compliance @ forces
+            residual = law_residual(forces, u, problem.gap, problem.slip_before, problem.friction)
+            slip = u[4:] + problem.slip_before
+            # law_residual calls "inside the cone" sticking; sets of zero force are told apart by the slip's sign.
+            if max(residual.values()) < 1e-9 and np.all(forces[4:] * slip >= -1e-9):
+                found.append(forces)
+        solution = solve_step(problem, all_open(problem))
+        assert found
+        assert all(solution.forces == pytest.approx(forces, abs=1e-6) for forces in found)
+
+
+def test_projections_hold_at_a_solution():
+    """[24], [25]: a solution is a fixed point of the projections for any r."""
+    problem = random_problem(5, friction=0.2)
+    solution, n = solve_step(problem, all_open(problem)), 8
+    for r in (1e2, 1e5, 1e9):
+        for j in range(n):
+            slip = solution.displacement[n + j] + problem.slip_before[j]
+            p_n, p_t = project(
+                solution.forces[j], solution.forces[n + j], solution.displacement[j], problem.gap[j], slip, r, r, 0.2
+            )
+            assert p_n == pytest.approx(solution.forces[j], abs=1e-6)
+            assert p_t == pytest.approx(solution.forces[n + j], abs=1e-6)
+
+
+def test_warm_start_at_the_solution_takes_one_iteration():
+    """A set that repeats is the exact solution."""
+    problem = random_problem(3, friction=0.1)
+    solution = solve_step(problem, all_open(problem))
+    again = solve_step(problem, solution.status)
+    assert again.iterations == 1
+    assert np.array_equal(again.forces, solution.forces)
+
+
+def test_friction_tends_to_no_friction():
+    """Row 10: the difference to mu = 0 is O(mu)."""
+    plain = random_problem(7, friction=0.1)
+    frictionless = StepProblem(
+        plain.stiffness, plain.load, plain.compliance[:8, :8], plain.rigid[:8], plain.gap, np.empty(0), 0.0, False, plain.tolerance
+    )
+    reference = solve_step(frictionless, all_open(frictionless)).forces
+    scale = np.abs(reference).max()
+    for friction in (1e-2, 1e-4, 1e-6, 1e-12):
+        problem = StepProblem(**{**plain.__dict__, "friction": friction})
+        difference = np.abs(solve_step(problem, all_open(problem)).forces[:8] - reference).max()
+        assert difference <= 20.0 * friction * scale + 1e-12 * scale
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e-3, 1e3, 1e6])
+def test_result_does_not_depend_on_r(scale):
+    """Row 11: r scaled by 1e-6 ... 1e6 gives the same solution, or another rung takes over."""
+    problem = random_problem(11, friction=0.1)
+    expected = solve_step(problem, all_open(problem))
+    (outcome, _, forces, *_), _ = run_newton(problem, all_open(problem), 40, r_scale=scale)
+    if outcome == CONVERGED:
+        assert forces == pytest.approx(expected.forces, rel=1e-9, abs=1e-9)
+    else:
+        assert solve_step(problem, all_open(problem)).forces == pytest.approx(expected.forces)
+
+
+def reversing_problem():
+    """Four equal nodes on one soft sideways spring, rigid slip reversing between them: the pitch point's situation."""
+    n = 4
+    return StepProblem(
+        stiffness=np.diag([1e5, 1e5]),
+        load=np.array([1e4, 0.0]),
+        compliance=np.diag([4e-6] * n + [3e-6] * n),
+        rigid=np.array([[1.0, 0.0]] * n + [[0.0, 1.0]] * n),
+        gap=np.zeros(n),
+        slip_before=np.array([-2e-3, -1e-3, 1e-3, 2.2e-3]),
+        friction=0.3,
+        keep_one=False,
+        tolerance=Tolerance.of_load(1e4),
+    )
+
+
+def test_slip_that_reverses_all_at_once_needs_the_ladder():
+    """The usual cycle (hard cases, known from measurements): plain Newton repeats its sets, a rung of the ladder solves it."""
+    problem = reversing_problem()
+    start = np.full(4, SLIP_FORWARD, dtype=np.int8)
+    (outcome, *_), _ = run_newton(problem, start, 40)
+    assert outcome != CONVERGED
+    solution = solve_step(problem, start)
+    assert solution.rung > 0
+    residual = law_residual(solution.forces, solution.displacement, problem.gap, problem.slip_before, 0.3)
+    assert max(residual.values()) <= 1e-9
+    for rule in (THROUGH_STICK, ONE_AT_A_TIME):
+        (outcome, _, forces, *_), _ = run_newton(problem, start, 400, rule=rule)
+        if outcome == CONVERGED:
+            assert forces == pytest.approx(solution.forces, abs=1e-8)
+
+
+def test_no_equilibrium_is_a_typed_error_with_its_history():
+    """A load that pulls the flanks apart, held by nothing else: named, with residuals and sets of every rung."""
+    problem = StepProblem(
+        stiffness=np.zeros((1, 1)),
+        load=np.array([-100.0]),
+        compliance=1e-6 * np.eye(2),
+        rigid=np.ones((2, 1)),
+        gap=np.zeros(2),
+        slip_before=np.empty(0),
+        friction=0.0,
+        keep_one=True,
+        tolerance=Tolerance.of_load(100.0),
+    )
+    with pytest.raises(ContactNotConverged, match="no static equilibrium") as failure:
+        solve_step(problem, np.array([SLIP_FORWARD, OPEN], dtype=np.int8))
+    assert "tension 1e+02 N" in str(failure.value)
+    assert failure.value.attempts[0][2].shape[1] == 5
+
+
+def test_all_gaps_open_is_free_motion():
+    """Row 18: without contact p = 0 and q = K^-1 F exactly."""
+    problem = random_problem(2)
+    problem = StepProblem(**{**problem.__dict__, "gap": np.full(8, 10.0)})
+    solution = solve_step(problem, all_open(problem))
+    assert np.all(solution.forces == 0.0)
+    assert solution.coordinates == pytest.approx(np.linalg.solve(problem.stiffness, problem.load), rel=1e-13)
+
+
+def test_one_contact_node_is_exact():
+    """Row 19: one node, one coordinate: p = (F/k - g)/(1/k + c)."""
+    problem = StepProblem(
+        stiffness=np.array([[2e5]]),
+        load=np.array([5e3]),
+        compliance=np.array([[3e-6]]),
+        rigid=np.ones((1, 1)),
+        gap=np.array([0.01]),
+        slip_before=np.empty(0),
+        friction=0.0,
+        keep_one=False,
+        tolerance=Tolerance.of_load(5e3),
+    )
+    solution = solve_step(problem, all_open(problem))
+    assert solution.forces[0] == pytest.approx((5e3 / 2e5 - 0.01) / (1 / 2e5 + 3e-6), rel=1e-13)

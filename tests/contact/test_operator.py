@@ -1,0 +1,129 @@
+"""Contact operators: symmetry, reciprocity, rigid motions, against dense products and the step before."""
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.compliance_product import directions
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_positions, tooth_span
+from fenics_gears.contact.window import ContactGrid
+
+GRID = ContactGrid(length=2.5, nodes=26)
+STEPS = 12
+ALL = list(range(7))
+
+
+@pytest.fixture(scope="module")
+def cycle(stand_in_flanks):
+    return MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=True)
+
+
+@pytest.mark.parametrize("step", range(0, STEPS, 3))
+def test_compliance_is_symmetric_positive_definite(cycle, step):
+    """Betti's theorem, and elastic energy is positive."""
+    compliance = cycle.position(step).operator.compliance
+    assert np.abs(compliance - compliance.T).max() <= 1e-13 * np.abs(compliance).max()
+    assert np.linalg.eigvalsh(compliance).min() > 0.0
+
+
+def test_compliance_equals_the_dense_product(cycle):
+    """Brute force: the sum over both gears of N R A R^T N^T with full matrices, teeth coupled by their distance."""
+    operator = cycle.position(1).operator
+    n = operator.nodes
+    expected = np.zeros((2 * n, 2 * n))
+    for gear, compliance in enumerate(cycle.flanks.compliance):
+        rows = []
+        for pair in operator.pairs:
+            axes = directions(pair.contact_roll[gear], True)
+            weights = pair.interpolation[gear].weights
+            rows.append([np.kron(weights, axis) for axis in axes])
+        for a, pair_a in enumerate(operator.pairs):
+            for b, pair_b in enumerate(operator.pairs):
+                ahead = (pair_a.index - pair_b.index) * (1 if gear == 0 else -1)
+                block = compliance.block(ahead) / cycle.flanks.pair.face_width
+                for d in range(2):
+                    for e in range(2):
+                        first = d * n + np.searchsorted(operator.node_pair, pair_a.index)
+                        second = e * n + np.searchsorted(operator.node_pair, pair_b.index)
+                        part = rows[a][d] @ block @ rows[b][e].T
+                        expected[first : first + len(part), second : second + part.shape[1]] += part
+    assert len(operator.pairs) >= 2
+    assert operator.compliance == pytest.approx(expected, rel=1e-11, abs=1e-11 * np.abs(expected).max())
+
+
+def test_gap_is_second_order_beside_the_line_of_action(cycle, paper_pair):
+    """Literature: two cylinders of the flanks' radii, g = y^2/2 (1/xi + 1/(L - xi)) near the contact point."""
+    pair = cycle.position(6).operator.pairs[0]
+    xi = pair.contact_roll[0] * paper_pair.pinion.base_radius
+    near = np.abs(pair.offsets) < 0.35
+    curvature = 1.0 / xi + 1.0 / (paper_pair.line_of_action_length - xi)
+    averaged = 0.5 * curvature * (pair.offsets**2 + GRID.spacing**2 / 6.0)
+    assert pair.gap[near] == pytest.approx(averaged[near], rel=0.05)
+
+
+def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_pair):
+    """Exact: turned back by one step, a rigid rotation moves the points by omega x r at their earlier place."""
+    operator = cycle.position(5).operator
+    advance = paper_pair.pinion.angular_pitch / STEPS
+    for pair, arm, radius, sign, column, turn in (
+        (paper_pair.pinion, 0, paper_pair.pinion.base_radius, -1.0, 2, advance),
+        (paper_pair.wheel, 1, paper_pair.wheel.base_radius, 1.0, 5, -advance * paper_pair.rotation_ratio),
+    ):
+        offsets = np.concatenate([p.offsets for p in operator.pairs])
+        now = operator.arms[arm] - 1j * (radius + sign * offsets)
+        earlier = now * np.exp(-1j * turn)
+        assert operator.previous_rigid[:, column] * radius == pytest.approx(earlier.real, rel=1e-12)
+
+
+def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks):
+    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_rigid to those of G, to first order."""
+    differences = []
+    for steps in (2000, 4000):
+        fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True)
+        operator = fine.position(3 * steps // 5).operator
+        n = operator.nodes
+        before = fine.position(3 * steps // 5 - 1).operator
+        assert before.nodes == n
+        differences.append(
+            (
+                np.abs(operator.previous_compliance - operator.compliance[n:]).max() / np.abs(operator.compliance).max(),
+                np.abs(operator.previous_rigid - operator.rigid[n:]).max(),
+            )
+        )
+    coarse, fine = np.array(differences)
+    assert np.all(fine < 0.01)
+    assert coarse / fine == pytest.approx([2.0, 2.0], rel=0.1)
+
+
+def test_frictionless_operators_have_no_tangential_rows(stand_in_flanks):
+    """An effect that the scene does not name adds no unknowns and no arrays."""
+    operator = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False).position(4).operator
+    assert operator.compliance.shape == (operator.nodes, operator.nodes)
+    assert operator.sliding is None and operator.previous_compliance is None and operator.previous_rigid is None
+
+
+def test_normal_rows_are_the_same_with_and_without_friction(stand_in_flanks, cycle):
+    """Exact: friction adds rows, it does not change those of the normals."""
+    plain = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False).position(4).operator
+    full = cycle.position(4).operator
+    n = plain.nodes
+    assert full.compliance[:n, :n] == pytest.approx(plain.compliance, rel=1e-13)
+    assert np.array_equal(full.gap, plain.gap)
+
+
+def test_sliding_vanishes_at_the_pitch_point(cycle, paper_pair):
+    """Definition of the pitch point: rigid sliding is zero there and of opposite sign on either side."""
+    for step in range(STEPS):
+        operator = cycle.position(step).operator
+        arm = operator.arms[0]
+        expected = np.sign(arm - paper_pair.pitch_point)
+        clear = np.abs(arm - paper_pair.pitch_point) > 0.1
+        assert np.array_equal(np.sign(operator.sliding[clear]), expected[clear])
+
+
+def test_every_pair_that_can_carry_is_there(paper_pair):
+    """contact ratio 1.47: one to three windows open at any phase, and neighbours differ by one base pitch."""
+    for phase in np.linspace(0.0, 0.99, 34):
+        positions = pair_positions(paper_pair, GRID, phase)
+        assert 1 <= len(positions) <= 3
+        assert np.diff([xi for _, xi in positions]) == pytest.approx(paper_pair.base_pitch)
+    assert tooth_span(paper_pair, GRID, 20) >= 2

@@ -1,0 +1,47 @@
+"""The contact grid: nodes on the edges of the flanks, none lost where the load is."""
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.window import ContactGrid, flank_limits, node_offsets
+from fenics_gears.geometry.involute import flank_point
+
+GRID = ContactGrid(length=3.0, nodes=61)
+
+
+def test_middle_of_the_path_has_the_whole_window(paper_pair):
+    """Far from both tips the window is the one asked for: 61 nodes over 3 mm."""
+    offsets = node_offsets(paper_pair, paper_pair.pitch_point, GRID)
+    assert offsets == pytest.approx(np.linspace(-1.5, 1.5, 61), abs=1e-12)
+
+
+@pytest.mark.parametrize("shift", [-0.9, -0.3, 0.0, 0.2, 0.4])
+def test_a_node_sits_on_the_tip_that_cuts_the_window(paper_pair, shift):
+    """Exact: at the start of contact the wheel's tip circle, at the end the pinion's, passes through the last node."""
+    wheel, pinion = paper_pair.wheel, paper_pair.pinion
+    xi = paper_pair.path_start + shift
+    last = node_offsets(paper_pair, xi, GRID)[-1]
+    x, _ = flank_point(wheel.base_radius, wheel.tip_roll_angle, paper_pair.wheel_roll_angle(xi))
+    assert np.hypot(x, wheel.base_radius + last) == pytest.approx(wheel.tip_radius, rel=1e-12)
+    xi = paper_pair.path_end + shift
+    first = node_offsets(paper_pair, xi, GRID)[0]
+    x, _ = flank_point(pinion.base_radius, pinion.tip_roll_angle, paper_pair.pinion_roll_angle(xi))
+    assert np.hypot(x, pinion.base_radius - first) == pytest.approx(pinion.tip_radius, rel=1e-12)
+
+
+def test_tips_pass_the_line_of_action_at_the_ends_of_the_path(paper_pair):
+    """Definition of the path of contact: there the tip lies on the line of action itself."""
+    assert flank_limits(paper_pair, paper_pair.path_start)[1] == pytest.approx(0.0, abs=1e-12)
+    assert flank_limits(paper_pair, paper_pair.path_end)[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_grid_moves_continuously_with_the_position(paper_pair):
+    """A small move of the contact point moves the node at the edge by as much: nothing jumps where the load is."""
+    positions = paper_pair.path_start + np.linspace(-1.0, 1.5, 2001)
+    edges = np.array([node_offsets(paper_pair, xi, GRID)[-1] for xi in positions])
+    assert np.abs(np.diff(edges)).max() < 2.0 * (positions[1] - positions[0])
+
+
+def test_far_pairs_have_no_nodes(paper_pair):
+    """Beyond the reach of its tip a pair cannot touch."""
+    assert len(node_offsets(paper_pair, paper_pair.path_start - 8.0, GRID)) == 0

@@ -1,0 +1,140 @@
+"""The march through time: order, start, free flight, against exact solutions."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from fenics_gears.contact.laws import SLIP_FORWARD
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.average_acceleration import State
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.march import Marcher, Record
+
+GRID = ContactGrid(length=1.5, nodes=20)
+
+
+class Frozen:
+    """Gears that do not roll: the same position at every step."""
+
+    def __init__(self, cycle, step):
+        self._position = cycle.position(step)
+        self.steps = cycle.steps
+
+    def position(self, step):
+        return replace(self._position, carried_from=np.arange(self._position.operator.nodes))
+
+
+def frozen_marcher(scene, pair, flanks, step, phase_step=60):
+    shafts = drivetrain(scene, pair)
+    cycle = MeshCycle(flanks, GRID, 100, shafts.indices, tangential=False)
+    return Marcher(Frozen(cycle, phase_step), shafts, step, 0.0), shafts
+
+
+def frictionless(scene, **changes):
+    return replace(scene, friction=None, **changes)
+
+
+def test_tied_contact_follows_the_exact_modal_solution_with_order_two(paper_scene, paper_pair, stand_in_flanks):
+    """Exact solution: while the closed nodes stay closed the system is linear; the matrix exponential solves it."""
+    scene = frictionless(paper_scene)
+    duration, errors = 4e-3, []
+    for steps in (100, 200, 400):
+        marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, duration / steps)
+        rest = marcher.start()
+        closed = np.flatnonzero(rest.solution.status == SLIP_FORWARD)
+        # A push along a mode that the contact resists, small enough that no node changes its status.
+        push = np.zeros(len(shafts.coordinates))
+        push[shafts.coordinates.index("rotation_1")] = 0.2
+        record = Record(0, State(rest.state.position, push, -np.linalg.solve(shafts.mass, shafts.damping @ push)), rest.position, rest.solution)
+        for step in range(1, steps + 1):
+            record = marcher.step(marcher.dynamic, record, step)
+            assert np.array_equal(np.flatnonzero(record.solution.status == SLIP_FORWARD), closed)
+        operator = rest.position.operator
+        rigid = operator.rigid[closed]
+        contact = rigid.T @ np.linalg.solve(operator.compliance[np.ix_(closed, closed)], rigid)
+        k = len(push)
+        inverse = np.linalg.inv(shafts.mass)
+        system = np.block([[np.zeros((k, k)), np.eye(k)], [-inverse @ (shafts.stiffness + contact), -inverse @ shafts.damping]])
+        exact = expm(system * duration) @ np.concatenate([np.zeros(k), push])
+        errors.append(np.abs(record.state.position - rest.state.position - exact[:k]).max() / np.abs(exact[:k]).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders == pytest.approx([2.0, 2.0], abs=0.1)
+
+
+def test_start_is_equilibrium(paper_scene, paper_pair, stand_in_flanks):
+    """Exact: gears that do not roll, started from static equilibrium, stay where they are."""
+    marcher, _ = frozen_marcher(frictionless(paper_scene), paper_pair, stand_in_flanks, 1e-4)
+    start = marcher.start()
+    record = start
+    for step in range(1, 50):
+        record = marcher.step(marcher.dynamic, record, step)
+    assert record.state.position == pytest.approx(start.state.position, rel=1e-9, abs=1e-12)
+    assert np.abs(record.state.velocity).max() <= 1e-7
+
+
+def test_undamped_tied_motion_keeps_its_energy(paper_scene, paper_pair, stand_in_flanks):
+    """Exact: average acceleration conserves the energy of a linear system, here with all nodes staying closed."""
+    scene = frictionless(paper_scene, damping=None)
+    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
+    rest = marcher.start()
+    push = np.zeros(len(shafts.coordinates))
+    push[shafts.coordinates.index("rotation_1")] = 0.2
+    record = Record(0, State(rest.state.position, push, 0.0 * push), rest.position, rest.solution)
+
+    def energy(record):
+        forces, compliance = record.solution.forces, record.position.operator.compliance
+        gap_work = 0.5 * forces @ compliance @ forces
+        x, v = record.state.position, record.state.velocity
+        return 0.5 * v @ shafts.mass @ v + 0.5 * x @ shafts.stiffness @ x + gap_work - shafts.load @ x
+
+    first = energy(record)
+    kinetic = 0.5 * push @ shafts.mass @ push
+    # q'' at the start is not zero once pushed: one step settles it, then energy stands still.
+    energies = []
+    for step in range(1, 2001):
+        record = marcher.step(marcher.dynamic, record, step)
+        energies.append(energy(record))
+    assert np.abs(np.array(energies) - first).max() <= 1e-9 * max(kinetic, abs(first))
+
+
+def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks):
+    """Row 18: thrown apart, without springs or damping, the wheel flies at constant acceleration C/J and no force acts."""
+    scene = frictionless(paper_scene, damping=None, shafts=None, bearings=None)
+    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-5)
+    start = marcher.start()
+    free = float(shafts.load[0] / shafts.mass[0, 0])
+    thrown = State(start.state.position - 5.0, np.array([-50.0]), np.array([free]))
+    record = Record(0, thrown, start.position, replace(start.solution, status=np.zeros_like(start.solution.status)))
+    for step in range(1, 101):
+        record = marcher.step(marcher.dynamic, record, step)
+        assert np.all(record.solution.forces == 0.0)
+    t = 1e-3
+    assert record.state.position[0] == pytest.approx(thrown.position[0] - 50.0 * t + 0.5 * free * t**2, rel=1e-11)
+
+
+def test_low_mesh_frequency_tends_to_the_quasi_static_solution(paper_scene, paper_pair, stand_in_flanks):
+    """Row 23: at 0.01 Hz the dynamic solution is the quasi-static one to 1e-6."""
+    results = []
+    for scene in (frictionless(paper_scene), frictionless(paper_scene, inertia=None, damping=None)):
+        shafts = drivetrain(scene, paper_pair)
+        cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
+        march = Marcher(cycle, shafts, 1.0 / (0.01 * 50), 0.0).run(100, 50)
+        results.append(np.array([shafts.value(record.state.position, "rotation_2") for record in march.records]))
+    assert results[0] == pytest.approx(results[1], rel=1e-6)
+
+
+def test_ctrl_c_keeps_what_was_done(paper_scene, paper_pair, stand_in_flanks):
+    """A march that is interrupted returns its records so far, marked."""
+    scene = frictionless(paper_scene)
+    shafts = drivetrain(scene, paper_pair)
+    cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
+
+    def interrupt(done, total):
+        raise KeyboardInterrupt
+
+    march = Marcher(cycle, shafts, 1e-4, 0.0).run(100, 0, interrupt)
+    assert march.interrupted
+    assert 1 <= len(march.records) <= 3
