@@ -1,0 +1,297 @@
+"""The command line: exit codes, what is written when, and how progress is told.
+
+The simulation is replaced by one that returns at once: what is under test is what the commands do with its outcomes.
+"""
+
+import io
+import os
+import subprocess
+import sys
+import time
+import types
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import fenics_gears
+from fenics_gears import progress, results
+from fenics_gears.cli import main
+from fenics_gears.errors import ComputationError
+
+CHECKOUT = Path(__file__).parents[1]
+DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
+
+
+def small_result(complete=1):
+    """A result of three steps, as far as the command line looks at it."""
+    steps = ("time",)
+    return xr.Dataset(
+        {"transmission_error": (steps, np.array([0.0, 1e-4, 2e-4])), "newton_iterations": (steps, np.array([2, 3, 4]))},
+        attrs={
+            "complete": complete,
+            "scene": DEMO.read_text(encoding="utf-8"),
+            "mean_transmission_error": 5e-5,
+            "peak_to_peak_transmission_error": 2e-4,
+            "base_radius_wheel": 50.0,
+            "time_mesh": 1.25,
+            "time_march": 2.5,
+        },
+    )
+
+
+@pytest.fixture
+def simulation(monkeypatch, tmp_path):
+    """A module in the place of the simulation, whose ``outcome`` is returned or raised; the test runs in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    stand_in = types.ModuleType("fenics_gears.simulation")
+    stand_in.outcome, stand_in.calls = small_result(), []
+
+    def simulate(scene, *, progress=None):
+        stand_in.calls.append(scene)
+        progress.stage("march")
+        progress.update(1, 3)
+        if isinstance(stand_in.outcome, BaseException):
+            raise stand_in.outcome
+        return stand_in.outcome
+
+    def describe(scene):
+        return types.SimpleNamespace(sections=[("Pair", [("contact ratio", 1.4712345, ""), ("base pitch", 13.284, "mm")])])
+
+    stand_in.simulate, stand_in.describe = simulate, describe
+    plots = types.ModuleType("fenics_gears.show.plots")
+
+    def draw_run(dataset, directory):
+        picture = Path(directory) / "transmission_error.png"
+        picture.write_bytes(b"picture")
+        return [picture]
+
+    plots.draw_run = draw_run
+    monkeypatch.setitem(sys.modules, "fenics_gears.simulation", stand_in)
+    monkeypatch.setitem(sys.modules, "fenics_gears.show.plots", plots)
+    return stand_in
+
+
+def files(directory):
+    """The names of all files below a directory, hidden ones too."""
+    return sorted(str(each.relative_to(directory)) for each in Path(directory).rglob("*") if each.is_file())
+
+
+def test_a_run_writes_its_result_and_pictures(simulation, capsys, tmp_path):
+    """Authority: design.md; the directory defaults to results/<name of the scene file>."""
+    assert main(["run", str(DEMO)]) == 0
+    assert files(tmp_path) == ["results/lundvall2004/run.nc", "results/lundvall2004/transmission_error.png"]
+    assert results.load(tmp_path / "results/lundvall2004/run.nc").attrs["complete"] == 1
+    output = capsys.readouterr()
+    assert "results/lundvall2004/run.nc" in output.out
+    assert "march: " in output.err
+
+
+def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation, capsys):
+    """Authority: identity; 5e-5 rad on a base radius of 50 mm are 2.5 um, 2e-4 rad are 10 um."""
+    main(["run", str(DEMO)])
+    lines = {line.split("  ")[1]: line for line in capsys.readouterr().out.splitlines() if line.startswith("  ")}
+    assert lines["transmission error, mean"].endswith("5e-05 rad = 2.5 um")
+    assert lines["transmission error, peak to peak"].endswith("0.0002 rad = 10 um")
+    assert lines["Newton iterations a step"].endswith("3.00 on average, 4 at most")
+    assert lines["marching through time"].endswith("2.50 s")
+
+
+def test_quiet_says_nothing(simulation, capsys, tmp_path):
+    """Authority: the option's own description."""
+    assert main(["run", str(DEMO), "--quiet", "--output", "here"]) == 0
+    assert capsys.readouterr() == ("", "")
+    assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
+
+
+def test_ctrl_c_keeps_what_was_done(simulation, capsys, tmp_path):
+    """Authority: design.md; marked incomplete, exit code 130."""
+    simulation.outcome = small_result(complete=0)
+    assert main(["run", str(DEMO), "--output", "here"]) == 130
+    assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 0
+    assert "marked incomplete: here/run.nc" in capsys.readouterr().err
+
+
+def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_path):
+    """Authority: design.md; there is nothing to keep."""
+    simulation.outcome = KeyboardInterrupt()
+    assert main(["run", str(DEMO), "--output", "here"]) == 130
+    assert files(tmp_path) == []
+    assert "Interrupted" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("partial", [True, False])
+def test_a_failed_computation_keeps_what_was_done(simulation, capsys, tmp_path, partial):
+    """Authority: design.md; exit code 3, what was done is kept, marked incomplete."""
+    simulation.outcome = ComputationError("no convergence in step 17")
+    simulation.outcome.partial = small_result(complete=0) if partial else None
+    assert main(["run", str(DEMO), "--output", "here"]) == 3
+    error = capsys.readouterr().err
+    assert "no convergence in step 17" in error
+    assert files(tmp_path) == (["here/run.nc"] if partial else [])
+    assert ("marked incomplete: here/run.nc" in error) == partial
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "fragments"),
+    [
+        ('tip_diameter = "82.64 mm"', 'tip_diameter = "62.64 mm"', ["pinion"]),
+        ('centre_distance = "91.5 mm"', 'centre_distance = "95.5 mm"', ["contact ratio"]),
+        ("\n[accuracy]", '\n[tip_relief.pinion]\ndepth = "31 um"\nstart = "300 deg"\n[accuracy]', ["pinion", "300"]),
+    ],
+)
+def test_impossible_gears_are_refused_before_anything_is_computed_or_written(simulation, capsys, tmp_path, old, new, fragments):
+    """Authority: design.md; exit code 2, the file is named, nothing written."""
+    text = DEMO.read_text(encoding="utf-8")
+    assert old in text
+    Path("pair.toml").write_text(text.replace(old, new), encoding="utf-8")
+    assert main(["run", "pair.toml"]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("pair.toml: ")
+    for fragment in fragments:
+        assert fragment in error
+    assert simulation.calls == []
+    assert files(tmp_path) == ["pair.toml"]
+
+
+def test_an_output_that_is_a_file_is_refused_before_the_computation(simulation, capsys, tmp_path):
+    """Authority: issue 2, wrong input is refused before any computation."""
+    Path("here").write_text("mine")
+    assert main(["run", str(DEMO), "--output", "here/there"]) == 2
+    assert "is a file" in capsys.readouterr().err
+    assert simulation.calls == []
+    assert Path("here").read_text() == "mine"
+
+
+def test_a_result_that_cannot_be_written_leaves_the_old_one(simulation, monkeypatch, capsys, tmp_path):
+    """Authority: hard case 27, full disk; never a half-written result under its final name."""
+    assert main(["run", str(DEMO), "--output", "here"]) == 0
+    before = (tmp_path / "here/run.nc").read_bytes()
+
+    def save_half(dataset, path):
+        Path(path).write_bytes(before[:100])
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(results, "save", save_half)
+    assert main(["run", str(DEMO), "--output", "here"]) == 3
+    assert "No space left on device" in capsys.readouterr().err
+    assert (tmp_path / "here/run.nc").read_bytes() == before
+    assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
+
+
+def test_plot_draws_a_run_again(simulation, capsys, tmp_path):
+    """Authority: design.md; RUN is the directory or the file."""
+    main(["run", str(DEMO), "--output", "here", "--quiet"])
+    for run in ("here", "here/run.nc"):
+        Path("here/transmission_error.png").unlink()
+        assert main(["plot", run]) == 0
+        assert capsys.readouterr().out.split() == ["here/transmission_error.png"]
+        assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
+
+
+@pytest.mark.parametrize("content", [None, b"no result"])
+def test_plot_of_something_else_is_refused(simulation, capsys, tmp_path, content):
+    """Authority: design.md; exit code 2 for a wrong call."""
+    if content is not None:
+        Path("run.nc").write_bytes(content)
+    assert main(["plot", "run.nc"]) == 2
+    assert "run.nc" in capsys.readouterr().err
+
+
+def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, capsys, tmp_path):
+    """Authority: design.md; effects on and off with what each adds."""
+    assert main(["check", str(DEMO)]) == 0
+    output = capsys.readouterr().out
+    assert "  contact ratio  1.47123\n" in output
+    assert "  base pitch     13.284 mm\n" in output
+    lines = {line.split()[0]: line for line in output.splitlines() if line.startswith("  ")}
+    assert " on " in lines["friction"] and "pair_friction_force" in lines["friction"]
+    assert " off " in lines["tip_relief"] and "true involutes" in lines["tip_relief"]
+    assert simulation.calls == []
+    assert files(tmp_path) == []
+
+
+@pytest.mark.parametrize("arguments", [[], ["study", "x.toml"], ["run"], ["run", "x.toml", "--fast"], ["run", "x.toml", "-v", "-q"]])
+def test_a_wrong_call_has_exit_code_2(arguments, capsys):
+    """Authority: design.md's exit codes; commands that come later are not offered."""
+    with pytest.raises(SystemExit) as leaving:
+        main(arguments)
+    assert leaving.value.code == 2
+    assert "usage: gears" in capsys.readouterr().err
+
+
+def test_version(capsys):
+    """Authority: the package's version."""
+    with pytest.raises(SystemExit) as leaving:
+        main(["--version"])
+    assert leaving.value.code == 0
+    assert capsys.readouterr().out == f"gears {fenics_gears.__version__}\n"
+
+
+def test_help_loads_neither_numerics_nor_the_schema():
+    """Authority: issue 2, help at once; what is not loaded takes no time."""
+    program = (
+        "import sys, fenics_gears.cli as cli\n"
+        "try: cli.main(['--help'])\n"
+        "except SystemExit: pass\n"
+        "print(sorted({'numpy', 'pydantic', 'pint', 'rich', 'xarray', 'dolfinx', 'numba'} & set(sys.modules)))"
+    )
+    run = subprocess.run([sys.executable, "-c", program], cwd=CHECKOUT, capture_output=True, text=True, check=True)
+    assert run.stdout.splitlines()[-1] == "[]"
+    assert "check" in run.stdout and "plot" in run.stdout
+
+
+def test_the_test_command_runs_pytest_on_the_checkout(tmp_path):
+    """Authority: design.md; options go to pytest, paths count from the checkout."""
+    environment = {**os.environ, "PYTHONPATH": str(CHECKOUT)}
+    call = [sys.executable, "-m", "fenics_gears", "test", "--collect-only", "-q"]
+    run = subprocess.run([*call, "tests/scene/test_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert run.returncode == 0
+    assert "test_effects.py" in run.stdout and "test_cli.py" not in run.stdout
+
+
+class Clock:
+    """A clock that is set by hand."""
+
+    now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
+    """Authority: identity; a fifth done after 6 s leaves 24 s at the same pace."""
+    clock, stream = Clock(), io.StringIO()
+    lines = progress.LineProgress(stream, interval=5.0, clock=clock)
+    lines.stage("march")
+    for tenth in range(101):
+        clock.now = 0.1 * tenth * 3
+        lines.update(tenth, 100)
+    lines.close()
+    told = stream.getvalue().splitlines()
+    assert told[0] == "march: 17 of 100 (17 %) after 5.1 s, about 25 s left"
+    assert len(told) == 6
+    assert told[-1] == "march: 30 s"
+
+
+def test_progress_costs_nothing_to_speak_of():
+    """Authority: order of magnitude; 20 updates a second of 0.1 ms each are 0.2 % of the time."""
+    lines = progress.LineProgress(io.StringIO())
+    lines.stage("march")
+    begun = time.perf_counter()
+    for done in range(1000):
+        lines.update(done, 1000)
+    assert time.perf_counter() - begun < 0.1
+
+
+def test_a_bar_stops_where_the_work_stopped():
+    """Authority: issue 2; an interrupted run must not look finished."""
+    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
+    bar = progress.BarProgress(console)
+    bar.stage("condense pinion")
+    bar.stage("march")
+    bar.update(30, 100)
+    bar.close()
+    last = console.file.getvalue().rpartition("march")[2]
+    assert "30/100" in last and "100/100" not in last
