@@ -34,13 +34,13 @@ def refuse(name: str, message: str) -> NoReturn:
 def _check_numbers(gear: Gear, name: str) -> None:
     positive = {
         "gears.module": gear.module,
-        f"gears.{name}.tip_diameter": gear.tip_radius,
-        f"gears.{name}.root_diameter": gear.root_radius,
-        f"gears.{name}.bore_diameter": gear.bore_radius,
+        f"gears.{name}.tip_diameter": 2.0 * gear.tip_radius,
+        f"gears.{name}.root_diameter": 2.0 * gear.root_radius,
+        f"gears.{name}.bore_diameter": 2.0 * gear.bore_radius,
     }
     for field, value in positive.items():
         if not (isfinite(value) and value > 0.0):
-            refuse(name, f"{field} must be a positive length, not {value}")
+            refuse(name, f"{field} must be a positive length, not {value:.6g} mm")
     if gear.teeth != int(gear.teeth) or gear.teeth < 3:
         refuse(name, f"{gear.teeth} teeth; at least 3 are needed: change gears.{name}.teeth")
     if not 0.0 < gear.pressure_angle < 0.25 * pi:
@@ -48,11 +48,13 @@ def _check_numbers(gear: Gear, name: str) -> None:
     if not isfinite(gear.profile_shift):
         refuse(name, f"gears.{name}.profile_shift must be a finite number, not {gear.profile_shift}")
     if not (isfinite(gear.rack_tip_radius) and gear.rack_tip_radius >= 0.0):
-        refuse(name, f"gears.{name}.rack_tip_radius must be zero or a positive number, not {gear.rack_tip_radius}")
+        refuse(name, f"gears.{name}.rack_tip_radius must be zero or a positive number, not {gear.rack_tip_radius / gear.module:.4g}")
 
 
 def _check_circles(gear: Gear, name: str) -> None:
-    tip, root, bore, base = (2.0 * r for r in (gear.tip_radius, gear.root_radius, gear.bore_radius, gear.base_radius))
+    tip, root, bore, base = (
+        2.0 * radius for radius in (gear.tip_radius, gear.root_radius, gear.bore_radius, gear.base_radius)
+    )
     if tip <= root:
         refuse(
             name,
@@ -62,8 +64,8 @@ def _check_circles(gear: Gear, name: str) -> None:
     if tip <= base:
         refuse(
             name,
-            f"no flank: tip diameter {tip:.6g} mm, base circle {base:.6g} mm, and the involute exists outside the base circle only: "
-            f"raise gears.{name}.tip_diameter, or check gears.module and gears.{name}.teeth",
+            f"no flank: tip diameter {tip:.6g} mm, base circle {base:.6g} mm, and the involute exists outside the base "
+            f"circle only: raise gears.{name}.tip_diameter, or check gears.module and gears.{name}.teeth",
         )
     largest_bore = root - 2.0 * LEAST_RIM * gear.module
     if bore > largest_bore:
@@ -93,8 +95,8 @@ def _check_rack(gear: Gear, name: str) -> None:
     if gear.rack_tip_centre[0] < -ROUNDING:
         refuse(
             name,
-            f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / gear.module:.4g} modules, but the rack's "
-            f"tip has room for {gear.largest_rack_tip_radius / gear.module:.4g} (full radius) at this dedendum of "
+            f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / gear.module:.4g} modules, but "
+            f"the rack's tip has room for {gear.largest_rack_tip_radius / gear.module:.4g} (full radius) at this dedendum of "
             f"{gear.dedendum / gear.module:.4g} modules: lower gears.{name}.rack_tip_radius or raise gears.{name}.root_diameter",
         )
 

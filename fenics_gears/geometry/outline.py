@@ -53,7 +53,8 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
 
     parameter: (...), rad, angle of the rack rounding's normal from the tooth depth direction; 0 (root circle) to
     ``fillet_end`` (form circle). The point is cut when that normal passes through the pitch point, which is
-    ``l = rack_tip_radius + depth/cos(parameter)`` away (law of gearing, e.g. Litvin & Fuentes, Gear Geometry and Applied Theory, ch. 6).
+    ``l = rack_tip_radius + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied
+    Theory, ch. 6).
     """
     angle = np.asarray(parameter, dtype=float)
     distance = _distance_from_pitch_point(gear, angle)
@@ -89,8 +90,8 @@ def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
         )
     if gear.rack_tip_centre[0] < 0.0:
         raise GeometryError(
-            f"the fillets of neighbouring teeth overlap: the tip of the rack that cuts the gear with {gear.teeth} teeth has room for "
-            f"a radius of {gear.largest_rack_tip_radius:.4g} mm, not of {gear.rack_tip_radius:.4g} mm"
+            f"the fillets of neighbouring teeth overlap: the tip of the rack that cuts the gear with {gear.teeth} teeth "
+            f"has room for a radius of {gear.largest_rack_tip_radius:.4g} mm, not of {gear.rack_tip_radius:.4g} mm"
         )
     centreline = centreline_angle(gear)
     return ToothOutline(

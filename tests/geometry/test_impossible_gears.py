@@ -10,7 +10,10 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 
 IMPOSSIBLE = {
-    "undercut": ({"pinion.profile_shift": -0.2, "pinion.root_diameter": 58.9}, ["pinion: undercut", "58.9 mm", "gears.pinion.root_diameter"]),
+    "undercut": (
+        {"pinion.profile_shift": -0.2, "pinion.root_diameter": 58.9},
+        ["pinion: undercut", "58.9 mm", "gears.pinion.root_diameter"],
+    ),
     "pointed tip": ({"wheel.tip_diameter": 127.0}, ["wheel: pointed tip", "127 mm", "gears.wheel.tip_diameter"]),
     "no backlash": ({"centre_distance": 91.3}, ["pair: no backlash", "91.3 mm", "91.3697", "gears.centre_distance"]),
     "contact ratio": (
@@ -18,30 +21,42 @@ IMPOSSIBLE = {
         ["pair: contact ratio 0.8", "at least 1", "gears.pinion.tip_diameter"],
     ),
     "interference on the pinion": (
-        {"wheel.tip_diameter": 120.4, "pinion.root_diameter": 61.5, "wheel.root_diameter": 98.0, "pinion.rack_tip_radius": 0.25},
-        ["pinion: interference: the wheel's tip reaches its fillet", "deg", "gears.wheel.tip_diameter to"],
+        {"pinion.root_diameter": 64.2, "pinion.rack_tip_radius": 0.45},
+        [
+            "pinion: interference: the wheel's tip reaches its fillet",
+            *("7.115 deg", "8.139 deg", "gears.wheel.tip_diameter to 118.018 mm"),
+        ],
     ),
-    "interference on the wheel": (
-        {"pinion.tip_diameter": 85.0, "wheel.rack_tip_radius": 0.0},
-        ["wheel: interference: the pinion's tip reaches its fillet", "gears.pinion.tip_diameter to"],
+    "tip corner in the fillet": (
+        {"pinion.root_diameter": 63.6, "pinion.rack_tip_radius": 0.45},
+        ["pinion: interference: the wheel's tip corner cuts 0.04214 mm into its fillet", "gears.wheel.tip_diameter"],
     ),
     "tip in root": ({"wheel.tip_diameter": 120.8}, ["wheel: no tip clearance", "0.15 mm", "gears.pinion.root_diameter"]),
     "tip below root": ({"pinion.tip_diameter": 60.0}, ["pinion: no teeth", "60 mm", "62.5 mm", "gears.pinion.tip_diameter"]),
-    "tip below base circle": ({"pinion.tip_diameter": 67.0}, ["pinion: no flank", "67 mm", "67.6579 mm", "gears.pinion.tip_diameter"]),
-    "tip in the fillet": ({"wheel.tip_diameter": 102.5}, ["wheel: no involute", "102.5 mm", "102.643 mm", "gears.wheel.tip_diameter"]),
+    "tip below base circle": (
+        {"pinion.tip_diameter": 67.0},
+        ["pinion: no flank", "67 mm", "67.6579 mm", "gears.pinion.tip_diameter"],
+    ),
+    "tip in the fillet": (
+        {"wheel.tip_diameter": 102.5},
+        ["wheel: no involute", "102.5 mm", "102.643 mm", "gears.wheel.tip_diameter"],
+    ),
     "bore through the root": ({"wheel.bore_diameter": 98.0}, ["wheel: no rim", "98 mm", "96.57 mm", "gears.wheel.bore_diameter"]),
     "root above the pitch line": (
         {"pinion.root_diameter": 74.5, "pinion.tip_diameter": 90.0},
         ["pinion: no dedendum", "74.5 mm", "72 mm", "gears.pinion.profile_shift"],
     ),
-    "root far too deep": ({"pinion.root_diameter": 52.0}, ["pinion: dedendum too deep", "2.418 modules", "2.158", "gears.pinion.root_diameter"]),
+    "root far too deep": (
+        {"pinion.root_diameter": 52.0},
+        ["pinion: dedendum too deep", "2.418 modules", "2.158", "gears.pinion.root_diameter"],
+    ),
     "rack tip too round": (
         {"pinion.rack_tip_radius": 0.6},
         ["pinion: fillets of neighbouring teeth overlap", "0.6 modules", "0.471", "gears.pinion.rack_tip_radius"],
     ),
     "base circles overlap": ({"centre_distance": 84.0}, ["pair: centre distance 84 mm", "84.5723 mm", "gears.centre_distance"]),
     "not a number": ({"pinion.profile_shift": nan}, ["pinion: gears.pinion.profile_shift", "finite"]),
-    "negative bore": ({"wheel.bore_diameter": -1.0}, ["wheel: gears.wheel.bore_diameter", "positive"]),
+    "negative bore": ({"wheel.bore_diameter": -1.0}, ["wheel: gears.wheel.bore_diameter", "positive", "-1 mm"]),
     "two teeth": ({"pinion.teeth": 2}, ["pinion: 2 teeth", "at least 3", "gears.pinion.teeth"]),
     "pressure angle in degrees": ({"pressure_angle": 20.0}, ["gears.pressure_angle", "between 0 and 45 deg"]),
     "no face": ({"face_width": 0.0}, ["pair: gears.face_width", "positive"]),
@@ -70,11 +85,27 @@ def test_impossible_gears_are_named_as_what_they_are(paper_data, name):
         assert part in str(refused.value)
 
 
+def test_interference_on_the_wheel_is_that_of_swapped_gears(paper_data):
+    """Authority: symmetry: gears swapped, the same interference is found on the other gear, with the same numbers."""
+    shallow = replace(paper_data.pinion, root_diameter=64.2, rack_tip_radius=0.45)
+    with pytest.raises(GeometryError) as refused:
+        gear_pair(replace(paper_data, pinion=paper_data.wheel, wheel=shallow))
+    for part in ("wheel: interference: the pinion's tip reaches its fillet", "7.115 deg", "gears.pinion.tip_diameter to 118.018 mm"):
+        assert part in str(refused.value)
+
+
 def test_the_remedies_given_are_the_limits(paper_data):
     """Authority: what the messages promise: just beyond the named limit the pair is accepted, just short of it refused."""
     with pytest.raises(GeometryError, match="no backlash"):
         gear_pair(replace(paper_data, centre_distance=91.36968))
     assert gear_pair(replace(paper_data, centre_distance=91.36970)).backlash < 1e-5
+    shallow = changed(paper_data, {"pinion.root_diameter": 64.2, "pinion.rack_tip_radius": 0.45})
+    with pytest.raises(GeometryError, match="tip corner"):
+        gear_pair(changed(shallow, {"wheel.tip_diameter": 118.018}))
+    lowest_root = 62.0971
+    with pytest.raises(GeometryError, match=f"undercut.*{lowest_root} mm up"):
+        gear_pair(changed(paper_data, {"pinion.root_diameter": lowest_root - 1e-4, "pinion.rack_tip_radius": 0.25}))
+    gear_pair(changed(paper_data, {"pinion.root_diameter": lowest_root + 1e-4, "pinion.rack_tip_radius": 0.25}))
     tip = 2.0 * gear_pair(paper_data).wheel.pointed_radius
     assert tip > 118.64
     with pytest.raises(GeometryError, match="pointed tip"):
@@ -90,6 +121,6 @@ def test_touching_on_both_flanks_is_allowed(paper_data):
 def test_thin_tips_are_remarked_upon_not_refused(paper_data):
     """Authority: design practice (e.g. DIN 3960 / ISO 21771 recommend at least 0.2 modules); the paper's pair has 0.6."""
     assert design_warnings(gear_pair(paper_data)) == []
-    thin = gear_pair(changed(paper_data, {"pinion.tip_diameter": 86.0, "wheel.root_diameter": 96.0, "wheel.rack_tip_radius": 0.45}))
+    thin = gear_pair(changed(paper_data, {"pinion.tip_diameter": 86.0, "wheel.root_diameter": 96.0, "wheel.rack_tip_radius": 0.2}))
     (sentence,) = design_warnings(thin)
     assert sentence.startswith("pinion: thin tip") and "gears.pinion.tip_diameter" in sentence

@@ -121,7 +121,7 @@ def test_two_flanks_touch_on_the_line_of_action_with_their_relative_curvature(pa
         assert gap(paper_pair, position, 0.0) == pytest.approx(0.0, abs=1e-13)
         offsets = np.array([-0.2, -0.02, -0.002, 0.002, 0.02, 0.2])
         remainder = gap(paper_pair, position, offsets) - 0.5 * curvature * offsets**2
-        assert np.all(np.abs(remainder) < curvature**2 * np.abs(offsets) ** 3)
+        assert np.all(np.abs(remainder) < 2.0 * curvature**2 * np.abs(offsets) ** 3)
 
 
 def test_gap_is_symmetric_in_the_two_gears(paper_pair):

@@ -26,7 +26,7 @@ def gear(request, cut_gear):
 
 
 def distance_to_rack(gear, points, rotation):
-    """Signed distance (n_points, n_rotations), negative inside the rack's tooth, of points of the gear in its tooth's frame.
+    """Signed distance (n_points, n_rotations) to the rack's tooth, negative inside, of points in the gear's tooth frame.
 
     Written from the rack's definition alone: straight flanks at the pressure angle, tooth thickness pi m/2 at the datum
     line (the profile shift above the pitch line), tip line at the root circle, corners rounded. The rounded
@@ -120,7 +120,7 @@ def test_fillet_rises_towards_the_flank_in_even_steps(gear):
 
 
 def test_coast_side_is_the_mirror_image(gear):
-    """Authority: mirror about the centreline keeps radii, reverses angles from it, and twice is nothing; the tip is as thick as said."""
+    """Authority: a mirror keeps radii, reverses angles from its line, and twice is nothing; the tip is as thick as said."""
     outline = tooth_outline(gear)
     coast = outline.coast(outline.fillet)
     angle = np.arctan2(outline.fillet[:, 1], outline.fillet[:, 0]) - outline.centreline_angle

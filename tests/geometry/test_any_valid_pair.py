@@ -1,0 +1,123 @@
+"""What holds for every pair that the checks let pass."""
+
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_checks import check_gear
+from fenics_gears.geometry.involute import involute_function
+from fenics_gears.geometry.outline import fillet_end, fillet_speed, tooth_outline
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.pair_checks import check_pair
+
+PROPORTIONS = st.tuples(
+    st.integers(6, 90), st.floats(-0.5, 1.0), st.floats(0.6, 1.3), st.floats(1.0, 1.5), st.floats(0.0, 0.45)
+)
+
+
+@st.composite
+def valid_pairs(draw):
+    module, alpha = draw(st.floats(0.5, 20.0)), radians(draw(st.floats(17.0, 27.0)))
+    gears = []
+    for _ in range(2):
+        teeth, shift, addendum, dedendum, rounding = draw(PROPORTIONS)
+        pitch = 0.5 * teeth + shift
+        tip, root = module * (pitch + addendum), module * (pitch - dedendum)
+        gears.append(Gear(teeth, module, alpha, shift, tip, root, bore_radius=module, rack_tip_radius=module * rounding))
+    bases = gears[0].base_radius + gears[1].base_radius
+    touching = GearPair(*gears, centre_distance=bases, face_width=1.0).centre_distance_without_backlash
+    pair = GearPair(*gears, centre_distance=touching + module * draw(st.floats(0.0, 0.1)), face_width=1.0)
+    try:
+        check_gear(pair.pinion, "pinion")
+        check_gear(pair.wheel, "wheel")
+        check_pair(pair)
+    except GeometryError:
+        assume(False)
+    return pair
+
+
+@settings(max_examples=60, deadline=None)
+@given(valid_pairs())
+def test_points_of_the_path_of_contact_are_in_order(pair):
+    """Authority: meaning of the characteristic points: T1, start, single contact, end, T2; roll angles within either flank."""
+    rounding = 1e-6
+    assert -rounding <= pair.path_start < pair.path_end <= pair.line_of_action_length + rounding
+    assert pair.start_of_fewest_pairs <= pair.end_of_fewest_pairs + 1e-8 * pair.base_pitch
+    assert pair.fewest_pairs <= pair.contact_ratio + 1e-8 < pair.fewest_pairs + 1.0 + 1e-7
+    along = [pair.path_start, pair.start_of_fewest_pairs, pair.end_of_fewest_pairs, pair.path_end]
+    named = (
+        [pair.pinion_sap_roll_angle, pair.pinion_lpstc_roll_angle, pair.pinion_hpstc_roll_angle, pair.pinion_eap_roll_angle],
+        [pair.wheel_eap_roll_angle, pair.wheel_hpstc_roll_angle, pair.wheel_lpstc_roll_angle, pair.wheel_sap_roll_angle],
+    )
+    assert named[0] == pytest.approx(pair.pinion_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
+    assert named[1] == pytest.approx(pair.wheel_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
+    for gear, (start, low, high, end) in ((pair.pinion, named[0]), (pair.wheel, named[1][::-1])):
+        assert gear.form_roll_angle - rounding / gear.base_radius <= start <= low <= high + 1e-7 <= end + 2e-7
+
+
+@settings(max_examples=60, deadline=None)
+@given(valid_pairs())
+def test_swapped_gears_are_the_same_pair(pair):
+    """Authority: exact symmetry: wheel driving pinion mirrors the line of action; ratio, backlash and clearances exchange."""
+    swapped = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
+    length = pair.line_of_action_length
+    assert swapped.path_start == pytest.approx(length - pair.path_end, abs=1e-12 * length)
+    assert swapped.pitch_point == pytest.approx(pair.pitch_point_to_wheel_tangent, rel=1e-11)
+    assert swapped.contact_ratio == pytest.approx(pair.contact_ratio, rel=1e-11)
+    assert swapped.backlash == pytest.approx(pair.backlash, abs=1e-12 * length)
+    assert swapped.pinion_hpstc_roll_angle == pytest.approx(pair.wheel_hpstc_roll_angle, abs=1e-11)
+    assert swapped.pinion_tip_clearance == pair.wheel_tip_clearance
+
+
+@settings(max_examples=60, deadline=None)
+@given(valid_pairs(), st.floats(0.1, 10.0))
+def test_angles_and_ratios_do_not_know_the_module(pair, scale):
+    """Authority: similarity: lengths times a factor leave every angle and ratio and scale every length."""
+
+    def scaled(gear):
+        lengths = ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
+        return replace(gear, **{field: scale * getattr(gear, field) for field in lengths})
+
+    larger = replace(pair, pinion=scaled(pair.pinion), wheel=scaled(pair.wheel), centre_distance=scale * pair.centre_distance)
+    assert larger.contact_ratio == pytest.approx(pair.contact_ratio, rel=1e-9)
+    assert larger.pinion.form_roll_angle == pytest.approx(pair.pinion.form_roll_angle, abs=1e-12)
+    assert larger.backlash == pytest.approx(scale * pair.backlash, abs=1e-11 * larger.centre_distance)
+    assert tooth_outline(larger.wheel).fillet == pytest.approx(
+        scale * tooth_outline(pair.wheel).fillet, abs=1e-12 * larger.centre_distance
+    )
+
+
+@settings(max_examples=60, deadline=None)
+@given(valid_pairs())
+def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
+    """Authority: a tooth: from root to tip the radius grows and the tooth gets thinner, the fillet never stands still or
+    turns back, and the root circle between two teeth has a length that is not negative."""
+    for gear in (pair.pinion, pair.wheel):
+        outline = tooth_outline(gear)
+        assert np.all(fillet_speed(gear, np.linspace(0.0, fillet_end(gear), 101)[1:]) > 0.0)
+        rolls = np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 30)[1:]
+        points = np.concatenate([outline.fillet, outline.involute(rolls)])
+        angle = np.arctan2(*points.T[::-1]) - outline.centreline_angle
+        angle = (angle + np.pi) % (2.0 * np.pi) - np.pi
+        assert np.all(np.diff(np.hypot(*points.T)) > -1e-12 * gear.tip_radius)
+        assert np.all(np.diff(angle) < 1e-12)
+        assert angle[0] <= 0.5 * gear.angular_pitch + 1e-6 / gear.root_radius
+        assert 2.0 * gear.tip_radius * angle[-1] == pytest.approx(gear.tip_thickness, abs=1e-11 * gear.tip_radius)
+
+
+@settings(max_examples=60, deadline=None)
+@given(valid_pairs())
+def test_thickness_and_backlash_fill_the_pitch_circle(pair):
+    """Authority: exact identity: at the rolling pitch circles the teeth and the circumferential backlash fill the pitch."""
+    all_teeth = pair.pinion.teeth + pair.wheel.teeth
+    rolled = [pair.centre_distance * gear.teeth / all_teeth for gear in (pair.pinion, pair.wheel)]
+    circumferential = pair.backlash / np.cos(pair.operating_pressure_angle)
+    swept = involute_function(np.tan(pair.operating_pressure_angle))
+    teeth = [2.0 * r * (gear.tooth_half_angle_at_base - swept) for r, gear in zip(rolled, (pair.pinion, pair.wheel))]
+    assert sum(teeth) + circumferential == pytest.approx(rolled[0] * pair.pinion.angular_pitch, rel=1e-11)
