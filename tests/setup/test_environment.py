@@ -1,0 +1,43 @@
+"""The settings given to MPI, BLAS and VTK: authority is each library's documented variable, and that a user's own setting wins."""
+
+import os
+
+from fenics_gears import environment
+
+
+def prepared(**given):
+    """The environment `given` after `prepare`."""
+    environment.prepare(given)
+    return given
+
+
+def test_alone_the_libraries_choose_their_thread_counts():
+    """One process may use all cores, which is what OpenBLAS does when OMP_NUM_THREADS is not set."""
+    assert "OMP_NUM_THREADS" not in prepared()
+
+
+def test_one_thread_for_each_rank_under_mpirun():
+    """Two ranks with all cores each would compete for them; Open MPI announces the number of ranks."""
+    assert prepared(OMPI_COMM_WORLD_SIZE="2", OMPI_COMM_WORLD_LOCAL_SIZE="2")["OMP_NUM_THREADS"] == "1"
+
+
+def test_settings_of_the_user_are_kept():
+    """What the user has set stands, under mpirun too."""
+    given = {"OMP_NUM_THREADS": "3", "PYVISTA_OFF_SCREEN": "false", "OMPI_MCA_btl": "self,tcp", "OMPI_COMM_WORLD_SIZE": "2"}
+    assert given.items() <= prepared(**given).items()
+
+
+def test_tcp_is_left_out_on_one_machine_and_kept_across_machines():
+    """Ranks on two machines reach each other by TCP; those on one machine do not need it."""
+    assert prepared()["OMPI_MCA_btl"] == "^tcp"
+    assert prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="4")["OMPI_MCA_btl"] == "^tcp"
+    assert "OMPI_MCA_btl" not in prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="2")
+
+
+def test_mpirun_may_run_as_root_only_where_the_user_is_root(monkeypatch):
+    """Open MPI refuses root unless both variables are set; nobody else needs them."""
+    names = {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"}
+    monkeypatch.setattr(os, "geteuid", lambda: 0)
+    assert names <= prepared().keys()
+    monkeypatch.setattr(os, "geteuid", lambda: 1000)
+    assert not names & prepared().keys()

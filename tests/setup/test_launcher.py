@@ -1,0 +1,192 @@
+"""The launcher without installing anything: authority is what the README promises of `./gears`.
+
+Each test has a checkout of its own in a folder with spaces; its program only tells how it was called. The system's tools are
+stood in for by scripts of a few lines, first and only on PATH.
+"""
+
+import fcntl
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+TOOLS = "awk bash cat cksum comm df env flock grep head mkdir mv readlink rm sed sort tail tr wc".split()
+
+PROGRAM = "import os, sys\nprint(os.getcwd(), *sys.argv[1:], sep='|')\n"
+BARE_PYTHON = f"exec {sys.executable} -I -S \"$@\""
+NO_PACKAGES = "exit 0"
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    """A copy of the launcher and the set-up, with a program that prints its folder and arguments."""
+    folder = tmp_path / "a folder with spaces"
+    shutil.copytree(ROOT / "setup", folder / "setup", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy2(ROOT / "gears", folder)
+    (folder / "fenics_gears").mkdir()
+    (folder / "fenics_gears/__init__.py").touch()
+    (folder / "fenics_gears/__main__.py").write_text(PROGRAM)
+    return folder
+
+
+@pytest.fixture
+def machine(tmp_path):
+    """Make a machine: a PATH with the usual tools and the given commands, each a line of shell."""
+
+    def make(**commands):
+        folder = tmp_path / "bin"
+        folder.mkdir()
+        for tool in TOOLS:
+            (folder / tool).symlink_to(shutil.which(tool))
+        for name, script in commands.items():
+            path = folder / name.replace("_", "-")
+            path.write_text(f"#!/bin/sh\n{script}\n")
+            path.chmod(0o755)
+        return {"PATH": str(folder), "HOME": str(tmp_path)}
+
+    return make
+
+
+@pytest.fixture
+def this_python():
+    """The tests' own environment, naming the Python they run in, which has the stack."""
+    return {**os.environ, "FENICS_GEARS_PYTHON": sys.executable}
+
+
+def call(launcher, *arguments, environment, folder="/"):
+    return subprocess.run([launcher, *arguments], env=environment, cwd=folder, capture_output=True, text=True, timeout=60)
+
+
+def set_up_already(checkout, environment):
+    """Have the launcher know a Python without looking for one."""
+    done = call(checkout / "gears", "--set-up-only", environment=environment)
+    assert done.returncode == 0, done.stderr
+
+
+def test_existing_python_is_tried_once_and_remembered(checkout, this_python):
+    """The second call must not start the set-up: there is none to start any more, and it still works."""
+    set_up_already(checkout, this_python)
+    (checkout / "setup/install").chmod(0o644)
+    again = call(checkout / "gears", "run", environment=this_python)
+    assert (again.returncode, again.stdout, again.stderr) == (0, "/|run\n", "")
+
+
+def test_program_runs_in_the_callers_folder_by_a_link_and_from_this_checkout(checkout, this_python, tmp_path):
+    """Paths given to the program count from the caller's folder, and no file there takes the program's place."""
+    set_up_already(checkout, this_python)
+    elsewhere = tmp_path / "else where"
+    elsewhere.mkdir()
+    (elsewhere / "fenics_gears.py").write_text("raise SystemExit('the wrong program')")
+    link = elsewhere / "gears link"
+    link.symlink_to(checkout / "gears")
+    done = call(link, "run", "my scene.toml", environment=this_python, folder=elsewhere)
+    assert (done.returncode, done.stdout) == (0, f"{elsewhere}|run|my scene.toml\n"), done.stderr
+
+
+def test_change_of_what_is_needed_leads_to_a_new_set_up(checkout, this_python):
+    """A checkout brought up to date may need packages that an earlier one did not."""
+    set_up_already(checkout, this_python)
+    check = checkout / "setup/check.py"
+    check.write_text(check.read_text().replace('"tomllib"', '"tomllib", "no_such_module"'))
+    done = call(checkout / "gears", "run", environment=this_python)
+    assert done.returncode == 1 and "lacks no_such_module" in done.stderr
+    assert done.stdout == ""
+
+
+def test_machine_without_apt_is_told_what_to_install(checkout, machine):
+    """One message with what is missing and two ways on; no program is started."""
+    done = call(checkout / "gears", "run", environment=machine(python3=BARE_PYTHON))
+    assert done.returncode == 1 and done.stdout == ""
+    for part in ("no apt", "dolfinx", "petsc4py", "conda", "Dockerfile"):
+        assert part in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_named_python_that_is_not_there(checkout, machine):
+    """The variable and its value are named; nothing else is tried in its place."""
+    environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES) | {"FENICS_GEARS_PYTHON": "/no/python"}
+    done = call(checkout / "gears", "run", environment=environment)
+    assert done.returncode == 1 and "FENICS_GEARS_PYTHON=/no/python" in done.stderr
+
+
+def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
+    """The command for the administrator names the packages that are missing."""
+    environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 1000")
+    done = call(checkout / "gears", "run", environment=environment)
+    assert done.returncode == 1
+    assert "needs root or sudo" in done.stderr and "apt-get install" in done.stderr and "python3-dolfinx-real" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("printed", "sentence"),
+    [
+        ("E: Failed to fetch http://x/y.deb  Temporary failure resolving 'x'", "a package server cannot be reached"),
+        ("E: You don't have enough free space in /var/cache/apt/archives/.", "the disk is full"),
+        ("E: Unable to locate package python3-dolfinx-real", "Unable to locate package python3-dolfinx-real"),
+    ],
+)
+def test_failure_of_apt_is_one_sentence_with_its_reason(checkout, machine, printed, sentence):
+    """The last line says why it failed and where the details are; the next call starts over."""
+    environment = machine(
+        python3=BARE_PYTHON, apt_get=f'echo "{printed}"; exit 100', dpkg=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 0"
+    )
+    done = call(checkout / "gears", "run", environment=environment)
+    assert done.returncode == 1
+    assert sentence in done.stderr.splitlines()[-1]
+    assert printed in (checkout / ".setup/log").read_text()
+    assert not (checkout / ".setup/ready").exists()
+
+
+def test_progress_of_apt_is_told(checkout, machine):
+    """apt's own percentages (its status-fd protocol) reach the user, at most one line for every fifth of the way."""
+    status = "\n".join(f"echo pmstatus:package:{percent}.5:Unpacking" for percent in range(100)) + "\nexit 100"
+    environment = machine(python3=BARE_PYTHON, apt_get=status, dpkg=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 0")
+    done = call(checkout / "gears", "run", environment=environment)
+    told = [line.split("installed ")[1].split(" %")[0] for line in done.stderr.splitlines() if "installed " in line]
+    # `apt-get update` and `apt-get install` are the same stand-in, so the count runs twice.
+    assert told == ["0", "20", "40", "60", "80"] * 2
+
+
+def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine):
+    """Ctrl-C while apt works: exit code 130 and no mark, so that the next call sets up."""
+    environment = machine(
+        python3=BARE_PYTHON, apt_get="exec sleep 30", dpkg=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 0", sleep='exec /bin/sleep "$@"'
+    )
+    started = subprocess.Popen([checkout / "gears", "run"], env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    assert "[1/" in started.stderr.readline() + started.stderr.readline()
+    time.sleep(0.3)
+    os.killpg(started.pid, signal.SIGINT)
+    said = started.communicate(timeout=20)[1]
+    assert started.returncode == 130 and "interrupted" in said
+    assert not (checkout / ".setup/ready").exists()
+
+
+def test_second_set_up_waits_for_the_first(checkout, this_python):
+    """While another holds the lock it says so and waits; what that one finished is not done again."""
+    set_up_already(checkout, this_python)
+    ready = checkout / ".setup/ready"
+    finished = ready.read_text()
+    ready.unlink()
+    with open(checkout / ".setup/lock") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        second = subprocess.Popen([checkout / "gears", "run"], env=this_python, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        assert "another set-up" in second.stderr.readline()
+        (checkout / "setup/check.py").unlink()  # trying the imports once more would fail
+        ready.write_text(finished)
+    out, said = second.communicate(timeout=20)
+    assert second.returncode == 0 and out.endswith("|run\n"), said
+
+
+@pytest.mark.parametrize("script", ["gears", "setup/install", ".ci/run"])
+def test_scripts_are_free_of_shellcheck_findings(script):
+    """ShellCheck's catalogue of mistakes in shell scripts, where it is installed."""
+    if not shutil.which("shellcheck"):
+        pytest.skip("shellcheck is not installed")
+    done = subprocess.run(["shellcheck", "--severity=warning", ROOT / script], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
