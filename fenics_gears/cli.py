@@ -180,8 +180,9 @@ def _effect_rows(scene) -> list[tuple[str, str, str]]:
         if getattr(scene, effect.section) is None:
             rows.append((effect.section, f"off  {effect.absent}", ""))
             continue
-        added = [*effect.unknowns, *effect.terms, *(variable.name for variable in effect.variables)]
-        rows.append((effect.section, f"on   {effect.description}; adds {', '.join(added)}", ""))
+        added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": [variable.name for variable in effect.variables]}
+        listed = "".join(f"; {kind}: {', '.join(names)}" for kind, names in added.items() if names)
+        rows.append((effect.section, f"on   {effect.description}{listed}", ""))
     return rows
 
 

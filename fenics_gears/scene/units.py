@@ -81,6 +81,10 @@ _SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "·": "*", "⋅"
 _UNIT_TEXT = re.compile(r"[A-Za-z0-9 */^().-]{0,60}")
 
 
+# What pint raises for a unit that it cannot parse differs between its versions.
+_PARSER_ERRORS = (ValueError, TypeError, SyntaxError, ArithmeticError, AttributeError, LookupError, AssertionError, TokenError)
+
+
 class QuantityError(ValueError):
     """A text that is no quantity; the message completes "the value ..." to whole sentences."""
 
@@ -126,7 +130,7 @@ def _unit(written: str) -> tuple[float, str]:
     try:
         registry = _registry()
         base = registry.Quantity(1.0, registry.parse_units(tidy)).to_base_units()
-    except (ValueError, TypeError, SyntaxError, ArithmeticError, AttributeError, KeyError, TokenError):
+    except _PARSER_ERRORS:
         raise QuantityError(f'has the unit "{written}", which is not understood.') from None
     return float(base.magnitude), _name(base.dimensionality)
 

@@ -84,6 +84,10 @@ def test_an_angle_is_a_dimension(one, other):
         ("20 deg 3 arcmin", "not understood"),
         ("5 mm^(", "not understood"),
         ("5 N/0", "not understood"),
+        ("3 /", "not understood"),
+        ("3 *", "not understood"),
+        ("3 N^", "not understood"),
+        ("3 ()", "not understood"),
         ("5 mm; import os", "not understood"),
     ],
 )
