@@ -1,0 +1,142 @@
+"""Curves over the recorded mesh cycles: transmission error, mesh forces, load sharing between tooth pairs.
+
+Each function takes a result (design.md, Result) and returns a Figure, or None where the result has nothing to show in it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from fenics_gears.show.panels import DARK, GREY, PALETTE, legend, limits, panels, styled
+from fenics_gears.show.units import factor, in_unit
+
+# Smallest spans shown. Contact is solved to 1e-4 um and 1e-6 of the transmitted force; what is smaller is no curve.
+LEAST_LENGTH = 0.1  # um
+LEAST_SHARE = 0.02  # of the largest value
+
+
+@styled
+def transmission_error(dataset: xr.Dataset) -> Figure | None:
+    """Transmission error in µrad and, as length on the wheel's base circle, in µm; below it the wheel's sideways motion."""
+    if "transmission_error" not in dataset:
+        return None
+    below = "centre_y" in dataset
+    figure, axes = panels(dataset, "Transmission error", [3.6, 2.2] if below else [4.4])
+    _draw_transmission_error(axes[0], dataset)
+    if below:
+        _draw_off_line_motion(axes[1], dataset)
+    return figure
+
+
+def _draw_transmission_error(axes: Axes, dataset: xr.Dataset) -> None:
+    variable = dataset["transmission_error"]
+    error = in_unit(variable, "µrad")
+    axes.plot(dataset["mesh_phase"].values, error, color=PALETTE[0])
+    peak_to_peak = np.ptp(error)
+    if "peak_to_peak_transmission_error" in dataset.attrs:
+        peak_to_peak = dataset.attrs["peak_to_peak_transmission_error"] * factor("rad", "µrad")
+    spelled = f"{_four_digits(peak_to_peak)} µrad"
+    axes.set_ylabel("Transmission error (µrad)")
+    axes.set_ylim(*limits(error, LEAST_SHARE * np.abs(error).max()))
+    radius = dataset.attrs.get("base_radius_wheel")
+    if radius:
+        per_microradian = radius * factor("mm", "µm") / factor("rad", "µrad")
+        spelled += f" = {_four_digits(peak_to_peak * per_microradian)} µm on the wheel's base circle"
+        length = axes.secondary_yaxis("right", functions=(lambda e: e * per_microradian, lambda e: e / per_microradian))
+        length.set_ylabel("On the wheel's base circle (µm)")
+    axes.set_title(f"Peak to peak {spelled}")
+
+
+def _four_digits(value: float) -> str:
+    return f"{value:#.4g}".rstrip(".")
+
+
+def _draw_off_line_motion(axes: Axes, dataset: xr.Dataset) -> None:
+    motion = in_unit(dataset["centre_y"].sel(gear="wheel"), "µm")
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    axes.plot(dataset["mesh_phase"].values, motion, color=PALETTE[1])
+    axes.set_title("Displacement of the wheel's shaft off the line of action")
+    axes.set_ylabel("Displacement (µm)")
+    axes.set_ylim(*limits(motion, LEAST_LENGTH))
+
+
+@styled
+def mesh_forces(dataset: xr.Dataset) -> Figure | None:
+    """Normal force, friction force and the couples that the gears put on their shafts, one panel each."""
+    drawings = {
+        "normal_force": _draw_normal_force,
+        "friction_force": _draw_friction_force,
+        "reaction_couple": _draw_couples,
+    }
+    there = [name for name in drawings if name in dataset]
+    if not there:
+        return None
+    figure, axes = panels(dataset, "Mesh forces", [2.2] * len(there) if len(there) > 1 else [4.4])
+    for each, name in zip(axes, there):
+        drawings[name](each, dataset)
+    return figure
+
+
+def _draw_normal_force(axes: Axes, dataset: xr.Dataset) -> None:
+    _draw_force(axes, dataset, "normal_force", PALETTE[0])
+    axes.set_title("Along the line of action: normal force of the mesh = reaction of either shaft")
+    axes.set_ylabel("Normal force (N)")
+
+
+def _draw_friction_force(axes: Axes, dataset: xr.Dataset) -> None:
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    _draw_force(axes, dataset, "friction_force", PALETTE[1])
+    axes.set_title("Off the line of action: friction force of the mesh = reaction of either shaft")
+    axes.set_ylabel("Friction force (N)")
+
+
+def _draw_force(axes: Axes, dataset: xr.Dataset, name: str, colour: str) -> None:
+    force = in_unit(dataset[name], "N")
+    axes.plot(dataset["mesh_phase"].values, force, color=colour)
+    axes.set_ylim(*limits(force, _least(force)))
+
+
+def _draw_couples(axes: Axes, dataset: xr.Dataset) -> None:
+    couples = in_unit(dataset["reaction_couple"].transpose("time", "gear"), "N m")
+    for gear, couple, colour in zip(dataset["gear"].values, couples.T, (PALETTE[2], PALETTE[3])):
+        axes.plot(dataset["mesh_phase"].values, couple, color=colour, label=str(gear))
+    axes.set_title("Reaction couple of either gear on its shaft")
+    axes.set_ylabel("Couple (N m)")
+    axes.set_ylim(*limits(couples, _least(couples)))
+    legend(axes, columns=2)
+
+
+@styled
+def load_sharing(dataset: xr.Dataset) -> Figure | None:
+    """Normal force of each tooth pair that carries, and their sum."""
+    if "pair_normal_force" not in dataset:
+        return None
+    figure, (axes,) = panels(dataset, "Load sharing between tooth pairs", [4.6])
+    phase = dataset["mesh_phase"].values
+    forces = in_unit(dataset["pair_normal_force"].transpose("time", "pair"), "N")
+    total = forces.sum(axis=1)
+    axes.plot(phase, total, color=DARK, linewidth=1.4, linestyle=(0, (4, 2)), label="all pairs", zorder=3)
+    for number, force in zip(dataset["pair"].values, forces.T):
+        if np.any(force != 0.0):
+            axes.plot(phase, _while_carrying(force), color=PALETTE[number % len(PALETTE)], label=f"pair {number}")
+    axes.set_ylabel("Normal force (N)")
+    axes.set_ylim(0.0, 1.06 * max(float(total.max()), 1e-9))
+    legend(axes, columns=8, location="lower left")
+    return figure
+
+
+def _while_carrying(force: np.ndarray) -> np.ndarray:
+    """The force (n,) with NaN where the pair carries nothing, but for the zeros that its curve begins and ends with."""
+    carries = force != 0.0
+    near = carries.copy()
+    near[1:] |= carries[:-1]
+    near[:-1] |= carries[1:]
+    return np.where(near, force, np.nan)
+
+
+def _least(force: np.ndarray) -> float:
+    """Smallest span of a force's axis; a force that is zero throughout gets one that shows so."""
+    return LEAST_SHARE * float(np.abs(force).max()) or 1.0
