@@ -51,7 +51,7 @@ def check(options: argparse.Namespace) -> int:
     from fenics_gears.console import print_rows
 
     scene = _checked_scene(options.scene)
-    from fenics_gears.simulation import describe
+    from fenics_gears.description import describe
 
     description = describe(scene)
     print(f"{scene.title}\n")

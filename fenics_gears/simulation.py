@@ -2,60 +2,20 @@
 
 from __future__ import annotations
 
-import time
-from dataclasses import dataclass
-
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_span
 from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.geometry.modification import tip_reliefs
-from fenics_gears.geometry.pair import GearPair, gear_pair
+from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
-from fenics_gears.resolution import Resolution, resolve
 from fenics_gears.results import dataset
 from fenics_gears.scene.data import Scene
 from fenics_gears.warm_up import compile_kernels
-
-
-@dataclass(frozen=True)
-class Model:
-    """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either flank."""
-
-    scene: Scene
-    pair: GearPair
-    drivetrain: Drivetrain
-    resolution: Resolution
-    removal: tuple
-
-    @property
-    def time_step(self) -> float:
-        """Length of a step, s."""
-        return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
-
-    @property
-    def steps(self) -> int:
-        """Steps of the whole run."""
-        return self.scene.motion.mesh_cycles * self.resolution.steps_per_mesh_cycle
-
-    @property
-    def first_stored(self) -> int:
-        """The step from which on steps are kept."""
-        return self.steps - self.scene.motion.recorded_cycles * self.resolution.steps_per_mesh_cycle
-
-
-def model(scene: Scene) -> Model:
-    """Everything about a scene that needs no computing to speak of. Raises GeometryError for impossible gears."""
-    pair = gear_pair(scene.gears)
-    shafts = drivetrain(scene, pair)
-    removal = (None, None) if scene.tip_relief is None else tip_reliefs(pair, scene.tip_relief)
-    return Model(scene, pair, shafts, resolve(scene, pair, shafts), removal)
 
 
 def simulate(scene: Scene, *, progress: Progress | None = None, cache: Cache | None = None) -> xr.Dataset:

@@ -15,7 +15,7 @@ def directions(contact_roll: float, tangential: bool) -> np.ndarray:
     return np.array([normal, [sine, cosine]] if tangential else [normal])
 
 
-@njit(cache=True, fastmath=False)
+@njit(cache=True)
 def compliance_product(
     block, weights_a, first_a, last_a, directions_a, weights_b, first_b, last_b, directions_b, result
 ):
@@ -27,26 +27,23 @@ def compliance_product(
     n_a, n_b = len(first_a), len(first_b)
     if n_a == 0 or n_b == 0:
         return
-    column_start, column_end = first_b.min(), last_b.max()
-    response = np.zeros((2, column_end - column_start))
+    start, end = 2 * first_b.min(), 2 * last_b.max()
+    along_x, along_y, along = np.empty(end - start), np.empty(end - start), np.empty(end - start)
     for i in range(n_a):
+        along_x[:] = 0.0
+        along_y[:] = 0.0
+        for node in range(first_a[i], last_a[i]):
+            weight, row_x, row_y = weights_a[i, node], block[2 * node], block[2 * node + 1]
+            for column in range(start, end):
+                along_x[column - start] += weight * row_x[column]
+                along_y[column - start] += weight * row_y[column]
         for d in range(len(directions_a)):
-            response[:] = 0.0
-            for node in range(first_a[i], last_a[i]):
-                along_x = weights_a[i, node] * directions_a[d, 0]
-                along_y = weights_a[i, node] * directions_a[d, 1]
-                for column in range(column_start, column_end):
-                    for component in range(2):
-                        response[component, column - column_start] += (
-                            along_x * block[2 * node, 2 * column + component]
-                            + along_y * block[2 * node + 1, 2 * column + component]
-                        )
-            for e in range(len(directions_b)):
-                for j in range(n_b):
-                    total = 0.0
-                    for column in range(first_b[j], last_b[j]):
-                        total += weights_b[j, column] * (
-                            directions_b[e, 0] * response[0, column - column_start]
-                            + directions_b[e, 1] * response[1, column - column_start]
-                        )
-                    result[d, i, e, j] += total
+            for column in range(end - start):
+                along[column] = directions_a[d, 0] * along_x[column] + directions_a[d, 1] * along_y[column]
+            for j in range(n_b):
+                total_x, total_y = 0.0, 0.0
+                for node in range(first_b[j], last_b[j]):
+                    total_x += weights_b[j, node] * along[2 * node - start]
+                    total_y += weights_b[j, node] * along[2 * node + 1 - start]
+                for e in range(len(directions_b)):
+                    result[d, i, e, j] += directions_b[e, 0] * total_x + directions_b[e, 1] * total_y

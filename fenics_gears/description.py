@@ -1,0 +1,112 @@
+"""What a scene is and what it will cost, told without computing it: the rows of `gears check`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fenics_gears.contact.mesh_cycle import pair_positions
+from fenics_gears.geometry.characteristics import characteristics
+from fenics_gears.model import Model, model
+from fenics_gears.resolution import mesh_stiffness, natural_frequencies
+from fenics_gears.scene.data import Scene
+
+Rows = list[tuple[str, object, str]]
+
+# Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the paper's pair.
+SECTOR_UNKNOWNS = {"P1": (1300, 15.5), "P2": (2300, 30.0), "Q1": (2100, 16.0), "Q2": (3000, 35.0)}
+# Seconds, on one core of 2020s: a gear's mesh and set-up, each unknown, the cube of flank dofs, the square of contact rows, a step.
+SECONDS_PER_GEAR, SECONDS_PER_UNKNOWN, SECONDS_PER_FLANK_CUBE = 0.2, 2e-5, 1e-10
+SECONDS_PER_CONTACT_SQUARE, SECONDS_PER_STEP = 6e-8, 8e-5
+BYTES_OF_PROGRAM = 300e6
+
+
+@dataclass(frozen=True)
+class Description:
+    """Headings, each with rows (label, value, unit)."""
+
+    sections: tuple[tuple[str, Rows], ...]
+
+
+def describe(scene: Scene) -> Description:
+    """Describe a scene: geometry, model, accuracy, natural frequencies, cost. Raises GeometryError for impossible gears."""
+    built = model(scene)
+    sections = [("Gear pair", characteristics(built.pair)), ("Model", _model_rows(built)), ("Accuracy", _accuracy_rows(built))]
+    if built.drivetrain.mass is not None:
+        sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(built)))
+    sections.append(("Expected cost (about)", _cost_rows(built)))
+    return Description(tuple(sections))
+
+
+def _tangential(built: Model) -> int:
+    return 2 if built.scene.friction is not None else 1
+
+
+def _contact_rows(built: Model) -> float:
+    """Rows of the contact operator, on the average over the mesh cycle."""
+    grid = built.resolution.contact_grid
+    pairs = [len(pair_positions(built.pair, grid, phase / 16)) for phase in range(16)]
+    return _tangential(built) * grid.nodes * sum(pairs) / len(pairs)
+
+
+def _model_rows(built: Model) -> Rows:
+    grid = built.resolution.contact_grid
+    each = "normal and tangential force" if built.scene.friction is not None else "normal force"
+    return [
+        ("centre coordinates", len(built.drivetrain.coordinates), ", ".join(built.drivetrain.coordinates)),
+        ("contact nodes of a tooth pair", grid.nodes, f"each a {each} where closed"),
+        ("equations in time", "average acceleration" if built.drivetrain.mass is not None else "quasi-static", ""),
+        ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
+    ]
+
+
+def _accuracy_rows(built: Model) -> Rows:
+    resolution, asked = built.resolution, built.scene.accuracy
+
+    def origin(value) -> str:
+        return "" if value is None else ", from the scene"
+
+    return [
+        ("Hertz half-width at full load", resolution.half_width, "mm"),
+        ("element", resolution.element, origin(asked.element).lstrip(", ")),
+        ("flank element size", resolution.flank_element_size, "mm" + origin(asked.flank_element_size)),
+        ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
+        ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
+        ("steps per mesh cycle", resolution.steps_per_mesh_cycle, origin(asked.steps_per_mesh_cycle).lstrip(", ")),
+        ("time step", built.time_step, "s"),
+        ("steps", built.steps, f"{built.steps - built.first_stored + 1} of them stored"),
+    ]
+
+
+def _frequency_rows(built: Model) -> Rows:
+    frequencies = natural_frequencies(built.drivetrain, mesh_stiffness(built.scene))
+    nyquist = 0.5 / built.time_step
+    moving = [frequency for frequency in frequencies if frequency > 1e-3]
+    rows: Rows = [(f"mode {number}", frequency, "Hz") for number, frequency in enumerate(moving, 1)]
+    rows.append(("highest frequency a step resolves", nyquist, "Hz"))
+    return rows
+
+
+def _cost_rows(built: Model) -> Rows:
+    order = 2 if built.resolution.element.endswith("2") else 1
+    body, per_node = SECTOR_UNKNOWNS[built.resolution.element]
+    unknowns, flank_dofs = [], []
+    for gear in (built.pair.pinion, built.pair.wheel):
+        arc = 0.5 * gear.base_radius * (gear.tip_roll_angle**2 - gear.form_roll_angle**2)
+        nodes = order * arc / built.resolution.flank_element_size + 1
+        unknowns.append(body + per_node * nodes)
+        flank_dofs.append(2.0 * nodes)
+    rows = _contact_rows(built)
+    positions = min(built.resolution.steps_per_mesh_cycle, built.steps + 2)
+    operator_parts = 1.5 if built.scene.friction is not None else 1.0
+    condensing = sum(
+        SECONDS_PER_GEAR + SECONDS_PER_UNKNOWN * n + SECONDS_PER_FLANK_CUBE * dofs**3 for n, dofs in zip(unknowns, flank_dofs)
+    )
+    marching = positions * SECONDS_PER_CONTACT_SQUARE * rows**2 + built.steps * SECONDS_PER_STEP
+    memory = BYTES_OF_PROGRAM + 8.0 * (positions * operator_parts * rows**2 + 10.0 * sum(dofs**2 for dofs in flank_dofs))
+    return [
+        ("unknowns of a pinion sector", round(unknowns[0], -2), ""),
+        ("unknowns of a wheel sector", round(unknowns[1], -2), ""),
+        ("meshing and condensing, unless cached", condensing, "s"),
+        ("marching", marching, "s"),
+        ("memory", memory / 1e6, "MB"),
+    ]
