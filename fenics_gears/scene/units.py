@@ -9,7 +9,6 @@ from __future__ import annotations
 import functools
 import math
 import re
-from tokenize import TokenError
 
 import pint
 
@@ -78,11 +77,13 @@ _KINDS = {
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf|nan))(?![.,\d])\s*(.*?)\s*", re.DOTALL)
 _SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "·": "*", "⋅": "*", "²": "^2", "³": "^3", "⁴": "^4"})
-_UNIT_TEXT = re.compile(r"[A-Za-z0-9 */^().-]{0,60}")
-
-
-# What pint raises for a unit that it cannot parse differs between its versions.
-_PARSER_ERRORS = (ValueError, TypeError, SyntaxError, ArithmeticError, AttributeError, LookupError, AssertionError, TokenError)
+# Names with whole powers, joined by blanks, "*" and "/", one level of brackets. What else pint takes differs between its versions.
+_FACTOR = r"[A-Za-z]+(?:\s*(?:\^|\*\*)\s*-?\d{1,2})?"
+_JOINT = r"(?:\s*[*/]\s*|\s+)"
+_BRACKETS = rf"\(\s*{_FACTOR}(?:{_JOINT}{_FACTOR})*\s*\)"
+_ITEM = rf"(?:{_FACTOR}|{_BRACKETS})"
+_LONGEST_UNIT = 40
+_UNIT_TEXT = re.compile(rf"(?:1\s*/\s*)?{_ITEM}(?:{_JOINT}{_ITEM})*")
 
 
 class QuantityError(ValueError):
@@ -120,17 +121,17 @@ def _unit(written: str) -> tuple[float, str]:
     """The factor from the unit to N, mm, s, rad, and its kind."""
     if not written:
         return 1.0, "a number without unit"
-    tidy = written.translate(_SPELLINGS)
-    if not _UNIT_TEXT.fullmatch(tidy):
-        raise QuantityError(f'has the unit "{written}", which is not understood.')
+    tidy = written.translate(_SPELLINGS).strip()
+    if len(tidy) > _LONGEST_UNIT or not _UNIT_TEXT.fullmatch(tidy):
+        raise QuantityError(f'has the unit "{written[:_LONGEST_UNIT]}", which is not understood.')
     # Names are checked here because pint would also take a plural ("mms").
     unknown = [word for word in re.findall(r"[A-Za-z]+", tidy) if word not in _UNITS]
     if unknown:
         raise QuantityError(f'has the unknown unit "{unknown[0]}".{did_you_mean(unknown[0], _UNITS, likeness=0.5)}')
+    registry = _registry()
     try:
-        registry = _registry()
         base = registry.Quantity(1.0, registry.parse_units(tidy)).to_base_units()
-    except _PARSER_ERRORS:
+    except ArithmeticError:  # "m^99 m^99" leaves the range of numbers
         raise QuantityError(f'has the unit "{written}", which is not understood.') from None
     return float(base.magnitude), _name(base.dimensionality)
 
