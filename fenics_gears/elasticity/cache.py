@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import logging
 import os
@@ -51,7 +52,7 @@ class Cache:
         try:
             if not path.exists():
                 return None
-            with h5py.File(path, "r") as file:
+            with h5py.File(io.BytesIO(path.read_bytes()), "r") as file:
                 arrays = {name: np.asarray(file[name]) for name in file}
                 expected = (FORMAT, key, _digest(arrays))
                 if tuple(file.attrs.get(name) for name in ("format", "key", "digest")) != expected:
@@ -64,26 +65,47 @@ class Cache:
 
     def store(self, key: str, arrays: dict[str, np.ndarray]) -> None:
         """Keep arrays under a key; the file appears under its name only when it is complete."""
-        import h5py
-
         aside = None
         try:
+            content = _file_content(key, arrays)
             Path(self.directory).mkdir(parents=True, exist_ok=True)
             # A name of its own for each writer, so that two runs cannot write into one file.
-            handle, aside = tempfile.mkstemp(prefix=f"{key}.", suffix=".part", dir=self.directory)
-            os.close(handle)
-            with h5py.File(aside, "w") as file:
-                for name, values in arrays.items():
-                    file[name] = values
-                file.attrs.update({"format": FORMAT, "key": key, "digest": _digest(arrays)})
-            with open(aside, "rb") as written:
-                os.fsync(written.fileno())
+            with tempfile.NamedTemporaryFile(
+                prefix=f"{key}.", suffix=".part", dir=self.directory, delete=False
+            ) as file:
+                aside = Path(file.name)
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
             os.replace(aside, self.path(key))
-        except (OSError, RuntimeError, ValueError) as error:
+        except OSError as error:
             LOGGER.warning("cache: nothing is kept in %s: %s", self.directory, error)
-        finally:
             if aside is not None:
-                Path(aside).unlink(missing_ok=True)
+                _remove(aside)
+        except BaseException:
+            # Ctrl-C between the two names.
+            if aside is not None:
+                _remove(aside)
+            raise
+
+
+def _file_content(key: str, arrays: dict[str, np.ndarray]) -> bytes:
+    """The HDF5 file as bytes: made in memory, since HDF5 itself does not come back cleanly from a full disk."""
+    import h5py
+
+    content = io.BytesIO()
+    with h5py.File(content, "w") as file:
+        for name, values in arrays.items():
+            file[name] = values
+        file.attrs.update({"format": FORMAT, "key": key, "digest": _digest(arrays)})
+    return content.getvalue()
+
+
+def _remove(path: Path) -> None:
+    try:
+        path.unlink(missing_ok=True)
+    except OSError as error:
+        LOGGER.warning("cache: %s could not be removed: %s", path, error)
 
 
 def _digest(arrays: dict[str, np.ndarray]) -> str:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import inspect
+import logging
+from contextlib import contextmanager
 from importlib import metadata
 
 import numpy as np
@@ -79,6 +81,17 @@ def node_coordinates(space) -> np.ndarray:
 def constant(mesh, value: float):
     """Number in a form that may change without compiling the form again."""
     return fem.Constant(mesh, PETSc.ScalarType(value))
+
+
+@contextmanager
+def quiet_compiler():
+    """Silence the C compiler's log: the build tools under DOLFINx write each command to the root logger."""
+    disabled = logging.root.manager.disable
+    logging.disable(max(logging.INFO, disabled))
+    try:
+        yield
+    finally:
+        logging.disable(disabled)
 
 
 def compile_form(expression):

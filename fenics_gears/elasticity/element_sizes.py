@@ -13,8 +13,8 @@ class ElementSizes:
     """Element sizes of a sector, mm.
 
     flank: along the working flank, kept down to ``depth`` times itself below it. fillet: along root
-    and fillets. coast: along the coast flank and the tip. body: largest size anywhere.
-    growth: increase of size per distance.
+    and fillets. coast: along the coast flank and the tip. body: largest size in the tooth and the rim
+    below it; further inside elements go on growing. growth: increase of size per distance.
     """
 
     flank: float

@@ -8,6 +8,7 @@ exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... 
 from __future__ import annotations
 
 import numpy as np
+from scipy.linalg.lapack import zpotrf, zpotri
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
 from fenics_gears.elasticity.elements import Element
@@ -41,47 +42,59 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
     With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]`` with
     ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its inverse's flank block is
     ``S_FF^-1 + X_k (D_k - B_k^H S_FF^-1 B_k)^-1 X_k^H`` with ``X_k = S_FF^-1 B_k`` (block inversion): one dense inverse of the flank,
-    and for each harmonic a system of the size of one cut.
+    and for each harmonic one of the size of a cut. Back from harmonics to teeth, each power of e^{ik} is a shift by one tooth.
     """
     check_congruent(sector, teeth)
-    held, lower, upper = _joined_blocks(sector, teeth)
+    lower, upper, same, ahead = _joined_blocks(sector, teeth)
     flank_compliance = np.linalg.inv(sector.between("flank", "flank"))
-    couplings = np.hstack([lower, upper])
-    responses = flank_compliance @ couplings
-    joints = _joint_compliance(held, couplings.T @ responses, teeth, offsets)
-    blocks = np.stack([responses @ joint @ responses.T for joint in joints])
+    to_lower, to_upper = flank_compliance @ lower, flank_compliance @ upper
+    # D_k - B_k^H S_FF^-1 B_k, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power 1.
+    same = same - lower.T @ to_lower - upper.T @ to_upper
+    ahead = ahead - lower.T @ to_upper
+    joint = _cut_compliance(same, ahead, teeth, offsets + 1)
+    blocks = np.stack([
+        (to_lower @ joint(m) + to_upper @ joint(m + 1)) @ to_lower.T + (to_lower @ joint(m - 1) + to_upper @ joint(m)) @ to_upper.T
+        for m in range(offsets + 1)
+    ])
     blocks[0] += flank_compliance
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
 
 
 def _joined_blocks(sector: CondensedBody, teeth: int):
-    """Cut stiffness by the power of e^{ik} it goes with (0 and 1), and the flank's couplings to either cut."""
+    """Couplings of the flank to either cut; cut stiffness by the powers 0 and 1 of e^{ik} that it goes with."""
     turn = _turned_nodes(teeth, len(sector.points["upper"]))
     same = sector.between("lower", "lower") + turn.T @ sector.between("upper", "upper") @ turn
     ahead = sector.between("lower", "upper") @ turn
-    return (same, ahead), sector.between("flank", "lower"), sector.between("flank", "upper") @ turn
+    return sector.between("flank", "lower"), sector.between("flank", "upper") @ turn, same, ahead
 
 
-def _joint_compliance(held, products, teeth: int, offsets: int) -> np.ndarray:
-    """Response (offsets + 1, 2c, 2c) of the two cuts of the tooth m ahead to forces on those of tooth 0; c cut dofs.
+def _cut_compliance(same, ahead, teeth: int, offsets: int):
+    """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= offsets, as a function of m.
 
-    ``products`` is ``[B_L, B_U]^T S_FF^-1 [B_L, B_U]``. Harmonics k and teeth - k are complex conjugates.
+    The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian and positive definite; k and teeth - k
+    are complex conjugates.
     """
-    same, ahead = held
-    size = len(same)
-    joints = np.zeros((offsets + 1, 2 * size, 2 * size))
+    responses = np.zeros((offsets + 1, *same.shape))
     for harmonic in range(teeth // 2 + 1):
         phase = np.exp(2j * np.pi * harmonic / teeth)
-        # X_k = [X_L, X_U] spread
-        spread = np.vstack([np.eye(size), phase * np.eye(size)])
-        system = same + ahead * phase + ahead.T * np.conj(phase) - spread.conj().T @ products @ spread
-        response = spread @ np.linalg.solve(system, spread.conj().T)
+        inverse = _hermitian_inverse(same + ahead * phase + ahead.T * np.conj(phase))
         own_conjugate = harmonic == 0 or 2 * harmonic == teeth
         weight = (1.0 if own_conjugate else 2.0) / teeth
         for offset in range(offsets + 1):
-            joints[offset] += weight * (phase**offset * response).real
-    return joints
+            turned = weight * phase**offset
+            responses[offset] += turned.real * inverse.real - turned.imag * inverse.imag
+    return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
+
+
+def _hermitian_inverse(matrix: np.ndarray) -> np.ndarray:
+    factor, failed = zpotrf(matrix, lower=False)
+    if not failed:
+        upper, failed = zpotri(factor, lower=False)
+    if failed:
+        raise ComputationError("ring of sectors: a harmonic's stiffness is not positive definite; is the hub held?")
+    strict = np.triu(upper, 1)
+    return strict + strict.conj().T + np.diag(upper.diagonal().real)
 
 
 def ring_stiffness(sector: CondensedBody, teeth: int, loaded: tuple[int, ...]) -> np.ndarray:

@@ -13,6 +13,10 @@ from fenics_gears.geometry.outline import ToothOutline, tooth_outline
 
 FILLET_SAMPLES = 201
 CURVE_SAMPLES = 400
+# Elements have at most the body's size to this depth (modules) below the tooth's surface, and grow beyond it.
+BODY_REACH = 2.0
+# An edge across this angle (rad) cuts less than 0.05 % of its radius off the bore.
+HUB_EDGE_ANGLE = 0.06
 
 
 @dataclass(frozen=True)
@@ -68,20 +72,22 @@ def sector_boundary(gear: Gear, sizes: ElementSizes) -> tuple[SectorBoundary, Si
 
 
 def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
-    growth, sector_angle = sizes.growth, gear.angular_pitch
-    body = min(sizes.body, 0.5 * (gear.root_radius - gear.bore_radius))
-    hub_size = min(body, 0.7 * gear.bore_radius * sector_angle)
-    fillet_size = min(sizes.fillet, body)
+    growth = sizes.growth
+    hub_size = gear.bore_radius * min(gear.angular_pitch, HUB_EDGE_ANGLE)
+    largest = 0.5 * (gear.root_radius - gear.bore_radius)
+    body, fillet, coast_size = (min(size, largest) for size in (sizes.body, sizes.fillet, sizes.coast))
     roots = np.vstack([root, outline.coast(root)])
+    tooth = np.vstack([flank, roots, coast])
     return SizeField(
         sources=(
             SizeSource(flank, min(sizes.flank, body), sizes.depth * sizes.flank, growth),
-            SizeSource(roots, fillet_size, fillet_size, growth),
-            SizeSource(coast, min(sizes.coast, body), sizes.coast, growth),
+            SizeSource(roots, fillet, fillet, growth),
+            SizeSource(coast, coast_size, coast_size, growth),
+            SizeSource(tooth, body, BODY_REACH * gear.module, growth),
             # In a slender wedge elements may not outgrow the sector's own width.
-            SizeSource(hub, hub_size, 0.0, min(growth, 0.7 * sector_angle)),
+            SizeSource(hub, min(largest, hub_size), 0.0, min(growth, gear.angular_pitch)),
         ),
-        largest=body,
+        largest=largest,
     )
 
 

@@ -1,0 +1,109 @@
+"""The sector mesh: exact flank, congruent cuts, sound cells."""
+
+import signal
+from math import pi, radians
+
+import numpy as np
+import pytest
+
+from fenics_gears.elasticity.condensation import by_radius
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.gear_compliance import element_sizes
+from fenics_gears.elasticity.mesh_data import corner_areas, oriented
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.roll_angles import node_roll_angles
+from fenics_gears.elasticity.sector_boundary import sector_boundary
+from fenics_gears.elasticity.sector_mesh import sector_mesh, whole_gear_mesh
+from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import arc_length, canonical_point
+
+
+def standard_gear(teeth, module, shift, bore_share):
+    reference = 0.5 * teeth * module + shift * module
+    root = reference - 1.25 * module
+    return Gear(teeth, module, radians(20.0), shift, reference + module, root, bore_share * root, 0.38 * module)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_cuts_are_congruent_node_for_node(name, pinion, coarse_sector):
+    """Exact identity: the upper cut is the lower one turned by one pitch; the ring joins them without interpolation."""
+    mesh, order = coarse_sector(name), ELEMENTS[name].order
+    lower, upper = (by_radius(mesh.edge_nodes(cut, order)) for cut in ("lower cut", "upper cut"))
+    np.testing.assert_allclose(lower @ rotation(2 * pi / pinion.teeth).T, upper, rtol=0, atol=1e-12 * pinion.tip_radius)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_flank_vertices_are_on_the_involute_even_in_arc_length(name, pinion, coarse_sector):
+    """Exact identity: the involute's own equation, s = rb v^2/2."""
+    mesh = coarse_sector(name)
+    vertices = by_radius(mesh.points[mesh.edge_points("flank")])
+    roll = node_roll_angles(pinion, vertices, 1)
+    np.testing.assert_allclose(vertices, canonical_point(pinion.base_radius, roll), atol=1e-12 * pinion.tip_radius)
+    np.testing.assert_allclose(roll[[0, -1]], [pinion.form_roll_angle, pinion.tip_roll_angle], rtol=1e-12)
+    spacing = np.diff(arc_length(pinion.base_radius, roll))
+    np.testing.assert_allclose(spacing, spacing.mean(), rtol=1e-10)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_cells_fill_the_outline(name, pinion, coarse_sector):
+    """Exact identity: the cells' areas sum to that of the boundary polygon (shoelace formula), none is folded."""
+    mesh = coarse_sector(name)
+    assert corner_areas(mesh.points, mesh.cells).min() > 0
+    corner = mesh.points[mesh.cells]
+    ahead = np.roll(corner, -1, axis=1)
+    area = 0.5 * (corner[..., 0] * ahead[..., 1] - corner[..., 1] * ahead[..., 0]).sum()
+    boundary = sector_boundary(pinion, ElementSizes(flank=0.8, fillet=0.4, coast=1.0, body=3.0))[0].points
+    ahead = np.roll(boundary, -1, axis=0)
+    polygon = 0.5 * abs((boundary[:, 0] * ahead[:, 1] - boundary[:, 1] * ahead[:, 0]).sum())
+    assert area == pytest.approx(polygon, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["P2", "Q2"])
+@pytest.mark.parametrize(
+    ("teeth", "module", "shift", "bore_share"),
+    [(12, 1.0, 0.45, 0.1), (17, 10.0, 0.1, 0.97), (40, 1.0, 0.0, 0.5), (200, 10.0, -0.3, 0.1), (200, 1.0, 0.0, 0.97)],
+)
+def test_full_range_of_gears_can_be_meshed(name, teeth, module, shift, bore_share):
+    """From the task: 12 to 200 teeth, modules 1 to 10, root circle below and above the base circle, thin rims."""
+    gear = standard_gear(teeth, module, shift, bore_share)
+    element = ELEMENTS[name]
+    mesh = sector_mesh(gear, element_sizes(gear, element, 0.08 * module), element.quadrilateral)
+    assert corner_areas(mesh.points, mesh.cells).min() > 0
+    assert len(mesh.edges["lower cut"]) == len(mesh.edges["upper cut"]) < 200
+
+
+def test_fillet_has_at_least_twelve_elements(pinion):
+    """From the task: about twelve elements or more along each fillet."""
+    boundary, _ = sector_boundary(pinion, element_sizes(pinion, ELEMENTS["P2"], 0.5))
+    first, last = boundary.parts["root"]
+    assert last - first >= 12
+
+
+def test_whole_gear_is_closed_and_its_hub_a_ring(pinion, coarse_sector):
+    """Exact identity: Euler's formula, points - edges + cells = 0 for an annulus; the hub closes on itself."""
+    mesh = whole_gear_mesh(coarse_sector("P1"), pinion.teeth)
+    sides = np.sort(np.stack([mesh.cells, np.roll(mesh.cells, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+    assert len(mesh.points) - len(np.unique(sides, axis=0)) + len(mesh.cells) == 0
+    assert np.all(np.bincount(mesh.edges["hub"].ravel())[mesh.edge_points("hub")] == 2)
+
+
+def test_folded_cell_is_refused():
+    """A quadrilateral that crosses itself has no positive Jacobian determinant in either orientation."""
+    points = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])
+    with pytest.raises(ComputationError, match="Jacobian"):
+        oriented(points, np.array([[0, 1, 2, 3]]))
+
+
+def test_gmsh_leaves_the_interrupt_handler_alone(pinion):
+    """Ctrl-C must keep what was done (design.md); gmsh would replace the handler by the system's."""
+    def handler(number, frame):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        sector_mesh(pinion, ElementSizes(flank=1.0, fillet=1.0, coast=2.0, body=4.0))
+        assert signal.getsignal(signal.SIGINT) is handler
+    finally:
+        signal.signal(signal.SIGINT, before)
