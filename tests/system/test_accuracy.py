@@ -1,0 +1,118 @@
+"""What the default accuracy is worth: halved in everything, against Hertz, across hand-over, wherever the grid lies."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fenics_gears.model import model
+from fenics_gears.resolution import hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.scene.data import Accuracy
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def default_scene(quasi_static_scene):
+    """The paper's pair, frictionless, quasi-static, with everything under [accuracy] left to the program."""
+    return replace(quasi_static_scene, friction=None, accuracy=Accuracy())
+
+
+@pytest.fixture(scope="module")
+def bare_scene(default_scene):
+    """The same with rigid shafts and bearings: the transmission error is that of the teeth alone."""
+    return replace(default_scene, shafts=None, bearings=None)
+
+
+@pytest.fixture(scope="module")
+def bare(bare_scene):
+    return simulate(bare_scene)
+
+
+def relative_change(value, reference):
+    return abs(value / reference - 1.0)
+
+
+def test_halving_everything_moves_mean_and_peak_to_peak_by_less_than_half_a_per_cent(default_scene, bare_scene, bare):
+    """Asked for: flank elements, contact spacing and time step halved; here also without the drivetrain's share of the mean."""
+    for scene, result in ((bare_scene, bare), (default_scene, simulate(default_scene))):
+        resolution = model(scene).resolution
+        finer = replace(
+            scene,
+            accuracy=Accuracy(
+                flank_element_size=0.5 * resolution.flank_element_size,
+                contact_length=resolution.contact_grid.length,
+                contact_nodes=2 * resolution.contact_grid.nodes - 1,
+                steps_per_mesh_cycle=2 * resolution.steps_per_mesh_cycle,
+            ),
+        )
+        fine = simulate(finer)
+        for measure in ("mean_transmission_error", "peak_to_peak_transmission_error"):
+            assert relative_change(result.attrs[measure], fine.attrs[measure]) < 0.005
+
+
+def test_a_longer_window_changes_nothing_at_any_phase(bare_scene, bare):
+    """model.md section 1: lengthening the default window moves no phase by more than the 0.1 % ripple of the grid; 1.5 mm is wrong by over 1 %."""
+    grid = model(bare_scene).resolution.contact_grid
+    change = {}
+    for nodes in (grid.nodes + 40, round(1.5 / grid.spacing) + 1):
+        accuracy = Accuracy(contact_length=(nodes - 1) * grid.spacing, contact_nodes=nodes)
+        error = simulate(replace(bare_scene, accuracy=accuracy)).transmission_error.values
+        change[nodes > grid.nodes] = np.abs(error / bare.transmission_error.values - 1.0).max()
+    assert change[True] < 1e-3
+    assert change[False] > 1e-2
+
+
+def test_result_does_not_depend_on_where_the_contact_grid_lies(bare_scene, bare):
+    """Shifting the nodes by half a spacing moves the transmission error by 0.1 %: the ripple that model.md section 2 gives for b/h = 4."""
+    grid = model(bare_scene).resolution.contact_grid
+    shifted = replace(
+        bare_scene, accuracy=Accuracy(contact_length=grid.length + grid.spacing, contact_nodes=grid.nodes + 1)
+    )
+    error = simulate(shifted).transmission_error.values
+    assert error == pytest.approx(bare.transmission_error.values, rel=1e-3)
+
+
+def test_hand_over_is_continuous(bare_scene):
+    """Row 22: with steps refined four times the largest change from step to step falls four times; a jump would stay."""
+    largest = []
+    for steps in (400, 1600):
+        error = simulate(replace(bare_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps))).transmission_error.values
+        largest.append(np.abs(np.diff(error)).max())
+    assert largest[0] / largest[1] == pytest.approx(4.0, rel=0.1)
+
+
+def test_hertz_at_the_pitch_point(bare_scene, bare, paper_pair):
+    """Literature: Hertz line contact (Johnson 1985, ch. 4); a single pair carries at the pitch point. Peak pressure and half-width within 2 %."""
+    phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
+    at = bare.isel(time=int(np.argmin(np.abs(bare.mesh_phase.values - phase))))
+    xi = paper_pair.path_start + float(at.mesh_phase) * paper_pair.base_pitch
+    line_load = float(at.normal_force) / paper_pair.face_width
+    half_width = hertz_half_width(line_load, relative_radius(paper_pair, xi), plane_contact_modulus(bare_scene))
+    peak = 2.0 * line_load / (np.pi * half_width)
+    pair = int(at.pair_normal_force.argmax())
+    known = ~np.isnan(at.contact_offset.values[pair])
+    pressure, offset = at.contact_pressure.values[pair][known], at.contact_offset.values[pair][known]
+    assert pressure.max() == pytest.approx(peak, rel=0.02)
+    # Second moment of the elliptic pressure is b^2/4; that of each node's hat function adds spacing^2/6.
+    centre = pressure @ offset / pressure.sum()
+    moment = pressure @ (offset - centre) ** 2 / pressure.sum() + (offset[1] - offset[0]) ** 2 / 6.0
+    assert 2.0 * np.sqrt(moment) == pytest.approx(half_width, rel=0.02)
+
+
+def test_mesh_stiffness_lies_in_the_band_of_iso_6336(bare, paper_scene):
+    """ISO 6336-1 method B (field_data.md): c' = 12.3 (empirical) to c'th = 15.8 (ideal teeth) N/(mm um) for a single pair,
+    16.3 times at most 1/0.8 for the mesh."""
+    width, radius = paper_scene.gears.face_width, bare.attrs["base_radius_wheel"]
+    stiffness = bare.normal_force.values / width / (bare.transmission_error.values * radius * 1e3)
+    assert 12.3 < stiffness.min() < 15.8
+    assert 16.3 < stiffness.mean() < 16.6 / 0.8
+
+
+@pytest.mark.parametrize("torque", [0.0, 1e-9, 1.0, 437e4])
+def test_any_torque_gives_a_finite_answer(bare_scene, torque):
+    """Row 16: torque 0, 1e-12 and 1 N mm, 10 x nominal: no spurious force, no failed step, the load carried exactly."""
+    scene = replace(bare_scene, load=replace(bare_scene.load, wheel_torque=torque), accuracy=Accuracy(steps_per_mesh_cycle=50))
+    result = simulate(scene)
+    force = torque / result.attrs["base_radius_wheel"]
+    assert result.normal_force.values == pytest.approx(force, rel=1e-9, abs=1e-9)
+    assert np.all(np.isfinite(result.transmission_error.values))

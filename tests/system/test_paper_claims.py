@@ -1,0 +1,95 @@
+"""Claims 1-4 of the paper (model.md section 6), measured on its own gear pair with finite element teeth."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fenics_gears.scene.data import Motion
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def static(paper_scene):
+    """The quasi-static runs of Figs. 2 and 4, two mesh cycles, with friction and without."""
+    scene = replace(paper_scene, inertia=None, damping=None, motion=Motion(200.0, 3, 2))
+    return {"friction": simulate(scene), "plain": simulate(replace(scene, friction=None))}
+
+
+def phase(result):
+    return result.mesh_phase.values % 1.0
+
+
+def single_contact(result):
+    """Steps at which exactly one tooth pair carries."""
+    return (result.pair_normal_force.values > 0.0).sum(axis=1) == 1
+
+
+def test_claim_1_without_friction_nothing_moves_off_the_line_of_action(static):
+    """Fig. 2: exactly zero, since nothing in the frictionless model pulls that way."""
+    assert np.all(static["plain"].centre_y.values == 0.0)
+    assert np.abs(static["friction"].centre_y.values).max() > 5e-3
+
+
+def test_claim_2_displacement_is_small_with_two_pairs_and_jumps_with_one(static, paper_scene):
+    """Figs. 2, 3: about zero at the beginning of a cycle; with one pair +-mu F/k_b, its sign changing at the pitch point."""
+    result = static["friction"]
+    wheel = result.centre_y.sel(gear="wheel").values
+    full = paper_scene.friction.coefficient * result.normal_force.values / paper_scene.bearings.stiffness
+    begin = phase(result) < 0.4
+    assert np.abs(wheel[begin]).max() < 0.2 * full.max()
+    alone = single_contact(result)
+    before, after = alone & (phase(result) < 0.70), alone & (phase(result) > 0.85)
+    assert wheel[before] == pytest.approx(-full[before], rel=1e-6)
+    assert wheel[after] == pytest.approx(full[after], rel=1e-6)
+
+
+def test_claim_3_friction_changes_the_static_error_suddenly_at_the_end_of_the_cycle(static):
+    """Fig. 2: at the pitch point the transmission error falls by many times what it does without friction."""
+    fall = {}
+    for name, result in static.items():
+        error = result.transmission_error.values
+        window = (phase(result) > 0.72) & (phase(result) < 0.85)
+        fall[name] = np.ptp(error[window & (result.mesh_phase.values < 2.0)])
+    mean_elastic = np.ptp(static["plain"].transmission_error.values)
+    assert fall["friction"] > 0.5 * mean_elastic
+    assert fall["plain"] < 0.05 * mean_elastic
+
+
+def test_claim_4_friction_makes_reactions_and_input_couple_vary_at_constant_output(static, paper_scene):
+    """Fig. 4: R_x1, R_y1 and C_z1 vary by several per cent with friction; without, all three are constant to round-off."""
+    for name, varies in (("friction", True), ("plain", False)):
+        result = static[name]
+        pinion, wheel = result.sel(gear="pinion"), result.sel(gear="wheel")
+        assert wheel.reaction_couple.values == pytest.approx(-paper_scene.load.wheel_torque, rel=1e-9)
+        for variable in (pinion.reaction_x, pinion.reaction_couple):
+            spread = np.ptp(variable.values) / np.abs(variable.values).mean()
+            assert spread > 0.03 if varies else spread < 1e-12
+    assert np.ptp(static["friction"].reaction_y.sel(gear="pinion").values) > 1.5 * 0.1 * 8400.0
+
+
+def test_torque_ratio_without_friction_is_exact_at_every_angle(static):
+    """T1/rb1 = T2/rb2: the couples on the gears are as the tooth numbers, 16 to 24 (row 3)."""
+    couples = static["plain"].reaction_couple
+    ratio = couples.sel(gear="pinion").values / couples.sel(gear="wheel").values
+    assert ratio == pytest.approx(16.0 / 24.0, rel=1e-12)
+
+
+def test_forces_and_moments_of_the_pair_sum_to_zero(static, paper_pair):
+    """Row 3, action and reaction: the forces on both gears cancel, and so do their moments about the pinion's centre."""
+    result = static["friction"]
+    pinion, wheel = result.sel(gear="pinion"), result.sel(gear="wheel")
+    assert np.abs(result.reaction_x.sum("gear").values).max() <= 1e-12 * 9e3
+    assert np.abs(result.reaction_y.sum("gear").values).max() <= 1e-12 * 9e3
+    centre = np.array([paper_pair.line_of_action_length, -paper_pair.pinion.base_radius - paper_pair.wheel.base_radius])
+    moment = pinion.reaction_couple + wheel.reaction_couple
+    moment = moment + centre[0] * wheel.reaction_y - centre[1] * wheel.reaction_x
+    # The flanks of a node do not coincide: its friction acts on either gear at its own flank, a gap (< 0.02 mm) apart.
+    assert np.abs(moment.values).max() <= 0.02 * np.abs(result.friction_force.values).max()
+
+
+def test_transmission_error_of_a_cycle_repeats(static):
+    """All teeth are alike: the quasi-static error has the period of the mesh."""
+    error = static["friction"].transmission_error.values
+    steps = static["friction"].attrs["steps_per_mesh_cycle"]
+    assert error[:steps] == pytest.approx(error[steps : 2 * steps], rel=1e-9)
