@@ -35,9 +35,9 @@ def _draw_transmission_error(axes: Axes, dataset: xr.Dataset) -> None:
     variable = dataset["transmission_error"]
     error = in_unit(variable, "µrad")
     axes.plot(dataset["mesh_phase"].values, error, color=PALETTE[0])
-    peak_to_peak = np.ptp(error)
-    if "peak_to_peak_transmission_error" in dataset.attrs:
-        peak_to_peak = dataset.attrs["peak_to_peak_transmission_error"] * factor("rad", "µrad")
+    peak_to_peak, over = np.ptp(error), " of what is stored"
+    if dataset.attrs.get("complete", 1) and "peak_to_peak_transmission_error" in dataset.attrs:
+        peak_to_peak, over = dataset.attrs["peak_to_peak_transmission_error"] * factor("rad", "µrad"), ""
     spelled = f"{_four_digits(peak_to_peak)} µrad"
     axes.set_ylabel("Transmission error (µrad)")
     axes.set_ylim(*limits(error, LEAST_SHARE * np.abs(error).max()))
@@ -47,7 +47,7 @@ def _draw_transmission_error(axes: Axes, dataset: xr.Dataset) -> None:
         spelled += f" = {_four_digits(peak_to_peak * per_microradian)} µm on the wheel's base circle"
         length = axes.secondary_yaxis("right", functions=(lambda e: e * per_microradian, lambda e: e / per_microradian))
         length.set_ylabel("On the wheel's base circle (µm)")
-    axes.set_title(f"Peak to peak {spelled}")
+    axes.set_title(f"Peak to peak{over} {spelled}")
 
 
 def _four_digits(value: float) -> str:
@@ -124,7 +124,7 @@ def load_sharing(dataset: xr.Dataset) -> Figure | None:
             axes.plot(phase, _while_carrying(force), color=PALETTE[number % len(PALETTE)], label=f"pair {number}")
     axes.set_ylabel("Normal force (N)")
     axes.set_ylim(0.0, 1.06 * max(float(total.max()), 1e-9))
-    legend(axes, columns=8, location="lower left")
+    legend(axes, columns=6, location="lower left")
     return figure
 
 

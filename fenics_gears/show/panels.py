@@ -42,13 +42,12 @@ _STYLE = {
 
 def styled(draw: Callable) -> Callable:
     """Run a drawing function in the style of these pictures, whatever the settings of the user's matplotlib are."""
-    defaults = {key: value for key, value in matplotlib.rcParamsDefault.items() if not key.startswith(("backend", "webagg"))}
-    # A user's deprecated settings are none of ours.
-    settings = {key: value for key, value in defaults.items() if key in matplotlib.rcParams} | _STYLE
 
     @functools.wraps(draw)
     def inside(*arguments, **options):
-        with matplotlib.rc_context(settings):
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(_STYLE)
             return draw(*arguments, **options)
 
     return inside

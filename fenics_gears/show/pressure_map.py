@@ -18,6 +18,7 @@ from fenics_gears.show.units import factor, in_unit
 
 # A tip that enters or leaves presses with its edge: a few cells far above all others, which would leave these one colour.
 COMMON_SHARE = 98.0  # per cent of the cells that the colour scale spans
+NAMED_SHARE = 0.2  # of the time axis, that a pair's band must span to have its number beside it
 
 _DEGREES = factor("rad", "deg")
 
@@ -122,14 +123,14 @@ def _draw_wheel_axis(axes: Axes, pair: GearPair) -> None:
 
 
 def _name_pairs(axes: Axes, cells: Cells) -> None:
-    """The number of each pair beside the middle of its band, where the band is long enough to be worth it."""
+    """The number of each pair beside the middle of its band, where the band is long enough to leave it room."""
+    begin, end = axes.get_xlim()
     for number in np.unique(cells.pair):
         corners = cells.corners[cells.pair == number]
         left, right = corners[:, :, 0].min(), corners[:, :, 0].max()
-        if right - left < 0.2:
+        if right - left < NAMED_SHARE * (end - begin):
             continue
         middle = 0.5 * (left + right)
-        near = corners[np.abs(corners[:, :, 0].mean(axis=1) - middle) <= 0.05]
-        if len(near):
-            roll = near[:, :, 1].max()
-            axes.annotate(f"pair {number}", (middle, roll), xytext=(-4, 4), textcoords="offset points", ha="right", fontsize=11)
+        nearest = np.argmin(np.abs(corners[:, :, 0].mean(axis=1) - middle))
+        place = (middle, corners[nearest, :, 1].max())
+        axes.annotate(f"pair {number}", place, xytext=(-8, 6), textcoords="offset points", ha="right", fontsize=11)

@@ -1,0 +1,144 @@
+"""Curves show the dataset's own values, converted by exact SI prefixes; what a result lacks has no panel."""
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from tests.show.synthetic import BARE, made_up_run
+
+from fenics_gears.errors import ComputationError
+from fenics_gears.show.curves import load_sharing, mesh_forces, transmission_error
+from fenics_gears.show.units import factor, in_unit
+
+
+def curve(axes, which=-1):
+    """The data of one of the panel's curves; lines across the panel are no curves."""
+    lines = [line for line in axes.get_lines() if len(np.asarray(line.get_xdata())) > 2]
+    return np.asarray(lines[which].get_xdata()), np.asarray(lines[which].get_ydata())
+
+
+@pytest.mark.parametrize(
+    ("unit", "wanted", "expected"),
+    [("rad", "µrad", 1e6), ("mm", "µm", 1e3), ("N mm", "N m", 1e-3), ("MPa", "MPa", 1.0), ("rad", "deg", 180 / np.pi), ("kN", "N", 1e3)],
+)
+def test_factors_are_those_of_the_si(unit, wanted, expected):
+    """Authority: the SI's prefixes."""
+    assert factor(unit, wanted) == pytest.approx(expected, rel=1e-15)
+
+
+def test_a_variable_of_another_kind_or_without_units_is_refused_by_name():
+    """Authority: a length is no angle; a figure without a unit must not get a label with one."""
+    run = made_up_run()
+    with pytest.raises(ComputationError, match="centre_y.*length.*angle"):
+        in_unit(run["centre_y"], "µrad")
+    del run["normal_force"].attrs["units"]
+    with pytest.raises(ComputationError, match="normal_force"):
+        mesh_forces(run)
+
+
+def test_transmission_error_and_the_wheels_sideways_motion():
+    """Authority: the dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
+    run = made_up_run()
+    above, below = transmission_error(run).get_axes()
+    for axes, name, values in [
+        (above, "Transmission error (µrad)", run["transmission_error"].values * 1e6),
+        (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3),
+    ]:
+        x, y = curve(axes)
+        assert axes.get_ylabel() == name
+        np.testing.assert_array_equal(x, run["mesh_phase"].values)
+        np.testing.assert_allclose(y, values, rtol=1e-14, atol=0)
+    assert below.get_xlabel() == "Time (mesh cycles since the start)"
+    (length,) = above.child_axes
+    assert length.get_ylabel() == "On the wheel's base circle (µm)"
+    FigureCanvasAgg(above.figure).draw()
+    # 1 µrad on a base radius of 50 mm is 0.05 µm.
+    np.testing.assert_allclose(length.get_ylim(), 0.05 * np.array(above.get_ylim()), rtol=1e-12)
+
+
+def test_the_peak_to_peak_is_named():
+    """Authority: 400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
+    (above, _) = transmission_error(made_up_run(steps=41)).get_axes()
+    assert above.get_title(loc="left") == "Peak to peak 400.0 µrad = 20.00 µm on the wheel's base circle"
+
+
+def test_an_incomplete_run_names_the_peak_to_peak_of_what_is_stored():
+    """Authority: the stored values; the first quarter of the wave rises by its amplitude, 200 µrad."""
+    run = made_up_run(steps=41, complete=0).isel(time=slice(0, 6))
+    title = transmission_error(run).get_axes()[0].get_title(loc="left")
+    assert title.startswith("Peak to peak of what is stored 200.0 µrad")
+
+
+def test_a_motion_of_rounding_errors_is_shown_as_none():
+    """Authority: contact is solved to 1e-4 um; without friction the off-line motion is exactly zero (model.md, claim 1)."""
+    run = made_up_run()
+    run["centre_y"][:] = run["centre_y"].values * 1e-12
+    low, high = transmission_error(run).get_axes()[1].get_ylim()
+    assert high - low >= 0.1 and low < 0 < high
+
+
+def test_mesh_forces():
+    """Authority: the dataset's values; N mm become N m."""
+    run = made_up_run()
+    normal, friction, couples = mesh_forces(run).get_axes()
+    np.testing.assert_array_equal(curve(normal)[1], run["normal_force"].values)
+    np.testing.assert_array_equal(curve(friction)[1], run["friction_force"].values)
+    for which, gear in enumerate(("pinion", "wheel")):
+        np.testing.assert_allclose(curve(couples, which)[1], run["reaction_couple"].sel(gear=gear).values * 1e-3, rtol=1e-14)
+    assert [axes.get_ylabel() for axes in (normal, friction, couples)] == ["Normal force (N)", "Friction force (N)", "Couple (N m)"]
+    assert [text.get_text() for text in couples.get_legend().get_texts()] == ["pinion", "wheel"]
+
+
+def test_load_sharing():
+    """Authority: each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
+    run = made_up_run()
+    (axes,) = load_sharing(run).get_axes()
+    lines = {line.get_label(): line for line in axes.get_lines()}
+    np.testing.assert_allclose(lines.pop("all pairs").get_ydata(), run["normal_force"].values, rtol=1e-14)
+    carrying = [int(n) for n in run["pair"].values if np.any(run["pair_normal_force"].sel(pair=n).values != 0)]
+    assert list(lines) == [f"pair {number}" for number in carrying]
+    for number in carrying:
+        force, shown = run["pair_normal_force"].sel(pair=number).values, lines[f"pair {number}"].get_ydata()
+        np.testing.assert_array_equal(shown[force != 0], force[force != 0])
+        assert not np.any(shown[np.isfinite(shown) & (force == 0)])
+    colours = [line.get_color() for line in lines.values()]
+    assert all(first != second for first, second in zip(colours, colours[1:]))
+    assert axes.get_ylabel() == "Normal force (N)"
+
+
+def test_pairs_that_never_carry_have_no_curve():
+    """Authority: rule 9 of the house, shown as it is: what is not there is not drawn."""
+    run = made_up_run()
+    run["pair_normal_force"][:, 0] = 0.0
+    labels = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
+    assert "pair 27" not in labels and "pair 28" in labels
+
+
+def test_absent_variables_leave_no_panel():
+    """Authority: rule 9 of the house. A scene without friction and bearings has neither variable."""
+    bare = made_up_run().drop_vars(BARE)
+    assert len(transmission_error(bare).get_axes()) == 1
+    assert [axes.get_ylabel() for axes in mesh_forces(bare).get_axes()] == ["Normal force (N)", "Couple (N m)"]
+    assert mesh_forces(bare.drop_vars(["normal_force", "reaction_couple"])) is None
+    assert load_sharing(bare.drop_vars("pair_normal_force")) is None
+
+
+def test_no_length_axis_without_a_base_radius():
+    """Authority: a length on the base circle needs its radius."""
+    run = made_up_run()
+    del run.attrs["base_radius_wheel"]
+    assert transmission_error(run).get_axes()[0].child_axes == []
+
+
+@pytest.mark.parametrize("cycles", [2.0, 14.0])
+def test_legends_cover_no_curve_and_stay_in_the_picture(cycles):
+    """Authority: the legend's box, as drawn, lies outside the panel's and inside the picture's."""
+    for draw in (mesh_forces, load_sharing):
+        figure = draw(made_up_run(cycles=cycles, steps=141))
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        for axes in figure.get_axes():
+            if axes.get_legend() is None:
+                continue
+            box, panel = axes.get_legend().get_window_extent(), axes.get_window_extent()
+            assert box.y0 >= panel.y1 - 1.0
+            assert box.x0 >= 0 and box.x1 <= figure.bbox.x1 and box.y1 <= figure.bbox.y1

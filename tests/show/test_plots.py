@@ -1,0 +1,95 @@
+"""The files of a run's pictures: which there are, that they are whole, and what each says about the run."""
+
+import subprocess
+import sys
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.image import imread
+from tests.show.synthetic import BARE, made_up_run
+
+from fenics_gears.errors import ComputationError
+from fenics_gears.show.plots import PICTURES, draw_run, run_figures
+
+
+@pytest.mark.parametrize("absent", [(), BARE])
+def test_every_picture_is_written_whole_and_nothing_else(tmp_path, absent):
+    """Authority: the PNG decodes at 150 dots per inch over 10 inches, and shows more than its ground."""
+    files = draw_run(made_up_run().drop_vars(absent), tmp_path / "new")
+    assert {file.name for file in files} == set(PICTURES) == {file.name for file in (tmp_path / "new").iterdir()}
+    for file in files:
+        picture = imread(file)
+        assert picture.shape[1] == 1500
+        assert 0.005 < np.mean(picture[..., :3].min(axis=2) < 0.9) < 0.5
+
+
+def test_a_picture_without_its_variable_is_not_written(tmp_path):
+    """Authority: rule 9 of the house."""
+    files = draw_run(made_up_run().drop_vars("contact_pressure"), tmp_path)
+    assert {file.name for file in files} == set(PICTURES) - {"contact_pressure.png"}
+
+
+@pytest.mark.parametrize("steps", [0, 1])
+def test_too_few_steps_are_said_and_nothing_is_written(tmp_path, steps):
+    """Authority: a curve needs two points."""
+    run = made_up_run(complete=0).isel(time=slice(0, steps))
+    with pytest.raises(ComputationError, match="nothing to draw.*step is stored.*Run the scene again"):
+        draw_run(run, tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+
+
+def test_two_steps_are_enough(tmp_path):
+    """Authority: a line has two ends."""
+    assert len(draw_run(made_up_run().isel(time=slice(0, 2)), tmp_path)) == len(PICTURES)
+
+
+def test_a_failure_leaves_the_pictures_of_before_alone(tmp_path):
+    """Authority: hard_cases.md, 27: never a half-written result under its final name."""
+    before = {file: file.read_bytes() for file in draw_run(made_up_run(), tmp_path)}
+    run = made_up_run()
+    run["contact_pressure"].attrs["units"] = "mm"
+    run["transmission_error"] = run["transmission_error"].copy(data=run["transmission_error"].values * 2)
+    with pytest.raises(ComputationError, match="contact_pressure"):
+        draw_run(run, tmp_path)
+    assert {file: file.read_bytes() for file in tmp_path.iterdir()} == before
+
+
+def test_an_incomplete_run_says_so_in_every_picture():
+    """Authority: the attribute `complete`; the run of 2 cycles from 28 is cut after half of its 20 steps."""
+    whole, cut = made_up_run(), made_up_run(complete=0).isel(time=slice(0, 11))
+    for figure in run_figures(cut).values():
+        assert "INCOMPLETE RUN: stopped at mesh cycle 29.00" in figure._suptitle.get_text()
+    for figure in run_figures(whole).values():
+        assert "INCOMPLETE" not in figure._suptitle.get_text()
+
+
+def test_the_heading_names_scene_and_conditions(paper_scene):
+    """Authority: the paper's scene: 437 N m, 200 Hz, friction 0.1."""
+    for figure in run_figures(made_up_run(scene=paper_scene.text, title=paper_scene.title)).values():
+        heading = figure._suptitle.get_text()
+        assert paper_scene.title in heading
+        assert "437 N m on the wheel, 200 Hz mesh frequency, friction coefficient 0.1" in heading
+
+
+def test_any_title_is_drawn_as_it_is(tmp_path):
+    """Authority: a title is text; what matplotlib would read as a broken formula must not stop a run's pictures."""
+    title = "costs $5_{ and $6 \\frac"
+    run = made_up_run(title=title)
+    assert title in run_figures(run)["mesh_forces.png"]._suptitle.get_text()
+    assert len(draw_run(run, tmp_path)) == len(PICTURES)
+
+
+def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):
+    """Authority: the same dataset gives the same pictures, byte for byte."""
+    plain = [file.read_bytes() for file in draw_run(made_up_run(), tmp_path / "plain")]
+    with matplotlib.rc_context({"font.size": 40.0, "axes.facecolor": "black", "savefig.transparent": True, "lines.linewidth": 9.0}):
+        files = draw_run(made_up_run(), tmp_path / "own")
+        assert matplotlib.rcParams["font.size"] == 40.0
+    assert [file.read_bytes() for file in files] == plain
+
+
+def test_the_command_starts_without_matplotlib():
+    """Authority: the start-up time of the command; matplotlib is for those who draw."""
+    code = "import sys, fenics_gears.cli; sys.exit('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
