@@ -34,6 +34,6 @@ def element_named(name: str) -> Element:
     """The element of that name; raises SceneError that names the nearest known one."""
     if name in ELEMENTS:
         return ELEMENTS[name]
-    near = get_close_matches(str(name), ELEMENTS, n=1, cutoff=0.3)
+    near = get_close_matches(str(name).upper(), ELEMENTS, n=1, cutoff=0.3)
     hint = f"; did you mean '{near[0]}'?" if near else ""
     raise SceneError(f"element '{name}' is not known, there are {', '.join(ELEMENTS)}{hint}")
