@@ -12,7 +12,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.show.panels import DARK, panels, styled
+from fenics_gears.show.panels import DARK, legend, panels, styled
 from fenics_gears.show.run_scene import gear_pair_of
 from fenics_gears.show.units import factor, in_unit
 
@@ -109,8 +109,8 @@ def _colours() -> LinearSegmentedColormap:
 
 def _draw_pitch_point(axes: Axes, pair: GearPair) -> None:
     roll = float(pair.pinion_roll_angle(pair.pitch_point)) * _DEGREES
-    axes.axhline(roll, color=DARK, linewidth=1.0, linestyle=(0, (5, 3)))
-    axes.annotate("pitch point", (0.005, roll), xycoords=("axes fraction", "data"), xytext=(0, 3), textcoords="offset points", fontsize=11)
+    axes.axhline(roll, color=DARK, linewidth=1.0, linestyle=(0, (5, 3)), label="pitch point")
+    legend(axes, columns=1)
 
 
 def _draw_wheel_axis(axes: Axes, pair: GearPair) -> None:

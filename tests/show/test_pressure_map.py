@@ -95,10 +95,11 @@ def test_pitch_point_and_the_wheels_axis(paper_scene):
     assert roll == pytest.approx(math.degrees(math.tan(math.radians(22.44))), abs=0.01)
     (wheel,) = axes.child_axes
     assert wheel.get_ylabel() == "Roll angle on the wheel's flank (deg)"
-    # Along the line of action the wheel's roll angle falls by z1/z2 of what the pinion's rises.
-    axes.set_ylim(roll, roll + 6.0)
     FigureCanvasAgg(axes.figure).draw()
-    np.testing.assert_allclose(wheel.get_ylim(), [roll, roll - 6.0 * 16 / 24], rtol=1e-12)
+    for further in (0.0, 6.0):
+        # Along the line of action the wheel's roll angle falls by z1/z2 of what the pinion's rises.
+        height = axes.transData.transform((28.0, roll + further))[1]
+        assert wheel.transData.transform((0.0, roll - further * 16 / 24))[1] == pytest.approx(height, rel=1e-9)
 
 
 def test_without_a_readable_scene_the_map_is_there_without_the_pitch_point():
