@@ -15,6 +15,7 @@ from pathlib import Path
 
 from fenics_gears import __version__, environment
 from fenics_gears.errors import ComputationError, GearsError, GeometryError, SceneError
+from fenics_gears.interruption import Interruption
 from fenics_gears.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 INTERRUPTED = 130
@@ -41,7 +42,10 @@ def _reported(command) -> int:
     except GearsError as error:
         print(error, file=sys.stderr)
         return error.exit_code
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, SystemError) as error:
+        # Compiled code that Ctrl-C hits in the middle turns it into a SystemError.
+        if not isinstance(error, KeyboardInterrupt) and not isinstance(error.__cause__, KeyboardInterrupt):
+            raise
         print("Interrupted before there was anything to keep.", file=sys.stderr)
         return INTERRUPTED
 
@@ -70,24 +74,28 @@ def run(options: argparse.Namespace) -> int:
     check_writable(directory)
     from fenics_gears.simulation import simulate
 
-    progress = _progress(options.quiet)
-    try:
-        dataset = simulate(scene, progress=progress)
-    except ComputationError as error:
-        progress.close()
-        if getattr(error, "partial", None) is not None:
-            files = _write(error.partial, directory)
-            error = ComputationError(f"{error}\nWhat was done until then is kept, marked incomplete: {files[0]}")
-        raise error
-    finally:
-        progress.close()
-    files = _write(dataset, directory)
-    complete = bool(dataset.attrs.get("complete", 1))
+    with Interruption(_progress(options.quiet)) as interruption:
+        try:
+            dataset = simulate(scene, progress=interruption)
+        except ComputationError as error:
+            if getattr(error, "partial", None) is None:
+                raise
+            file = _save(error.partial, directory, interruption)
+            raise ComputationError(f"{error}\n{_kept(error.partial, file)}") from error
+        files = [_save(dataset, directory, interruption)]
+        complete = bool(dataset.attrs.get("complete", 1))
+        last_words = "" if complete else f"Interrupted. {_kept(dataset, files[0])}"
+        if complete:
+            try:
+                interruption.heed()
+                files += _draw(dataset, directory)
+            except KeyboardInterrupt:
+                last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
     if not options.quiet:
         _print_summary(scene.title, dataset, files)
-    if not complete:
-        print(f"Interrupted. What was done until then is kept, marked incomplete: {files[0]}", file=sys.stderr)
-    return 0 if complete else INTERRUPTED
+    if last_words:
+        print(last_words, file=sys.stderr)
+    return INTERRUPTED if last_words else 0
 
 
 def plot(options: argparse.Namespace) -> int:
@@ -139,18 +147,22 @@ def _checked_scene(path: Path):
     return scene
 
 
-def _write(dataset, directory: Path) -> list[Path]:
-    """Write the result, then its pictures; the result's file is the first of those returned."""
+def _save(dataset, directory: Path, interruption: Interruption) -> Path:
+    """Write the result where no Ctrl-C can lose it, and return its file."""
     from fenics_gears import results
-    from fenics_gears.output import undisturbed, written_aside
+    from fenics_gears.output import written_aside
 
+    interruption.ignore()
     written: list[Path] = []
-    with undisturbed():
-        with written_aside(directory, written) as aside:
-            results.save(dataset, aside / RUN_FILE)
-        if dataset.attrs.get("complete", 1):
-            written += _draw(dataset, directory)
-    return written
+    with written_aside(directory, written) as aside:
+        results.save(dataset, aside / RUN_FILE)
+    return written[0]
+
+
+def _kept(dataset, file: Path) -> str:
+    """What an incomplete result holds."""
+    steps = dataset.sizes["time"]
+    return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the recorded steps"
 
 
 def _draw(dataset, directory: Path) -> list[Path]:

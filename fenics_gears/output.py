@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 import tempfile
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -42,16 +40,3 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
                 written.append(directory / file.name)
     except OSError as error:
         raise ComputationError(f"{directory}: the result could not be written: {error.strerror or error}") from error
-
-
-@contextlib.contextmanager
-def undisturbed() -> Iterator[None]:
-    """Let no further Ctrl-C come between a result and its file."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -24,7 +24,7 @@ def summary_rows(dataset) -> list[tuple[str, str, str]]:
             rows.append((label, f"{angle:.5g} rad = {angle * dataset.attrs['base_radius_wheel'] * MICROMETRES:.4g} um", ""))
         else:
             rows.append((label, "not determined", ""))
-    if "newton_iterations" in dataset:
+    if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
     rows += [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]

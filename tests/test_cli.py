@@ -5,6 +5,8 @@ The simulation is replaced by one that returns at once: what is under test is wh
 
 import io
 import os
+import re
+import signal
 import subprocess
 import sys
 import time
@@ -56,10 +58,7 @@ def simulation(monkeypatch, tmp_path):
             raise stand_in.outcome
         return stand_in.outcome
 
-    def describe(scene):
-        return types.SimpleNamespace(sections=[("Pair", [("contact ratio", 1.4712345, ""), ("base pitch", 13.284, "mm")])])
-
-    stand_in.simulate, stand_in.describe = simulate, describe
+    stand_in.simulate = simulate
     plots = types.ModuleType("fenics_gears.show.plots")
 
     def draw_run(dataset, directory):
@@ -113,12 +112,75 @@ def test_ctrl_c_keeps_what_was_done(simulation, capsys, tmp_path):
     assert "marked incomplete: here/run.nc" in capsys.readouterr().err
 
 
+def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
+    """Authority: issue 2; a real signal in the middle of a step ends the march between two steps, and the handler is given back."""
+    before = signal.getsignal(signal.SIGINT)
+    steps = []
+
+    def march(scene, *, progress):
+        progress.stage("march")
+        try:
+            for step in range(10):
+                progress.update(step, 10)
+                if step == 4:
+                    os.kill(os.getpid(), signal.SIGINT)
+                steps.append(step)
+        except KeyboardInterrupt:
+            return small_result(complete=0)
+        return small_result()
+
+    simulation.simulate = march
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 130
+    assert steps == [0, 1, 2, 3, 4]
+    assert files(tmp_path) == ["here/run.nc"]
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
+    """Authority: issue 2; a step that never ends can be left."""
+
+    def hang(scene, *, progress):
+        progress.stage("march")
+        progress.update(1, 10)
+        os.kill(os.getpid(), signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGINT)
+        raise AssertionError("the second signal was not heeded")
+
+    simulation.simulate = hang
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 130
+    assert files(tmp_path) == []
+
+
+def test_ctrl_c_while_the_result_is_written_does_not_lose_it(simulation, monkeypatch, capsys, tmp_path):
+    """Authority: hard case 27; the files are there, whole."""
+    save = results.save
+
+    def interrupted_save(dataset, path):
+        os.kill(os.getpid(), signal.SIGINT)
+        save(dataset, path)
+
+    monkeypatch.setattr(results, "save", interrupted_save)
+    assert main(["run", str(DEMO), "--output", "here"]) == 130
+    assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 1
+    assert files(tmp_path) == ["here/run.nc"]
+    assert "The result is whole: here/run.nc" in capsys.readouterr().err
+
+
 def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_path):
     """Authority: design.md; there is nothing to keep."""
     simulation.outcome = KeyboardInterrupt()
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     assert files(tmp_path) == []
     assert "Interrupted" in capsys.readouterr().err
+
+
+def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
+    """Authority: design.md; a run without a recorded step is kept, marked incomplete, and not summed up as if it had some."""
+    simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))
+    assert main(["run", str(DEMO), "--output", "here"]) == 130
+    output = capsys.readouterr()
+    assert "Newton" not in output.out
+    assert "marked incomplete: here/run.nc, none of the recorded steps" in output.err
 
 
 @pytest.mark.parametrize("partial", [True, False])
@@ -200,11 +262,14 @@ def test_plot_of_something_else_is_refused(simulation, capsys, tmp_path, content
 
 
 def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, capsys, tmp_path):
-    """Authority: design.md; effects on and off with what each adds."""
+    """Authority: the values the paper prints (model.md, section 1); design.md, effects on and off with what each adds."""
     assert main(["check", str(DEMO)]) == 0
     output = capsys.readouterr().out
-    assert "  contact ratio  1.47123\n" in output
-    assert "  base pitch     13.284 mm\n" in output
+    for printed in ("22.44 deg", "13.28 mm", "1.47", "29.61 deg", "27.64 deg", "20.95 mm"):
+        value, _, unit = printed.partition(" ")
+        last_digit = 10.0 ** -len(value.partition(".")[2])
+        found = [float(number) for number in re.findall(rf" (\d+\.\d+) ?{unit}\n", output)]
+        assert any(abs(number - float(value)) <= last_digit for number in found), printed
     lines = {line.split()[0]: line for line in output.splitlines() if line.startswith("  ")}
     assert " on " in lines["friction"] and "pair_friction_force" in lines["friction"]
     assert " off " in lines["tip_relief"] and "true involutes" in lines["tip_relief"]
