@@ -104,10 +104,7 @@ def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
     Tooth t stands t pitches counter-clockwise of tooth 0 and its flank is "flank t".
     """
     pitch = 2.0 * np.pi / teeth
-    by_radius = lambda name: sorted(  # noqa: E731
-        sector.edge_points(name), key=lambda i: np.linalg.norm(sector.points[i])
-    )
-    lower, upper = by_radius("lower cut"), by_radius("upper cut")
+    lower, upper = _points_by_radius(sector, "lower cut"), _points_by_radius(sector, "upper cut")
     own = np.setdiff1d(np.arange(len(sector.points)), upper)
     points, index = [], np.empty((teeth, len(sector.points)), dtype=int)
     for tooth in range(teeth):
@@ -119,3 +116,8 @@ def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
     edges["hub"] = np.vstack([index[tooth][sector.edges["hub"]] for tooth in range(teeth)])
     cells = np.vstack([index[tooth][sector.cells] for tooth in range(teeth)])
     return BodyMesh(np.vstack(points), cells, edges)
+
+
+def _points_by_radius(mesh: BodyMesh, name: str) -> np.ndarray:
+    points = mesh.edge_points(name)
+    return points[np.argsort(np.linalg.norm(mesh.points[points], axis=1))]
