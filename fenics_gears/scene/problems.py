@@ -30,10 +30,14 @@ class Problem:
     message: str
     unknown: bool = False
 
+    def line(self, lines: Mapping[Path, int]) -> int:
+        """The line of the field or of the section that lacks it; 0 where neither is found."""
+        return next((lines[self.path[:n]] for n in range(len(self.path), 0, -1) if self.path[:n] in lines), 0)
+
     def describe(self, source: str, lines: Mapping[Path, int]) -> str:
         """Two lines for people: file, line, field and value; then what is wrong and what is allowed."""
-        known = next((self.path[:n] for n in range(len(self.path), 0, -1) if self.path[:n] in lines), None)
-        place = f"{source}:{lines[known]}" if known else source
+        line = self.line(lines)
+        place = f"{source}:{line}" if line else source
         field = ".".join(self.path)
         if self.written is not None:
             field = f"{field} = {self.written}" if self.written else f"[{field}]"

@@ -59,7 +59,7 @@ def _why_no_toml(error: Exception) -> str:
 def _message(problems: list[Problem], text: str, source: str) -> str:
     lines = line_numbers(text)
     count = "1 mistake" if len(problems) == 1 else f"{len(problems)} mistakes"
-    entries = [problem.describe(source, lines) for problem in problems]
+    entries = [problem.describe(source, lines) for problem in sorted(problems, key=lambda each: each.line(lines))]
     return "\n".join([*entries, f"{count} in {source}. Nothing was computed or written."])
 
 
