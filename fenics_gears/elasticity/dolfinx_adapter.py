@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import inspect
 import logging
+import re
 from contextlib import contextmanager
 from importlib import metadata
+from pathlib import Path
 
 import numpy as np
 
@@ -92,6 +94,21 @@ def quiet_compiler():
         yield
     finally:
         logging.disable(disabled)
+
+
+def with_compiled(build):
+    """Call ``build()``, which compiles; where a compile was once killed halfway, remove what it left and call it again.
+
+    The form compiler takes the source file of a killed compile for one under way, waits 10 s and names the file.
+    """
+    try:
+        return build()
+    except TimeoutError as error:
+        named = re.search(r"remove (.+\.c)\)", str(error))
+        if named is None:
+            raise
+        Path(named[1]).unlink(missing_ok=True)
+        return with_compiled(build)
 
 
 def compile_form(expression):
