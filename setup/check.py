@@ -10,7 +10,7 @@ import sys
 NEEDED = (
     "tomllib", "vtkmodules.vtkRenderingOpenGL2", "pyvista", "dolfinx", "petsc4py.PETSc", "mpi4py.MPI", "gmsh",
     "numpy", "scipy", "numba", "h5py", "h5netcdf", "xarray", "pydantic", "pint", "rich", "platformdirs",
-    "matplotlib", "pytest", "pytest_benchmark", "hypothesis",
+    "matplotlib", "threadpoolctl", "pytest", "pytest_benchmark", "hypothesis",
 )
 
 
