@@ -166,13 +166,9 @@ def _kept(dataset, file: Path) -> str:
 
 
 def _draw(dataset, directory: Path) -> list[Path]:
-    from fenics_gears.output import written_aside
     from fenics_gears.show.plots import draw_run
 
-    written: list[Path] = []
-    with written_aside(directory, written) as aside:
-        draw_run(dataset, aside)
-    return written
+    return draw_run(dataset, directory)
 
 
 def _print_summary(title: str, dataset, files: Sequence[Path]) -> None:

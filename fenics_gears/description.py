@@ -73,7 +73,7 @@ def _accuracy_rows(built: Model) -> Rows:
         ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
         ("steps per mesh cycle", resolution.steps_per_mesh_cycle, origin(asked.steps_per_mesh_cycle).lstrip(", ")),
         ("time step", built.time_step, "s"),
-        ("steps", built.steps, f"{built.steps - built.first_stored + 1} of them stored"),
+        ("steps", built.steps, f"the last {built.stored_steps} stored"),
     ]
 
 
@@ -104,9 +104,9 @@ def _cost_rows(built: Model) -> Rows:
     marching = positions * SECONDS_PER_CONTACT_SQUARE * rows**2 + built.steps * SECONDS_PER_STEP
     memory = BYTES_OF_PROGRAM + 8.0 * (positions * operator_parts * rows**2 + 10.0 * sum(dofs**2 for dofs in flank_dofs))
     return [
-        ("unknowns of a pinion sector", round(unknowns[0], -2), ""),
-        ("unknowns of a wheel sector", round(unknowns[1], -2), ""),
-        ("meshing and condensing, unless cached", condensing, "s"),
-        ("marching", marching, "s"),
-        ("memory", memory / 1e6, "MB"),
+        ("unknowns of a pinion sector", f"{unknowns[0]:.0f}", ""),
+        ("unknowns of a wheel sector", f"{unknowns[1]:.0f}", ""),
+        ("meshing and condensing, unless cached", f"{condensing:.1f}", "s"),
+        ("marching", f"{marching:.1f}", "s"),
+        ("memory", f"{memory / 1e6:.0f}", "MB"),
     ]

@@ -32,9 +32,9 @@ class Model:
         return self.scene.motion.mesh_cycles * self.resolution.steps_per_mesh_cycle
 
     @property
-    def first_stored(self) -> int:
-        """The step from which on steps are kept."""
-        return self.steps - self.scene.motion.recorded_cycles * self.resolution.steps_per_mesh_cycle
+    def stored_steps(self) -> int:
+        """Steps that are kept: the recorded cycles, both ends included."""
+        return self.scene.motion.recorded_cycles * self.resolution.steps_per_mesh_cycle + 1
 
 
 def model(scene: Scene) -> Model:

@@ -20,13 +20,14 @@ from fenics_gears.dynamics.march import March, Record
 from fenics_gears.effects import result_variables
 from fenics_gears.errors import ComputationError
 from fenics_gears.scene.data import Scene
+from fenics_gears.validity import warnings_of
 
 GEARS = ("pinion", "wheel")
 
 
 def dataset(scene: Scene, cycle: MeshCycle, drivetrain: Drivetrain, march: March, time_step: float) -> xr.Dataset:
     """The stored steps of a march as a dataset; every variable with units and long name."""
-    records = march.records
+    records = list(march.records)
     values = _centre_variables(scene, drivetrain, records)
     values |= _mesh_variables(scene, drivetrain, records)
     pairs = sorted({int(cycle.pair_number(r.step, p.index)) for r in records for p in r.position.operator.pairs})
@@ -43,7 +44,9 @@ def dataset(scene: Scene, cycle: MeshCycle, drivetrain: Drivetrain, march: March
             "pair": ("pair", np.array(pairs, dtype=np.int64), {"long_name": "tooth pair, counted through the run"}),
         },
     )
-    return result.assign_attrs(_attributes(scene, march, result))
+    attributes = _attributes(scene, march, result)
+    attributes["warnings"] = "\n".join(warnings_of(cycle, drivetrain, records))
+    return result.assign_attrs(attributes)
 
 
 def _labels(variable) -> dict[str, str]:

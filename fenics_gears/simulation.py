@@ -33,7 +33,7 @@ def simulate(scene: Scene, *, progress: Progress | None = None, cache: Cache | N
     marcher = Marcher(cycle, built.drivetrain, built.time_step, scene.friction.coefficient if scene.friction else 0.0)
     progress.stage("march")
     try:
-        march = marcher.run(built.steps, built.first_stored, progress.update)
+        march = marcher.run(built.steps, built.stored_steps, progress.update)
     except ContactNotConverged as failure:
         failure.partial = _result(built, cycle, failure.partial, compliances, compiled, complete=False)
         raise

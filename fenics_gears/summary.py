@@ -28,4 +28,5 @@ def summary_rows(dataset) -> list[tuple[str, str, str]]:
         iterations = dataset["newton_iterations"]
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
     rows += [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
+    rows += [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
     return rows

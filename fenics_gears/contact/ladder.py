@@ -19,7 +19,7 @@ from fenics_gears.contact.newton import (
     newton,
 )
 
-OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with these sets"}
+OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
 RUNGS = ("newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time")
 HOMOTOPY_STEPS = 8
 
@@ -135,6 +135,8 @@ def _friction_from_zero(problem: StepProblem, status: np.ndarray, max_iterations
 def _reason(problem: StepProblem, attempts) -> str:
     if not len(problem.gap):
         return "no tooth pair can touch at this position, and nothing else holds the load"
-    if problem.keep_one and attempts[-1][1] == OUTCOMES[SINGULAR]:
+    if attempts[-1][1] == OUTCOMES[CYCLED]:
+        return "every rung of the ladder ended with alternating sets"
+    if problem.keep_one:
         return "no static equilibrium: the load pulls the flanks apart, or friction locks them"
-    return "every rung of the ladder ended with alternating sets"
+    return "the sets settle, but the equations cannot be solved within the tolerance: the scene's stiffnesses or loads are too far apart"

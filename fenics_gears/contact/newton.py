@@ -142,8 +142,10 @@ def _measure(residual, stiffness, load, rigid, gap, slip_before, friction, statu
 
 
 @njit(cache=True)
-def _within(residual, length_tolerance, force_tolerance, load):
-    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it.
+def _within(residual, length_tolerance, force_tolerance, load, coordinates):
+    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it. Likewise a gap is the
+    # difference of displacements and cannot be known better than their round-off.
+    length_tolerance = length_tolerance + 1e-14 * np.max(np.abs(coordinates))
     return (
         residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + 1e-12 * np.max(np.abs(load))
         and residual[PENETRATION] <= length_tolerance
@@ -190,14 +192,14 @@ def newton(
             new[nearest_node(gap, displacement)] = SLIP_FORWARD
             changed = np.any(new != status)
         if not changed:
-            if _within(history[iteration], length_tolerance, force_tolerance, load):
+            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates):
                 return CONVERGED, iteration + 1, forces, coordinates, displacement
             return SINGULAR, iteration + 1, forces, coordinates, displacement
         repeated = False
         for earlier in range(iteration + 1):
             repeated = repeated or np.all(sets[earlier] == new)
         if repeated:
-            if _within(history[iteration], length_tolerance, force_tolerance, load):
+            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates):
                 # The sets alternate between solutions that are the same within the tolerance.
                 return CONVERGED, iteration + 1, forces, coordinates, displacement
             return CYCLED, iteration + 1, forces, coordinates, displacement

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, cold_start, solve_step
@@ -35,11 +37,11 @@ class Record:
 class March:
     """What a march has produced so far.
 
-    `records`: the stored steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
+    `records`: the last steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
     `interrupted`: stopped by the user.
     """
 
-    records: list[Record] = field(default_factory=list)
+    records: deque[Record] = field(default_factory=deque)
     newton_iterations: int = 0
     steps: int = 0
     rungs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RUNGS, 0))
@@ -60,21 +62,25 @@ class Marcher:
         self.tolerance = Tolerance.of_load(float(np.abs(drivetrain.load).max()))
         self._needs_contact = drivetrain.needs_contact
 
-    def run(self, steps: int, first_stored: int, report: Callable[[int, int], None] | None = None) -> March:
-        """March `steps` steps and keep those from `first_stored` on, the start being step 0.
+    def run(self, steps: int, kept: int, report: Callable[[int, int], None] | None = None) -> March:
+        """March `steps` steps from step 0 and keep the last `kept` of those done, wherever the march ends.
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
-        march, begun, reported = March(), time.perf_counter(), 0.0
+        with threadpool_limits(limits=1):
+            # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
+            return self._run(steps, kept, report)
+
+    def _run(self, steps: int, kept: int, report: Callable[[int, int], None] | None) -> March:
+        march, begun, reported = March(deque(maxlen=kept)), time.perf_counter(), 0.0
         try:
             record = self.start()
-            march.records += [record] if first_stored <= 0 else []
+            march.records.append(record)
             for step in range(1, steps + 1):
                 record = self.step(self.dynamic, record, step)
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
                 march.rungs[RUNGS[record.solution.rung]] += 1
-                if step >= first_stored:
-                    march.records.append(record)
+                march.records.append(record)
                 now = time.perf_counter()
                 if report is not None and now - reported > SECONDS_BETWEEN_REPORTS:
                     report(step, steps)

@@ -121,7 +121,7 @@ def test_low_mesh_frequency_tends_to_the_quasi_static_solution(paper_scene, pape
     for scene in (frictionless(paper_scene), frictionless(paper_scene, inertia=None, damping=None)):
         shafts = drivetrain(scene, paper_pair)
         cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
-        march = Marcher(cycle, shafts, 1.0 / (0.01 * 50), 0.0).run(100, 50)
+        march = Marcher(cycle, shafts, 1.0 / (0.01 * 50), 0.0).run(100, 51)
         results.append(np.array([shafts.value(record.state.position, "rotation_2") for record in march.records]))
     assert results[0] == pytest.approx(results[1], rel=1e-6)
 
@@ -135,6 +135,15 @@ def test_ctrl_c_keeps_what_was_done(paper_scene, paper_pair, stand_in_flanks):
     def interrupt(done, total):
         raise KeyboardInterrupt
 
-    march = Marcher(cycle, shafts, 1e-4, 0.0).run(100, 0, interrupt)
+    march = Marcher(cycle, shafts, 1e-4, 0.0).run(100, 101, interrupt)
     assert march.interrupted
     assert 1 <= len(march.records) <= 3
+
+
+def test_only_the_last_steps_are_kept(paper_scene, paper_pair, stand_in_flanks):
+    """Two recorded cycles of a long run: the last steps, both ends included, not the whole history."""
+    scene = frictionless(paper_scene)
+    shafts = drivetrain(scene, paper_pair)
+    cycle = MeshCycle(stand_in_flanks, GRID, 20, shafts.indices, tangential=False)
+    march = Marcher(cycle, shafts, 1e-4, 0.0).run(100, 41)
+    assert [record.step for record in march.records] == list(range(60, 101))

@@ -32,7 +32,7 @@ def test_another_timeout_is_not_swallowed():
 
 def test_compiler_is_quiet_only_while_it_compiles(caplog):
     """The program's own warnings pass, and afterwards everything does."""
-    with caplog.at_level(logging.INFO):
+    with caplog.at_level(logging.INFO), caplog.at_level(logging.INFO, logger="fenics_gears"):
         with adapter.quiet_compiler():
             logging.getLogger("distutils").info("x86_64-linux-gnu-gcc")
             logging.getLogger("fenics_gears").warning("kept")

@@ -39,7 +39,12 @@ print(MPI.COMM_WORLD.allreduce(1), os.environ["OMP_NUM_THREADS"])
 
 def run(code, *arguments, launcher=()):
     """Standard output of a fresh interpreter; what it wrote to standard error becomes the failure's text."""
-    done = subprocess.run([*launcher, sys.executable, "-c", code, *arguments], capture_output=True, text=True, timeout=120)
+    # As Python knows the environment: once MPI is initialised in this process, its C library has added variables to the
+    # real one that make mpirun give up.
+    done = subprocess.run(
+        [*launcher, sys.executable, "-c", code, *arguments],
+        capture_output=True, text=True, timeout=120, env=dict(os.environ),
+    )  # fmt: skip
     assert done.returncode == 0, done.stderr
     return done.stdout
 

@@ -1,0 +1,56 @@
+"""What the paper's scene costs, stage by stage: with friction at 200 Hz, 30 cycles of 100 steps.
+
+    ./gears test tests/benchmarks/bench_paper_scene.py
+
+Medians of the rounds are what counts; the numbers of one machine are not those of another. Peak memory of the whole process:
+
+    /usr/bin/time -v .venv/bin/python -m fenics_gears run demos/lundvall2004.toml
+"""
+
+from pathlib import Path
+
+import pytest
+
+from fenics_gears.model import model
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.progress import SilentProgress
+from fenics_gears.scene.read import load_scene
+from fenics_gears.simulation import gear_compliances, mesh_cycle
+from fenics_gears.warm_up import compile_kernels
+
+
+@pytest.fixture(scope="module")
+def built():
+    compile_kernels(tangential=True)
+    return model(load_scene(Path(__file__).parents[2] / "demos" / "lundvall2004.toml"))
+
+
+@pytest.fixture(scope="module")
+def compliances(built):
+    return gear_compliances(built, SilentProgress(), None)
+
+
+def marched(built, compliances):
+    """All 3000 steps, the contact operators of the mesh cycle included."""
+    cycle = mesh_cycle(built, compliances)
+    return Marcher(cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient).run(built.steps, built.stored_steps)
+
+
+def test_mesh_and_condense_both_gears(benchmark, built):
+    benchmark.pedantic(gear_compliances, args=(built, SilentProgress(), None), rounds=7, warmup_rounds=1)
+
+
+def test_contact_operators_of_a_mesh_cycle(benchmark, built, compliances):
+    def build():
+        cycle = mesh_cycle(built, compliances)
+        for step in range(cycle.steps):
+            cycle.position(step)
+
+    benchmark.pedantic(build, rounds=7, warmup_rounds=1)
+
+
+def test_march(benchmark, built, compliances):
+    march = benchmark.pedantic(marched, args=(built, compliances), rounds=7, warmup_rounds=1)
+    benchmark.extra_info["steps a second"] = round(march.steps / benchmark.stats["median"])
+    benchmark.extra_info["newton iterations a step"] = march.newton_iterations / march.steps
+    print(f"\n{benchmark.extra_info}")
