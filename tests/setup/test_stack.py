@@ -1,5 +1,6 @@
 """The stack works together: what set-up installs is loaded by one process in the order the program loads it."""
 
+import os
 import subprocess
 import sys
 
