@@ -16,11 +16,16 @@ from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
 
 
-def condensed_sector(mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None) -> CondensedBody:
-    """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub"."""
+def condensed_sector(
+    mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None, flank: np.ndarray | None = None
+) -> CondensedBody:
+    """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
+
+    flank: (k, 2), mm, nodes to keep of the flank, all of them when None.
+    """
     hub = mesh.edge_nodes("hub", element.order)
     points = {
-        "flank": by_radius(mesh.edge_nodes("flank", element.order)),
+        "flank": by_radius(mesh.edge_nodes("flank", element.order)) if flank is None else flank,
         "lower": by_radius(without(mesh.edge_nodes("lower cut", element.order), hub)),
         "upper": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
         "hub": hub,

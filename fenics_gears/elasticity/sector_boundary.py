@@ -17,6 +17,8 @@ CURVE_SAMPLES = 400
 BODY_REACH = 2.0
 # An edge across this angle (rad) cuts less than 0.05 % of its radius off the bore.
 HUB_EDGE_ANGLE = 0.06
+# A prescribed vertex this near to an end of the flank (in element sizes) is that end.
+SNAP = 1e-6
 
 
 @dataclass(frozen=True)
@@ -43,8 +45,31 @@ def flank_roll_angles(gear: Gear, size: float) -> np.ndarray:
     return roll_angle_at_arc_length(gear.base_radius, np.linspace(*ends, elements + 1))
 
 
-def sector_boundary(gear: Gear, sizes: ElementSizes) -> tuple[SectorBoundary, SizeField]:
-    """Nodes along the boundary of a sector and the size field that its inside is to follow."""
+def flank_through(gear: Gear, size: float, prescribed: np.ndarray) -> np.ndarray:
+    """Ascending roll angles (rad) of flank vertices that hold all prescribed ones (k,), and beyond them others `size` (mm) apart.
+
+    The number of elements is even, unless the prescribed vertices span the whole flank.
+    """
+    form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
+    inner = np.sort(arc_length(gear.base_radius, prescribed))
+    inner[inner < form + SNAP * size], inner[inner > tip - SNAP * size] = form, tip
+    beyond = np.array([inner[0] - form, tip - inner[-1]])
+    elements = np.ceil(beyond / size - 1e-9).astype(int)
+    if (elements.sum() + len(inner) - 1) % 2 and elements.any():
+        elements[np.argmax(beyond)] += 1
+    below = np.linspace(form, inner[0], elements[0] + 1)[:-1]
+    above = np.linspace(inner[-1], tip, elements[1] + 1)[1:]
+    return roll_angle_at_arc_length(gear.base_radius, np.concatenate([below, inner, above]))
+
+
+def sector_boundary(
+    gear: Gear, sizes: ElementSizes, flank_rolls: np.ndarray | None = None
+) -> tuple[SectorBoundary, SizeField]:
+    """Nodes along the boundary of a sector and the size field that its inside is to follow.
+
+    flank_rolls: roll angles (rad), ascending from form circle to tip, of the flank's vertices where they are prescribed.
+    All else, the cuts above all, stays as without them.
+    """
     outline = tooth_outline(gear, FILLET_SAMPLES)
     flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank))
     root = _root_curve(outline)
@@ -68,6 +93,9 @@ def sector_boundary(gear: Gear, sizes: ElementSizes) -> tuple[SectorBoundary, Si
         "lower cut": radii[::-1, None] * _directions(hub_angles[:1]),
         "hub": _on_circle(gear.bore_radius, nodes(hub), hub),
     }
+    if flank_rolls is not None:
+        pieces["flank"] = canonical_point(gear.base_radius, flank_rolls)
+        field = _size_field(gear, sizes, outline, pieces["flank"], root, coast, hub)
     return _joined(pieces), field
 
 

@@ -16,17 +16,21 @@ CONDENSED_PARTS = ("flank", "hub", "lower cut", "upper cut")
 TRIANGLE, QUADRILATERAL = 2, 3  # gmsh's numbers of cell types
 
 
-def sector_mesh(gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False) -> BodyMesh:
+def sector_mesh(
+    gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False, flank_rolls: np.ndarray | None = None
+) -> BodyMesh:
     """Mesh of one tooth sector, its two cuts congruent node for node.
 
-    Flank vertices stand on the exact involute, even in arc length. Quadrilaterals come from a mesh of twice the size
-    whose every cell is split, so that no triangle is left over in any version of gmsh.
-    Raises ComputationError when gmsh fails or a cell is folded.
+    Flank vertices stand on the exact involute, even in arc length or at `flank_rolls` (rad, see sector_boundary).
+    Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any version
+    of gmsh. Raises ComputationError when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank elements.
     """
-    boundary, field = sector_boundary(gear, sizes)
+    boundary, field = sector_boundary(gear, sizes, flank_rolls)
     if not quadrilaterals:
         points, cells = filled(boundary.points, field, 1.0, recombine=False)
         return BodyMesh(points, oriented(points, cells[0]), _edges(boundary, np.arange(len(boundary.points))))
+    if len(boundary.part("flank")) % 2 == 0:
+        raise ComputationError("quadrilaterals need an even number of elements on the flank; choose other contact_nodes")
     coarse = boundary.points[::2]
     points, cells = filled(coarse, field, 2.0, recombine=True)
     exact = _odd_points(boundary)

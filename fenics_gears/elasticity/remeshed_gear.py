@@ -1,0 +1,101 @@
+"""A gear meshed anew so that its flanks have nodes where they are wanted, condensed onto those nodes and the centre [7].
+
+Only the sectors of loaded teeth change from position to position. They are meshed and condensed one by one; all others are the
+same sector, condensed once. The cuts between sectors are congruent, and joining sectors is the assembly of the whole gear's
+mesh: the result equals that of meshing and condensing the whole gear each time, to round-off (a test does both).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.ring import check_congruent, condensed_sector
+from fenics_gears.elasticity.sector_boundary import flank_through
+from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.elasticity.superelement import Superelement, closed, joined, of_sector, run_of
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import canonical_point
+from fenics_gears.scene.data import Material
+
+NO_NODES = np.empty((0, 2))
+
+
+@dataclass(frozen=True)
+class LoadedTooth:
+    """A tooth turned counter-clockwise from its own frame by `angle` (rad), with wanted flank vertices at `rolls` (k,), rad.
+
+    The vertices are neighbours: no other lies between two of them.
+    """
+
+    angle: float
+    rolls: np.ndarray
+
+
+class RemeshedGear:
+    """Stiffness of a gear on whatever flank nodes a position asks for; `timings` (s) adds up what it has cost."""
+
+    def __init__(self, gear: Gear, material: Material, element: Element, sizes: ElementSizes, comm=None):
+        self.gear, self.material, self.element, self.sizes = gear, material, element, sizes
+        self.timings = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0, "sectors_meshed": 0}
+        self._comm = comm
+        self._unloaded = self._sector(None, NO_NODES)
+        self._runs: dict[int, Superelement] = {}
+
+    def stiffness(self, teeth: tuple[LoadedTooth, ...]) -> np.ndarray:
+        """Stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, over all teeth's nodes and the centre (dx, dy, phi).
+
+        teeth: by rising angle, whole pitches apart. A tooth's nodes come in the order of its `rolls`, for second-order elements
+        with the node between each two of them; dofs x, y interleaved, in the frame in which the angles are counted.
+        Raises ComputationError when a stage fails.
+        """
+        sectors = [self._loaded(tooth).turned(tooth.angle) for tooth in teeth]
+        clock = perf_counter()
+        pitch, whole = self.gear.angular_pitch, None
+        ends = [tooth.angle for tooth in teeth[1:]] + [teeth[0].angle + 2.0 * np.pi]
+        for tooth, sector, end in zip(teeth, sectors, ends):
+            whole = sector if whole is None else joined(whole, sector)
+            between = round((end - tooth.angle) / pitch) - 1
+            if between:
+                whole = joined(whole, self._run(between).turned(tooth.angle + pitch))
+        result = self.material.youngs_modulus * closed(whole)
+        self.timings["time_condense"] += perf_counter() - clock
+        return result
+
+    def contact_points(self, rolls: np.ndarray) -> np.ndarray:
+        """Nodes (k, 2), or (2 k - 1, 2) of a second-order element, mm, in the tooth's own frame, of vertices at `rolls` (k,), rad."""
+        vertices = canonical_point(self.gear.base_radius, rolls)
+        if self.element.order == 1:
+            return vertices
+        points = np.empty((2 * len(vertices) - 1, 2))
+        points[::2], points[1::2] = vertices, 0.5 * (vertices[1:] + vertices[:-1])
+        return points
+
+    def _loaded(self, tooth: LoadedTooth) -> Superelement:
+        rolls = flank_through(self.gear, self.sizes.flank, tooth.rolls)
+        # A wanted vertex may have been moved by round-off onto the flank's end.
+        wanted = rolls[np.abs(rolls[:, None] - tooth.rolls).argmin(axis=0)]
+        return self._sector(rolls, self.contact_points(wanted))
+
+    def _run(self, count: int) -> Superelement:
+        if count not in self._runs:
+            self._runs[count] = run_of(self._unloaded, count, self.gear.angular_pitch)
+        return self._runs[count]
+
+    def _sector(self, rolls: np.ndarray | None, points: np.ndarray) -> Superelement:
+        clock = perf_counter()
+        mesh = sector_mesh(self.gear, self.sizes, self.element.quadrilateral, rolls)
+        meshed = perf_counter()
+        sector = condensed_sector(mesh, self.element, self.material.poissons_ratio, self._comm, points)
+        check_congruent(sector, self.gear.teeth)
+        result = of_sector(sector)
+        compiling = sector.timings["time_compile"]
+        self.timings["time_mesh"] += meshed - clock
+        self.timings["time_compile"] += compiling
+        self.timings["time_condense"] += perf_counter() - meshed - compiling
+        self.timings["sectors_meshed"] += 1
+        return result
