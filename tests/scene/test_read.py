@@ -125,7 +125,7 @@ def test_what_is_left_out_has_its_default():
         ("coefficient = 0.1", "coefficient = 2"),
         ("coefficient = 0.1", "coefficient = 1e-12"),
         ("poissons_ratio = 0.3", "poissons_ratio = 0.499"),
-        ("contact_nodes = 20", "contact_nodes = 1"),
+        ("contact_nodes = 20", "contact_nodes = 2"),
     ],
 )
 def test_what_the_hard_cases_ask_for_is_allowed(old, new):
