@@ -13,4 +13,6 @@ def __getattr__(name: str):
     """Load ``load_scene`` or ``simulate`` on first use."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    # What BLAS, MPI and VTK read from the environment must stand there before they are loaded.
+    importlib.import_module("fenics_gears.environment").prepare()
     return getattr(importlib.import_module(_HOMES[name]), name)
