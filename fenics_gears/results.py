@@ -14,7 +14,7 @@ import xarray as xr
 
 import fenics_gears
 from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
 from fenics_gears.dynamics.march import March, Record
 from fenics_gears.effects import result_variables
@@ -25,7 +25,7 @@ from fenics_gears.validity import warnings_of
 GEARS = ("pinion", "wheel")
 
 
-def dataset(scene: Scene, cycle: MeshCycle, drivetrain: Drivetrain, march: March, time_step: float) -> xr.Dataset:
+def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, time_step: float) -> xr.Dataset:
     """The stored steps of a march as a dataset; every variable with units and long name."""
     records = list(march.records)
     values = _centre_variables(scene, drivetrain, records)
@@ -107,14 +107,14 @@ def _base_radii(records: list[Record]) -> np.ndarray:
 def _couples(record: Record) -> tuple[float, float]:
     """Couple of the contact forces on either gear about its centre, per base radius (N)."""
     operator, normal, tangential = record.position.operator, _normal(record), _tangential(record)
-    pinion, wheel = normal.sum(), normal.sum()
+    pinion, wheel = (normal @ arms / radius for arms, radius in zip(operator.normal_arms, operator.base_radii))
     if len(tangential):
         pinion += tangential @ operator.arms[0] / operator.base_radii[0]
         wheel += tangential @ operator.arms[1] / operator.base_radii[1]
     return -pinion, -wheel
 
 
-def _pair_variables(scene: Scene, cycle: MeshCycle, records: list[Record], pairs: list[int]) -> dict:
+def _pair_variables(scene: Scene, cycle: Cycle, records: list[Record], pairs: list[int]) -> dict:
     """Forces of each tooth pair and the pressure over its contact nodes; zero where a pair does not touch."""
     row = {number: i for i, number in enumerate(pairs)}
     width, most = scene.gears.face_width, cycle.grid.nodes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Record
 
@@ -14,12 +14,12 @@ LARGEST_ROTATION = 0.05
 ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 
 
-def warnings_of(cycle: MeshCycle, drivetrain: Drivetrain, records: list[Record]) -> list[str]:
+def warnings_of(cycle: Cycle, drivetrain: Drivetrain, records: list[Record]) -> list[str]:
     """Sentences on where the stored steps leave what the model assumes; empty where they do not."""
     return [*_window(cycle, records), *_rotation(drivetrain, records), *_separation(cycle, records)]
 
 
-def _window(cycle: MeshCycle, records: list[Record]) -> list[str]:
+def _window(cycle: Cycle, records: list[Record]) -> list[str]:
     """Contact at an end of the window that is no edge of the flank: the window cuts pressure off."""
     half, reached = 0.5 * cycle.grid.length, 0
     for record in records:
@@ -50,9 +50,9 @@ def _rotation(drivetrain: Drivetrain, records: list[Record]) -> list[str]:
     return found
 
 
-def _separation(cycle: MeshCycle, records: list[Record]) -> list[str]:
+def _separation(cycle: Cycle, records: list[Record]) -> list[str]:
     """Flanks further apart than the backlash: the coast flanks would have touched, and are not part of the scene."""
-    backlash, first, steps, widest = cycle.flanks.pair.backlash, None, 0, 0.0
+    backlash, first, steps, widest = cycle.pair.backlash, None, 0, 0.0
     for record in records:
         operator = record.position.operator
         if not operator.nodes or np.any(record.solution.status != OPEN):

@@ -20,7 +20,9 @@ from fenics_gears.contact.newton import (
 )
 
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
-RUNGS = ("newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time")
+LADDER = ("newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time")
+PUBLISHED = "Newton with line search"
+RUNGS = (*LADDER, PUBLISHED)
 HOMOTOPY_STEPS = 8
 
 
@@ -66,15 +68,15 @@ def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
     return status
 
 
-def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 40) -> StepSolution:
-    """Solve one step from the sets `status` (n,) int8.
+def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 40, before: tuple = ()) -> StepSolution:
+    """Solve one step from the sets `status` (n,) int8; `before`: attempts of other methods that failed.
 
     Raises ContactNotConverged with the history of every rung when none converges.
     """
-    attempts, spent = [], 0
+    attempts, spent = list(before), sum(len(history) for _, _, history, _ in before)
     for rung, attempt in enumerate(_rungs(problem, status, max_iterations)):
         result, record = attempt()
-        attempts.append((RUNGS[rung], OUTCOMES[result[0]], *record))
+        attempts.append((LADDER[rung], OUTCOMES[result[0]], *record))
         spent += result[1]
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
-from fenics_gears.contact.tooth_pair import Flanks, ToothPair, tooth_pair
+from fenics_gears.contact.tooth_pair import Flanks, PairNodes, ToothPair, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
 from fenics_gears.geometry.pair import GearPair
 
@@ -50,17 +50,15 @@ def tooth_span(pair: GearPair, grid: ContactGrid, steps: int) -> int:
     return max(spans) + 1
 
 
-class MeshCycle:
-    """Operators over one mesh cycle of `steps` positions, each built when it is first asked for.
+class Cycle:
+    """Contact equations over one mesh cycle of `steps` positions of a gear pair, each built when it is first asked for.
 
-    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.
+    A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond.
     """
 
-    def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, coordinates: list[int], tangential: bool):
-        self.flanks, self.grid, self.steps = flanks, grid, steps
-        self._coordinates, self._tangential = coordinates, tangential
-        self._pairing = CompliancePairing(flanks)
-        self._pairs: dict[int, tuple[ToothPair, ...]] = {}
+    def __init__(self, pair: GearPair, grid: ContactGrid, steps: int):
+        self.pair, self.grid, self.steps = pair, grid, steps
+        self._pairs: dict[int, tuple[PairNodes, ...]] = {}
         self._positions: dict[int, Position] = {}
 
     def position(self, step: int) -> Position:
@@ -74,22 +72,44 @@ class MeshCycle:
         """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle `c`."""
         return step // self.steps - index
 
-    def _pairs_at(self, index: int) -> tuple[ToothPair, ...]:
+    def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
+        """The tooth pairs that can touch at position `index` (0 to steps - 1)."""
         if index not in self._pairs:
-            built = (
-                tooth_pair(self.flanks, self.grid, k, xi)
-                for k, xi in pair_positions(self.flanks.pair, self.grid, index / self.steps)
-            )
+            built = (self._pair(k, xi) for k, xi in pair_positions(self.pair, self.grid, index / self.steps))
             self._pairs[index] = tuple(pair for pair in built if pair is not None)
         return self._pairs[index]
 
     def _build(self, index: int) -> Position:
-        pairs = self._pairs_at(index)
-        previous = self._pairs_at((index - 1) % self.steps)
+        pairs, previous = self.pairs_at(index), self.pairs_at((index - 1) % self.steps)
         if index == 0:
             # Passing the end of a cycle every pair's index rises by one.
             previous = tuple(replace(pair, index=pair.index + 1) for pair in previous)
-        advance = self.flanks.pair.pinion.angular_pitch / self.steps
+        carried = carried_nodes(pairs, previous, self.grid.spacing)
+        return self._position(index, pairs, previous, self.pair.pinion.angular_pitch / self.steps, carried)
+
+    def _pair(self, index: int, xi: float) -> PairNodes | None:
+        raise NotImplementedError
+
+    def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> Position:
+        """`advance`: rotation (rad) of the pinion since the position of the pairs `previous`."""
+        raise NotImplementedError
+
+
+class MeshCycle(Cycle):
+    """Contact nodes that see either gear's one flank compliance through interpolation.
+
+    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.
+    """
+
+    def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, coordinates: list[int], tangential: bool):
+        super().__init__(flanks.pair, grid, steps)
+        self.flanks, self._coordinates, self._tangential = flanks, coordinates, tangential
+        self._pairing = CompliancePairing(flanks)
+
+    def _pair(self, index: int, xi: float) -> ToothPair | None:
+        return tooth_pair(self.flanks, self.grid, index, xi)
+
+    def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> Position:
         operator = contact_operator(
             self.flanks,
             self._pairing,
@@ -98,10 +118,10 @@ class MeshCycle:
             previous=previous if self._tangential else None,
             advance=advance,
         )
-        return Position(operator, _carried_nodes(pairs, previous, self.grid.spacing))
+        return Position(operator, carried)
 
 
-def _carried_nodes(pairs: tuple[ToothPair, ...], previous: tuple[ToothPair, ...], spacing: float) -> np.ndarray:
+def carried_nodes(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], spacing: float) -> np.ndarray:
     """For each node the one of the same pair that stood at the same offset a step before; -1 where there is none."""
     starts, start = {}, 0
     for pair in previous:

@@ -121,7 +121,7 @@ def _update_status(status, forces, displacement, compliance, gap, slip_before, f
 
 
 @njit(cache=True)
-def _measure(residual, stiffness, load, rigid, gap, slip_before, friction, status, forces, coordinates, displacement):
+def measure(residual, stiffness, load, rigid, gap, slip_before, friction, status, forces, coordinates, displacement):
     """Violation of the laws and of equilibrium by the present solution, into `residual` (5,)."""
     n, tangential = len(gap), len(slip_before) > 0
     residual[:] = 0.0
@@ -181,7 +181,7 @@ def newton(
         sets[iteration] = status
         solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates)
         displacement = relative_displacement(compliance, rigid, forces, coordinates)
-        _measure(
+        measure(
             history[iteration], stiffness, load, rigid, gap, slip_before, friction,
             status, forces, coordinates, displacement,
         )  # fmt: skip

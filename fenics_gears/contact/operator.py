@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product, directions
-from fenics_gears.contact.tooth_pair import Flanks, ToothPair
+from fenics_gears.contact.tooth_pair import Flanks, PairNodes, ToothPair
 
 # The seven centre coordinates q of model.md section 4. Rotations are carried as arc lengths rb1 phi1, rb2 phi2, rb2 phi3
 # (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another.
@@ -22,7 +22,8 @@ CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "cent
 class ContactOperator:
     """Contact at one position: n nodes, m = n without friction, 2 n with it; k centre coordinates.
 
-    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order.
+    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order; `normal_arms`: arms (n,), mm,
+    of a normal force about the pinion's and the wheel's centre.
 
     `compliance` C (m, m), mm/N; `rigid` G (m, k); `gap` (n,), mm; `sliding` (n,), mm: rigid slip during the step that ends
     here; `previous_compliance` E (n, m of the step before) and `previous_rigid` (n, k): the tangential displacement that
@@ -30,8 +31,9 @@ class ContactOperator:
     None without friction.
     """
 
-    pairs: tuple[ToothPair, ...]
+    pairs: tuple[PairNodes, ...]
     base_radii: tuple[float, float]
+    normal_arms: tuple[np.ndarray, np.ndarray]
     compliance: np.ndarray
     rigid: np.ndarray
     gap: np.ndarray
@@ -47,7 +49,7 @@ class ContactOperator:
     @property
     def arms(self) -> tuple[np.ndarray, np.ndarray]:
         """Arms (n,), mm, of a tangential force about the pinion's and the wheel's centre."""
-        return _joined(self.pairs, "pinion_arm"), _joined(self.pairs, "wheel_arm")
+        return over_nodes(self.pairs, "pinion_arm"), over_nodes(self.pairs, "wheel_arm")
 
     @property
     def node_pair(self) -> np.ndarray:
@@ -55,24 +57,35 @@ class ContactOperator:
         return np.repeat([pair.index for pair in self.pairs], [len(pair.offsets) for pair in self.pairs])
 
 
-def _joined(pairs: tuple[ToothPair, ...], name: str) -> np.ndarray:
+def over_nodes(pairs: tuple[PairNodes, ...], name: str) -> np.ndarray:
     """An array of every pair's contact nodes, one pair after the other."""
     return np.concatenate([getattr(pair, name) for pair in pairs]) if pairs else np.empty(0)
 
 
-def rigid_rows(pairs: tuple[ToothPair, ...], base_radii: tuple[float, float], tangential: bool) -> np.ndarray:
-    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm.
+def involute_arms(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Arms (n,), mm, of the normal forces: the base radii.
 
-    The normal arm of a rotation is the base radius: an involute turned by phi moves by rb phi along its own normal,
-    wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
+    An involute turned by phi moves by rb phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds
+    exactly without friction.
     """
     nodes = sum(len(pair.offsets) for pair in pairs)
+    return np.full(nodes, base_radii[0]), np.full(nodes, base_radii[1])
+
+
+def rigid_rows(
+    pairs: tuple[PairNodes, ...],
+    base_radii: tuple[float, float],
+    normal_arms: tuple[np.ndarray, np.ndarray],
+    tangential: bool,
+) -> np.ndarray:
+    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm."""
+    nodes = sum(len(pair.offsets) for pair in pairs)
     rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
-    rows[:nodes, 0], rows[:nodes, 2] = 1.0, 1.0
-    rows[:nodes, 3], rows[:nodes, 5] = -1.0, 1.0
+    rows[:nodes, 0], rows[:nodes, 2] = 1.0, normal_arms[0] / base_radii[0]
+    rows[:nodes, 3], rows[:nodes, 5] = -1.0, normal_arms[1] / base_radii[1]
     if tangential and nodes:
-        rows[nodes:, 1], rows[nodes:, 2] = 1.0, _joined(pairs, "pinion_arm") / base_radii[0]
-        rows[nodes:, 4], rows[nodes:, 5] = -1.0, _joined(pairs, "wheel_arm") / base_radii[1]
+        rows[nodes:, 1], rows[nodes:, 2] = 1.0, over_nodes(pairs, "pinion_arm") / base_radii[0]
+        rows[nodes:, 4], rows[nodes:, 5] = -1.0, over_nodes(pairs, "wheel_arm") / base_radii[1]
     return rows
 
 
@@ -165,31 +178,40 @@ def contact_operator(
     """
     tangential = previous is not None
     radii = (flanks.pair.pinion.base_radius, flanks.pair.wheel.base_radius)
-    own = own_directions(tangential)
+    arms, own = involute_arms(pairs, radii), own_directions(tangential)
     compliance = pairing.product(pairs, pairs, own, own, symmetric=True)
     sliding = previous_compliance = previous_rigid = None
     if tangential:
-        # v_rigid = omega1 (x - (z1/z2) (L - x)), zero at the pitch point; the wheel's roll angle falls as the pinion's rises.
+        # The wheel's roll angle falls as the pinion's rises.
         turned = (advance, -advance * radii[0] / radii[1])
-        sliding = advance * (_joined(pairs, "pinion_arm") - flanks.pair.rotation_ratio * _joined(pairs, "wheel_arm"))
+        sliding = rigid_slip(pairs, flanks.pair.rotation_ratio, advance)
         previous_compliance = pairing.product(pairs, previous, earlier_tangent(turned), own)
-        previous_rigid = np.ascontiguousarray(_earlier_rigid_tangent(pairs, radii, turned)[:, coordinates])
+        previous_rigid = np.ascontiguousarray(earlier_rigid_tangent(pairs, radii, turned)[:, coordinates])
     return ContactOperator(
         pairs=pairs,
         base_radii=radii,
+        normal_arms=arms,
         compliance=compliance,
-        rigid=np.ascontiguousarray(rigid_rows(pairs, radii, tangential)[:, coordinates]),
-        gap=_joined(pairs, "gap"),
+        rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, tangential)[:, coordinates]),
+        gap=over_nodes(pairs, "gap"),
         sliding=sliding,
         previous_compliance=previous_compliance,
         previous_rigid=previous_rigid,
     )
 
 
-def _earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
+def rigid_slip(pairs: tuple[PairNodes, ...], rotation_ratio: float, advance: float) -> np.ndarray:
+    """Slip (n,), mm, of rigid gears while the pinion turns by `advance` (rad).
+
+    v_rigid = omega1 (x - (z1/z2) (L - x)) of [12], zero at the pitch point.
+    """
+    return advance * (over_nodes(pairs, "pinion_arm") - rotation_ratio * over_nodes(pairs, "wheel_arm"))
+
+
+def earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
     rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
-    offsets, arm_1, arm_2 = (_joined(pairs, name) for name in ("offsets", "pinion_arm", "wheel_arm"))
+    offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_arm", "wheel_arm"))
     height_1, height_2 = radii[0] - offsets, radii[1] + offsets
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
     rows[:, 1], rows[:, 2] = 1.0, (arm_1 * np.cos(turned[0]) - height_1 * np.sin(turned[0])) / radii[0]

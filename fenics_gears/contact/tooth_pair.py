@@ -35,12 +35,12 @@ class Flanks:
 
 
 @dataclass(frozen=True)
-class ToothPair:
+class PairNodes:
     """Contact nodes (n,) of the tooth pair `index` at one position.
 
     `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
     open), `pinion_arm` and `wheel_arm` (mm: distance from the tangent points T1 and T2 along the line of action),
-    `pinion_roll` (rad), `contact_roll` of either gear (rad), `interpolation` of either flank.
+    `pinion_roll` (rad), `contact_roll` of either gear (rad).
     """
 
     index: int
@@ -51,7 +51,37 @@ class ToothPair:
     wheel_arm: np.ndarray
     pinion_roll: np.ndarray
     contact_roll: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ToothPair(PairNodes):
+    """Contact nodes that see the flanks through the `interpolation` of either one."""
+
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
+
+
+def rolls_at(pair: GearPair, xi: float, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Roll angles (rad, any shape) on pinion and wheel of the flank points at offsets (mm), with contact at `xi` (mm from T1)."""
+    radii = (pair.pinion.base_radius, pair.wheel.base_radius)
+    heights = (radii[0] - offsets, radii[1] + offsets)
+    return tuple(
+        roll_angle_at_height(radius, contact_roll, height)
+        for radius, contact_roll, height in zip(radii, contact_roll_angles(pair, xi), heights)
+    )
+
+
+def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None], xi: float, offsets: np.ndarray):
+    """Flank points that face each other at offsets (mm, any shape): roll angles (rad) and distances from T1, T2 (mm) of both, gap (mm)."""
+    rolls = rolls_at(pair, xi, offsets)
+    gears, contact_rolls = (pair.pinion, pair.wheel), contact_roll_angles(pair, xi)
+    arms = tuple(
+        flank_point(gear.base_radius, roll, contact_roll)[0] for gear, roll, contact_roll in zip(gears, rolls, contact_rolls)
+    )
+    gap = pair.line_of_action_length - arms[1] - arms[0]
+    for removed, roll in zip(removal, rolls):
+        if removed is not None:
+            gap = gap + removed(roll)
+    return rolls, arms, gap
 
 
 def tooth_pair(flanks: Flanks, grid: ContactGrid, index: int, xi: float) -> ToothPair | None:
@@ -61,19 +91,8 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, index: int, xi: float) -> Toot
         return None
     pinion, wheel = flanks.pair.pinion, flanks.pair.wheel
     roll_1, roll_2 = contact_roll_angles(flanks.pair, xi)
-    y = quadrature_offsets(offsets)
-    flank_1 = roll_angle_at_height(pinion.base_radius, roll_1, pinion.base_radius - y)
-    flank_2 = roll_angle_at_height(wheel.base_radius, roll_2, wheel.base_radius + y)
-    x_1 = flank_point(pinion.base_radius, flank_1, roll_1)[0]
-    x_2 = flank_point(wheel.base_radius, flank_2, roll_2)[0]
-    gap = flanks.pair.line_of_action_length - x_2 - x_1
-    for removal, rolls in zip(flanks.removal, (flank_1, flank_2)):
-        if removal is not None:
-            gap = gap + removal(rolls)
-    node_rolls = (
-        roll_angle_at_height(pinion.base_radius, roll_1, pinion.base_radius - offsets),
-        roll_angle_at_height(wheel.base_radius, roll_2, wheel.base_radius + offsets),
-    )
+    _, (x_1, x_2), gap = facing_points(flanks.pair, flanks.removal, xi, quadrature_offsets(offsets))
+    node_rolls = rolls_at(flanks.pair, xi, offsets)
     interpolation = tuple(
         flank_interpolation(
             offsets, rolls, gear.base_radius, contact_roll, sense, flank.roll_angle, flank.element_order

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import MeshCycle, Position
+from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
@@ -49,10 +49,24 @@ class March:
     seconds: float = 0.0
 
 
-class Marcher:
-    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none."""
+StepSolver = Callable[[Position, StepProblem, np.ndarray, StepSolution | None], StepSolution]
 
-    def __init__(self, cycle: MeshCycle, drivetrain: Drivetrain, time_step: float, friction: float):
+
+def active_sets(position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
+    """The program's own solver of a step: Newton on the mixed form, and its ladder."""
+    return solve_step(problem, status)
+
+
+class Marcher:
+    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
+
+    `solve`: solves a step at a position from the sets that the last step suggests and that step's solution (None at the start).
+    """
+
+    def __init__(
+        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, solve: StepSolver = active_sets
+    ):
+        self._solver = solve
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.dynamic = AverageAcceleration(drivetrain, time_step)
         static_drivetrain = Drivetrain(
@@ -124,7 +138,7 @@ class Marcher:
         status = np.zeros(operator.nodes, dtype=np.int8)
         known = carried >= 0
         status[known] = last.solution.status[carried[known]]
-        solution = self._solve(scheme, scheme.load(last.state), position, slip_before, status, step)
+        solution = self._solve(scheme, scheme.load(last.state), position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 
     def _static_start(self, step: int) -> Record:
@@ -137,14 +151,14 @@ class Marcher:
         solution = self._solve(self.static, self.static.load(state), position, slip_before, status, step)
         return Record(step, State(solution.coordinates, rest, rest), position, solution)
 
-    def _solve(self, scheme, load, position: Position, slip_before, status, step: int) -> StepSolution:
+    def _solve(self, scheme, load, position: Position, slip_before, status, step: int, last=None) -> StepSolution:
         operator = position.operator
         problem = StepProblem(
             scheme.stiffness, load, operator.compliance, operator.rigid, operator.gap, slip_before,
             self.friction, self._needs_contact and not scheme.inert, self.tolerance,
         )  # fmt: skip
         try:
-            return solve_step(problem, status)
+            return self._solver(position, problem, status, last)
         except ContactNotConverged as failure:
             failure.time, failure.step = step * self.time_step, step
             raise

@@ -1,0 +1,105 @@
+"""A step solved as the paper does it, with the active-set ladder where its method ends without a solution."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.contact.ladder import PUBLISHED, RUNGS, StepProblem, StepSolution, solve_step
+from fenics_gears.contact.laws import OPEN
+from fenics_gears.contact.newton import measure
+from fenics_gears.contact.published_newton import Equations, Iterate, iterates
+from fenics_gears.contact.relative_stiffness import RelativeStiffness
+from fenics_gears.contact.remeshed_cycle import RemeshedPosition
+
+MOST_ITERATIONS = 60
+NOT_LOWER, NO_DIRECTION, TOO_MANY = "no step lowers the merit function", "no search direction", "too many iterations"
+
+
+class PublishedSolver:
+    """Newton with line search [B] on [24], [25] and [C.1]; what it cannot solve goes to the ladder, on the same equations.
+
+    The equations are reduced to the relative displacement once for each position and effective stiffness.
+    """
+
+    def __init__(self, coordinates: list[int]):
+        self._coordinates = coordinates
+        self._reduced: dict[tuple[int, bytes], RelativeStiffness] = {}
+
+    def __call__(
+        self, position: RemeshedPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+    ) -> StepSolution:
+        """Solve a step from the last one's solution. Raises ContactNotConverged with the history of every attempt."""
+        reduced = self.reduced(position, problem)
+        equations = Equations(
+            stiffness=reduced.stiffness,
+            load=reduced.load(problem.load),
+            gap=problem.gap,
+            slip_before=problem.slip_before,
+            friction=problem.friction,
+            r=1.0 / np.diag(problem.compliance),
+        )
+        tried, outcome = _newton(equations, *_start(position, problem, status, last), problem.tolerance.force)
+        if outcome:
+            return solve_step(problem, status, before=(_attempt(reduced, problem, equations, tried, outcome),))
+        final = tried[-1]
+        sets = equations.status(final.displacement, final.forces)
+        closed = sets != OPEN
+        forces = np.where(np.tile(closed, len(final.forces) // len(closed)), final.forces, 0.0)
+        coordinates = reduced.coordinates(problem.load, final.displacement)
+        return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, RUNGS.index(PUBLISHED))
+
+    def reduced(self, position: RemeshedPosition, problem: StepProblem) -> RelativeStiffness:
+        """The equilibrium equations [C.1] of a position and an effective stiffness."""
+        key = (position.index, problem.stiffness.tobytes())
+        if key not in self._reduced:
+            self._reduced[key] = RelativeStiffness(
+                position.stiffness,
+                problem.stiffness,
+                self._coordinates,
+                position.operator.base_radii,
+                tangential=len(problem.slip_before) > 0,
+            )
+        return self._reduced[key]
+
+
+def _start(position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> tuple[np.ndarray, np.ndarray]:
+    """The last step's displacement and forces at the nodes that had the same place; at the very first, the closed nodes just touch."""
+    n, m = len(problem.gap), len(problem.compliance)
+    displacement, forces = np.zeros(m), np.zeros(m)
+    if last is None:
+        closed = np.flatnonzero(status != OPEN)
+        displacement[closed], forces[closed] = problem.gap[closed], problem.tolerance.force
+        return displacement, forces
+    carried, before = position.carried_from, len(last.status)
+    known = np.flatnonzero(carried >= 0)
+    for block in range(m // n):
+        displacement[block * n + known] = last.displacement[block * before + carried[known]]
+        forces[block * n + known] = last.forces[block * before + carried[known]]
+    return displacement, forces
+
+
+def _newton(equations: Equations, displacement, forces, force_tolerance: float) -> tuple[list[Iterate], str]:
+    """Iterates, and why the last one is no solution; an empty text where it is."""
+    tried: list[Iterate] = []
+    try:
+        for iterate in iterates(equations, displacement, forces):
+            tried.append(iterate)
+            if iterate.length and iterate.merit <= 0.5 * force_tolerance**2:
+                return tried, ""
+            if len(tried) > MOST_ITERATIONS:
+                return tried, TOO_MANY
+    except np.linalg.LinAlgError:
+        return tried, NO_DIRECTION
+    return tried, NOT_LOWER
+
+
+def _attempt(reduced: RelativeStiffness, problem: StepProblem, equations: Equations, tried: list[Iterate], outcome: str):
+    """What the ladder's error wants to know of an attempt: name, outcome, residuals and sets of every iterate."""
+    history, sets = np.zeros((len(tried), 5)), np.zeros((len(tried), len(problem.gap)), dtype=np.int8)
+    for row, iterate in enumerate(tried):
+        sets[row] = equations.status(iterate.displacement, iterate.forces)
+        measure(
+            history[row], problem.stiffness, problem.load, problem.rigid, problem.gap, problem.slip_before, problem.friction,
+            sets[row], iterate.forces, reduced.coordinates(problem.load, iterate.displacement), iterate.displacement,
+        )  # fmt: skip
+    return PUBLISHED, outcome, history, sets
