@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
@@ -17,19 +19,24 @@ from fenics_gears.results import dataset
 from fenics_gears.scene.data import Scene
 from fenics_gears.warm_up import compile_kernels
 
+Compliances = tuple[FlankCompliance, FlankCompliance]
+Preparation = Callable[[Model, Progress, Cache | None], tuple[Compliances, MeshCycle]]
 
-def simulate(scene: Scene, *, progress: Progress | None = None, cache: Cache | None = None) -> xr.Dataset:
+
+def simulate(
+    scene: Scene, *, progress: Progress | None = None, cache: Cache | None = None, preparation: Preparation | None = None
+) -> xr.Dataset:
     """Run a scene and return its result (design.md, Result).
 
+    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
     computation; ComputationError when a stage fails, with what was done before as its attribute `partial`.
     """
     progress = progress if progress is not None else SilentProgress()
     built = model(scene)
-    compliances = gear_compliances(built, progress, cache if cache is not None else user_cache())
+    compliances, cycle = (preparation or prepared)(built, progress, cache if cache is not None else user_cache())
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
-    cycle = mesh_cycle(built, compliances)
     marcher = Marcher(cycle, built.drivetrain, built.time_step, scene.friction.coefficient if scene.friction else 0.0)
     progress.stage("march")
     try:
@@ -40,29 +47,40 @@ def simulate(scene: Scene, *, progress: Progress | None = None, cache: Cache | N
     return _result(built, cycle, march, compliances, compiled, complete=not march.interrupted)
 
 
-def gear_compliances(
-    built: Model, progress: Progress, cache: Cache | None
-) -> tuple[FlankCompliance, FlankCompliance]:
+def prepared(built: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
+    """The gears' flank compliances and the contact operators on them."""
+    compliances = gear_compliances(built, progress, cache)
+    return compliances, mesh_cycle(built, compliances)
+
+
+def gear_compliances(built: Model, progress: Progress, cache: Cache | None) -> Compliances:
     """Flank compliance of pinion and wheel, reaching as many teeth as can be loaded together."""
-    resolution, material = built.resolution, built.scene.gears.material
-    span = tooth_span(built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle)
-    compliances = []
-    for name, gear in (("pinion", built.pair.pinion), ("wheel", built.pair.wheel)):
+    compliances, reach = [], tooth_reach(built)
+    for name in ("pinion", "wheel"):
         progress.stage(f"condense {name}")
-        compliances.append(
-            flank_compliance(
-                gear,
-                material,
-                element=resolution.element,
-                flank_element_size=resolution.flank_element_size,
-                tooth_offsets=span,
-                cache=cache,
-            )
-        )
+        compliances.append(gear_compliance(built, name, reach, cache))
     return compliances[0], compliances[1]
 
 
-def mesh_cycle(built: Model, compliances: tuple[FlankCompliance, FlankCompliance]) -> MeshCycle:
+def tooth_reach(built: Model) -> int:
+    """Pitches between the outermost teeth that can be loaded together."""
+    return tooth_span(built.pair, built.resolution.contact_grid, built.resolution.steps_per_mesh_cycle)
+
+
+def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) -> FlankCompliance:
+    """Flank compliance of the "pinion" or the "wheel" over `reach` pitches, from the cache where it is there."""
+    resolution = built.resolution
+    return flank_compliance(
+        getattr(built.pair, name),
+        built.scene.gears.material,
+        element=resolution.element,
+        flank_element_size=resolution.flank_element_size,
+        tooth_offsets=reach,
+        cache=cache,
+    )
+
+
+def mesh_cycle(built: Model, compliances: Compliances) -> MeshCycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
     return MeshCycle(
         Flanks(built.pair, compliances, built.removal),
