@@ -98,6 +98,25 @@ def run(options: argparse.Namespace) -> int:
     return INTERRUPTED if last_words else 0
 
 
+def study(options: argparse.Namespace) -> int:
+    """``gears study STUDY``: run what is missing of a parameter study, alone or as one of the processes that mpirun started."""
+    from fenics_gears.studies.run_study import run_study
+    from fenics_gears.studies.summary import last_words, summary_rows
+
+    outcome = run_study(options.study, options.output, _progress(options.quiet), options.quiet)
+    if outcome is None:
+        return 0
+    if not options.quiet:
+        from fenics_gears.console import print_rows
+
+        print_rows(outcome.study.title, summary_rows(outcome))
+    if last_words(outcome):
+        print(last_words(outcome), file=sys.stderr)
+    if outcome.interrupted:
+        return INTERRUPTED
+    return ComputationError.exit_code if outcome.failures else 0
+
+
 def plot(options: argparse.Namespace) -> int:
     """``gears plot RUN``: draw the pictures of a run again."""
     from fenics_gears.output import check_writable
@@ -235,6 +254,11 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("scene", type=Path, metavar="SCENE", help="a scene file (TOML)")
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the scene file>)")
     command.set_defaults(command=run)
+
+    command = commands.add_parser("study", parents=[shared], help="run a parameter study, alone or under mpirun; resumes where it was stopped")
+    command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the study file>)")
+    command.set_defaults(command=study)
 
     command = commands.add_parser("plot", parents=[shared], help="draw the pictures of a run again")
     command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")

@@ -1,0 +1,184 @@
+"""One swept field and its values: a list as written, or a range spelt out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fenics_gears.scene import units
+from fenics_gears.scene.names import did_you_mean
+from fenics_gears.scene.written import as_written
+from fenics_gears.studies.fields import ABSENT, PRESENT, Path, is_section, toml_value
+
+RANGE_KEYS = ("start", "stop", "count", "step", "spacing")
+SPACINGS = ("linear", "logarithmic")
+MOST_VALUES = 100_000
+
+
+class AxisError(ValueError):
+    """What is wrong with a swept field's values; the message completes "the value ..." to a sentence."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A swept field: its path in the scene and its values as TOML has them.
+
+    `name`: of the coordinate; `unit`: of the coordinate's numbers, the one that the first value is written in, empty where the
+    values are bare numbers or texts.
+    """
+
+    path: Path
+    values: tuple[Any, ...]
+    name: str
+    unit: str = ""
+
+    @property
+    def dotted(self) -> str:
+        """The path as it is written."""
+        return ".".join(self.path)
+
+    def coordinate(self) -> np.ndarray:
+        """The values as numbers in ``unit``, an absent one as NaN; as texts where not all are numbers."""
+        numbers = [_number(value, self.unit) for value in self.values]
+        if all(number is not None for number in numbers):
+            return np.array(numbers)
+        return np.array([label(value) for value in self.values], dtype=object)
+
+
+def label(value: Any) -> str:
+    """A swept value in words: "absent", "200 Hz", "coefficient = 0.1"."""
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} = {toml_value(inner)}" for name, inner in value.items())
+    return value if isinstance(value, str) else as_written(value)
+
+
+def unit_of(values: tuple[Any, ...]) -> str:
+    """The unit that the first value with one is written in."""
+    return next((units.unit_of(value) for value in values if isinstance(value, str) and units.unit_of(value)), "")
+
+
+def values_of(path: Path, written: Any) -> tuple[Any, ...]:
+    """The values of a swept field: those listed, or those of a range. Raises AxisError."""
+    if isinstance(written, Mapping):
+        values = _range(written)
+    elif isinstance(written, list):
+        values = tuple(written)
+    else:
+        raise AxisError(f"is one value. Allowed: a list of values, or a range such as {_example(path)}. A field of one value belongs in [set].")
+    if not values:
+        raise AxisError("is an empty list. Allowed: at least one value.")
+    if len(values) > MOST_VALUES:
+        raise AxisError(f"has {len(values)} values. Allowed: up to {MOST_VALUES}.")
+    for value in values:
+        _check(path, value)
+    return values
+
+
+def _check(path: Path, value: Any) -> None:
+    if not is_section(path) or isinstance(value, Mapping) or value in (ABSENT, PRESENT):
+        return
+    hint = did_you_mean(value, (ABSENT, PRESENT)) if isinstance(value, str) else ""
+    raise AxisError(
+        f'holds {as_written(value)}, but [{".".join(path)}] is a section.{hint} Allowed: "{ABSENT}" (without the section), '
+        f'"{PRESENT}" (as the scene has it), or a table of its fields, such as {{ ... = ... }}.'
+    )
+
+
+def _number(value: Any, unit: str) -> float | None:
+    if value == ABSENT:
+        return math.nan
+    if isinstance(value, bool) or isinstance(value, Mapping):
+        return None
+    if isinstance(value, (int, float)):
+        return float(value)
+    try:
+        return units.quantity(value)[0] / _factor(unit)
+    except units.QuantityError:
+        return None
+
+
+def _factor(unit: str) -> float:
+    return units.quantity(f"1 {unit}")[0]
+
+
+def _example(path: Path) -> str:
+    number = "motion.mesh_frequency" == ".".join(path)
+    return '{ start = "50 Hz", stop = "1000 Hz", count = 20 }' if number else "{ start = ..., stop = ..., count = 20 }"
+
+
+def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
+    """The values of { start, stop, count } or { start, stop, step }, both ends included where the step allows."""
+    for name in table:
+        if name not in RANGE_KEYS:
+            raise AxisError(f'has "{name}", which no range has.{did_you_mean(name, RANGE_KEYS)} Allowed: start, stop, and count or step; spacing.')
+    for name in ("start", "stop"):
+        if name not in table:
+            raise AxisError(f"has no {name}. Allowed: start, stop, and count or step.")
+    if ("count" in table) == ("step" in table):
+        raise AxisError("needs one of count and step.")
+    spacing = table.get("spacing", "linear")
+    if spacing not in SPACINGS:
+        hint = did_you_mean(spacing, SPACINGS) if isinstance(spacing, str) else ""
+        raise AxisError(f'has the spacing {as_written(spacing)}.{hint} Allowed: "linear", "logarithmic".')
+    start, stop, step, unit = _ends(table)
+    if step is not None:
+        return _written(_stepped(start, stop, step, spacing), unit, table)
+    return _written(_counted(start, stop, table["count"], spacing), unit, table)
+
+
+def _ends(table: Mapping[str, Any]) -> tuple[float, float, float | None, str]:
+    """Start, stop and step as numbers in the unit of the start, and that unit."""
+    given = [table["start"], table["stop"], *([table["step"]] if "step" in table else [])]
+    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in given):
+        numbers, unit = [float(value) for value in given], ""
+    else:
+        for name in ("start", "stop", "step"):
+            if name in table and not isinstance(table[name], str):
+                raise AxisError(f"has {name} = {as_written(table[name])} beside a text with a unit. Allowed: all with units, or all bare numbers.")
+        try:
+            quantities = [units.quantity(value) for value in given]
+        except units.QuantityError as error:
+            raise AxisError(f"has an end that {error}") from None
+        if len({kind for _, kind in quantities}) > 1:
+            raise AxisError(f"mixes {' and '.join(dict.fromkeys(kind for _, kind in quantities))}.")
+        unit = units.unit_of(given[0])
+        numbers = [number / _factor(unit) for number, _ in quantities]
+    if not all(map(math.isfinite, numbers)):
+        raise AxisError("has an end that is not a finite number.")
+    return numbers[0], numbers[1], numbers[2] if len(numbers) > 2 else None, unit
+
+
+def _counted(start: float, stop: float, count: Any, spacing: str) -> np.ndarray:
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_VALUES:
+        raise AxisError(f"has count = {as_written(count)}. Allowed: a whole number from 2 to {MOST_VALUES}.")
+    if start == stop:
+        raise AxisError("starts where it stops.")
+    if spacing == "linear":
+        return np.linspace(start, stop, count)
+    if start <= 0 or stop <= 0:
+        raise AxisError("is logarithmic; start and stop must be above zero.")
+    return np.geomspace(start, stop, count)
+
+
+def _stepped(start: float, stop: float, step: float, spacing: str) -> np.ndarray:
+    if spacing != "linear":
+        raise AxisError("is logarithmic with a step. Allowed: a count instead.")
+    if step == 0 or (stop - start) / step <= 0:
+        raise AxisError("has a step that does not lead from start to stop.")
+    steps = (stop - start) / step
+    if steps > MOST_VALUES:
+        raise AxisError(f"has {steps:.3g} values. Allowed: up to {MOST_VALUES}.")
+    # A stop that round-off alone puts beyond the last step is reached.
+    return start + step * np.arange(math.floor(steps * (1 + 1e-12) + 1e-9) + 1)
+
+
+def _written(numbers: np.ndarray, unit: str, table: Mapping[str, Any]) -> tuple[Any, ...]:
+    """The numbers as a person would write them, whole ones where start and stop are whole."""
+    if unit:
+        return tuple(f"{number:.12g} {unit}" for number in numbers)
+    whole = isinstance(table["start"], int) and isinstance(table["stop"], int) and np.all(numbers == np.round(numbers))
+    return tuple(int(number) if whole else float(f"{number:.15g}") for number in numbers)

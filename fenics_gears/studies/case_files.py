@@ -1,0 +1,112 @@
+"""The files of a study's cases: one NetCDF a case, or a text on why it failed; found again by what they hold."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import json
+import logging
+import os
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import xarray as xr
+
+from fenics_gears import results
+from fenics_gears.errors import ComputationError
+from fenics_gears.studies.record import Record, record_of
+from fenics_gears.studies.study import Case, Study
+
+LOGGER = logging.getLogger(__name__)
+ENDING, FAILED_ENDING = ".nc", ".failed.txt"
+
+
+def save_case(run: xr.Dataset, case: Case, directory: Path) -> Record:
+    """Write the run of a case, aside first, and return its record; a note on an earlier failure goes."""
+    record = record_of(run)
+    attributes = {"case_key": case.key, "case_values": json.dumps(case.values), "record_digest": record.digest()}
+    results.save(run.assign_attrs(attributes), directory / f"{case.name}{ENDING}")
+    (directory / f"{case.name}{FAILED_ENDING}").unlink(missing_ok=True)
+    return record
+
+
+def save_failure(case: Case, reason: str, details: str, directory: Path) -> None:
+    """Write why a case failed, and its scene."""
+    aside = directory / f".{case.name}.{os.getpid()}.part"
+    text = f"{case} failed: {reason}\n\n{details}\nIts scene:\n\n{case.scene.text}"
+    try:
+        aside.write_text(text, encoding="utf-8")
+        os.replace(aside, directory / f"{case.name}{FAILED_ENDING}")
+    except OSError as error:
+        LOGGER.warning("%s: the note on its failure could not be written: %s", case, error)
+
+
+def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, Record]:
+    """Records, by the case's index, of the cases whose whole and undamaged runs are there.
+
+    A file whose case has another index by now gets its new name.
+    """
+    files = {path.stem.rpartition("-")[2]: path for path in sorted(directory.glob(f"*{ENDING}"))}
+    found = {}
+    for case in cases:
+        path = files.get(case.name.rpartition("-")[2])
+        record = None if path is None else _undamaged(path, case)
+        if record is not None:
+            found[case.index] = record
+            if path.stem != case.name:
+                os.replace(path, directory / f"{case.name}{ENDING}")
+    return found
+
+
+def _undamaged(path: Path, case: Case) -> Record | None:
+    try:
+        run = results.load(path)
+        record = record_of(run)
+        expected = (case.key, 1, record.digest())
+        if tuple(run.attrs.get(name) for name in ("case_key", "complete", "record_digest")) != expected:
+            raise ValueError("it does not hold what was written into it")
+        return record
+    # A damaged HDF5 file is reported by many types, RuntimeError and KeyError among them.
+    except Exception as error:
+        LOGGER.warning("%s is not usable and its case is computed again: %s", path, error)
+        return None
+
+
+@contextlib.contextmanager
+def sole_writer(directory: Path) -> Iterator[None]:
+    """The study's directory, for this process alone; what a killed study left half-written is removed.
+
+    Raises ComputationError where another study is writing there, or nothing can be written.
+    """
+    try:
+        (directory / "cases").mkdir(parents=True, exist_ok=True)
+        lock = open(directory / ".lock", "w")
+    except OSError as error:
+        raise ComputationError(f"{directory}: cannot be written to: {error.strerror or error}") from error
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise ComputationError(f"{directory}: another study is writing there. Wait for it, or choose another directory with --output DIR.") from None
+        except OSError as error:
+            LOGGER.debug("%s: no locks on this file system: %s", directory, error)
+        for left in (directory / "cases").glob(".*.part"):
+            left.unlink(missing_ok=True)
+        yield
+
+
+def base_changed(study: Study, directory: Path) -> bool:
+    """Whether the study was last run here on a base scene that said something else; notes the present one.
+
+    `study.json` also tells which file holds which case.
+    """
+    path = directory / "study.json"
+    try:
+        before = json.loads(path.read_text(encoding="utf-8")).get("base_scene")
+    except (OSError, ValueError, AttributeError):
+        before = None
+    index = {"title": study.title, "base_scene": study.base_key, "cases": {case.name: case.values for case in study.cases}}
+    aside = path.with_name(f".study.json.{os.getpid()}.part")
+    aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8")
+    os.replace(aside, path)
+    return before is not None and before != study.base_key

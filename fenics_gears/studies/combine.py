@@ -1,0 +1,115 @@
+"""The records of all cases as one dataset over the swept fields."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+import fenics_gears
+from fenics_gears.output import written_aside
+from fenics_gears.studies.axis import Axis
+from fenics_gears.studies.record import CURVES, Record
+from fenics_gears.studies.study import Study
+from fenics_gears.studies.work import Failure
+
+STUDY_FILE = "study.nc"
+# 800 MB; beyond, the curves stay in the files of the cases.
+MOST_CURVE_VALUES = 100_000_000
+
+# Units and long name of each number of a record.
+NUMBERS = {
+    "peak_to_peak_transmission_error": ("rad", "transmission error, peak to peak"),
+    "mean_transmission_error": ("rad", "transmission error, mean"),
+    "max_normal_force": ("N", "largest contact force of the mesh along the line of action"),
+    "newton_iterations": ("1", "Newton iterations of the run"),
+    "steps_per_mesh_cycle": ("1", "steps per mesh cycle"),
+    "wall_time": ("s", "wall time of the run"),
+}
+
+
+def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int, Failure]) -> xr.Dataset:
+    """One dataset of a study's cases so far; NaN where a case has no result.
+
+    The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed and
+    `failure` says why; curves are there when every case has the same steps.
+    """
+    result = xr.Dataset(coords={name: coordinate for axis in study.axes for name, coordinate in [_coordinate(axis, study)]})
+    if study.combine == "zip":
+        result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
+    for name, (units, long_name) in NUMBERS.items():
+        values = [records[i].numbers[name] if i in records else np.nan for i in range(len(study.cases))]
+        result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
+    result["failed"] = (study.dimensions, _over_cases(study, [int(i in failures) for i in _indices(study)]), {"long_name": "whether the case failed"})
+    texts = {
+        "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
+        "warnings": ("what the run says against itself", {i: record.warnings for i, record in records.items()}),
+        "case_file": ("file of the case", {i: f"cases/{study.cases[i].name}.nc" for i in records}),
+    }
+    for name, (long_name, said) in texts.items():
+        values = np.array([said.get(i, "") for i in _indices(study)], dtype=object)
+        result[name] = (study.dimensions, values.reshape(study.shape), {"long_name": long_name})
+    curves, why_not = _curves(study, records)
+    result = result.assign(curves)
+    return result.assign_attrs(
+        title=study.title,
+        study=study.text,
+        scene=study.scene_text,
+        scene_name=study.name,
+        fenics_gears_version=fenics_gears.__version__,
+        cases=len(study.cases),
+        cases_failed=len(failures),
+        complete=int(len(records) == len(study.cases)),
+        curves=why_not or ", ".join(name for name in CURVES if name in result),
+    )
+
+
+def save_study(dataset: xr.Dataset, directory: Path) -> Path:
+    """Write the combined dataset, aside first. Raises ComputationError where it cannot be written."""
+    encoding = {name: {"zlib": True, "complevel": 1} for name in CURVES if name in dataset}
+    with written_aside(directory, written := []) as aside:
+        dataset.to_netcdf(aside / STUDY_FILE, engine="h5netcdf", encoding=encoding)
+    return written[0]
+
+
+def _indices(study: Study) -> range:
+    return range(len(study.cases))
+
+
+def _over_cases(study: Study, values: list) -> np.ndarray:
+    return np.array(values).reshape(study.shape)
+
+
+def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
+    values = axis.coordinate()
+    attributes = {"long_name": axis.dotted}
+    if values.dtype != object:
+        attributes["units"] = axis.unit or "1"
+    return axis.name, (axis.name if study.combine == "product" else "case", values, attributes)
+
+
+def _curves(study: Study, records: Mapping[int, Record]) -> tuple[dict[str, tuple], str]:
+    """The curves that some case has, over the study's dimensions and the mesh phase; or why there are none."""
+    if not records:
+        return {}, "none: no case has a result"
+    phase = next(iter(records.values())).mesh_phase
+    if any(len(each.mesh_phase) != len(phase) or not np.allclose(each.mesh_phase, phase, rtol=0, atol=1e-9) for each in records.values()):
+        return {}, "none: the cases have different time steps or recorded cycles; see the files of the cases"
+    names = [name for name in CURVES if any(name in each.curves for each in records.values())]
+    shapes = {name: next(each.curves[name].shape for each in records.values() if name in each.curves) for name in names}
+    if len(study.cases) * sum(int(np.prod(shape)) for shape in shapes.values()) > MOST_CURVE_VALUES:
+        return {}, "none: too many values; see the files of the cases"
+    curves: dict[str, tuple] = {"mesh_phase": ("mesh_phase", phase, {"units": "1", "long_name": "mesh cycles since the first recorded step"})}
+    for name in names:
+        values = np.full((len(study.cases), *shapes[name]), np.nan)
+        for index, record in records.items():
+            if name in record.curves:
+                values[index] = record.curves[name]
+        labels = next(each.labels[name] for each in records.values() if name in each.labels)
+        inner = ("mesh_phase", "gear")[: len(shapes[name])]
+        curves[name] = ((*study.dimensions, *inner), values.reshape(*study.shape, *shapes[name]), labels)
+    if any(len(shape) > 1 for shape in shapes.values()):
+        curves["gear"] = ("gear", np.array(["pinion", "wheel"], dtype=object), {"long_name": "gear"})
+    return curves, ""

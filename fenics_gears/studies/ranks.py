@@ -1,0 +1,118 @@
+"""Many tasks over the processes of one MPI job, or one after another in a process that runs alone.
+
+Alone, MPI is never touched. Under `mpirun -n N`, ranks 1 to N-1 are workers of mpi4py.futures; rank 0 hands out tasks from the first
+on by mpi4py's own thread, and itself takes back and computes tasks from the last on, so that all N processes compute.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from fenics_gears.environment import RANK_COUNTS
+from fenics_gears.errors import ComputationError
+
+SECONDS_BETWEEN_LOOKS = 0.05
+
+Task = Callable[..., Any]
+"""A function of the task and a callable to call now and then, which the workers are not given."""
+Finished = Callable[[int, Any], None]
+"""Called by rank 0's main thread with a task's index and its outcome, or the exception that ended it."""
+
+
+class Alone:
+    """One process."""
+
+    size = 1
+
+    def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:
+        """Compute every task; ``tick`` is called often and may raise KeyboardInterrupt."""
+        for index, task in enumerate(tasks):
+            tick()
+            finished(index, _outcome(lambda: function(task, tick)))
+
+
+class Together:
+    """All ranks of a job, seen from rank 0."""
+
+    def __init__(self, executor, size: int):
+        self._executor, self.size = executor, size
+
+    def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:
+        """Compute every task; ``tick`` is called often and may raise KeyboardInterrupt, which ends the ranks after their present task."""
+        done: queue.SimpleQueue = queue.SimpleQueue()
+        futures = [self._executor.submit(function, task) for task in tasks]
+        for index, future in enumerate(futures):
+            future.add_done_callback(lambda future, index=index: done.put((index, future)))
+        left = len(tasks)
+
+        def receive(wait: float | None = None) -> None:
+            nonlocal left
+            with contextlib.suppress(queue.Empty):
+                while True:
+                    index, future = done.get(timeout=wait) if wait else done.get_nowait()
+                    if not future.cancelled():
+                        left -= 1
+                        finished(index, _outcome(future.result))
+
+        def look() -> None:
+            receive()
+            tick()
+
+        try:
+            for index in reversed(range(len(tasks))):
+                look()
+                if futures[index].cancel():
+                    outcome = _outcome(lambda: function(tasks[index], look))
+                    left -= 1
+                    finished(index, outcome)
+            while left:
+                receive(SECONDS_BETWEEN_LOOKS)
+                tick()
+        except BaseException:
+            for future in futures:
+                future.cancel()
+            for future in futures:
+                if not future.cancelled():
+                    _outcome(future.result)
+            receive()
+            raise
+
+
+def _outcome(compute: Callable[[], Any]) -> Any:
+    try:
+        return compute()
+    except Exception as error:
+        return error
+
+
+@contextlib.contextmanager
+def ranks() -> Iterator[Alone | Together | None]:
+    """The processes that work together; None on every rank but 0, once there is no more to do.
+
+    Raises ComputationError where a job of several processes was started that mpi4py cannot join.
+    """
+    started = max(int(value) if value.isdigit() else 1 for value in (os.environ.get(name, "") for name in RANK_COUNTS))
+    if started <= 1:
+        yield Alone()
+        return
+    try:
+        from mpi4py import MPI
+        from mpi4py.futures import MPICommExecutor
+    except ImportError as error:
+        raise ComputationError(f"This is one of {started} processes, but mpi4py cannot be loaded ({error}). Install it, or run the study alone.") from error
+    world = MPI.COMM_WORLD
+    if world.size != started:
+        raise ComputationError(
+            f"{started} processes were started, but mpi4py sees {world.size}: mpirun and mpi4py belong to different MPI installations. "
+            "Use the mpirun of the MPI that mpi4py was built with."
+        )
+    if world.rank > 0:
+        # Rank 0 decides; a worker that Ctrl-C also reaches would leave it waiting.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with MPICommExecutor(world, root=0) as executor:
+        yield None if executor is None else Together(executor, world.size)

@@ -1,0 +1,52 @@
+"""What a study's dataset takes from the run of one case."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+
+import numpy as np
+import xarray as xr
+
+# Curves over the recorded cycles; those that a run has are taken.
+CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force")
+
+
+@dataclass(frozen=True)
+class Record:
+    """Numbers and curves of one run.
+
+    `numbers`: by name; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
+    first recorded step; `labels`: units and long name of each curve; `warnings`: what the run says against itself.
+    """
+
+    numbers: dict[str, float]
+    mesh_phase: np.ndarray
+    curves: dict[str, np.ndarray]
+    labels: dict[str, dict[str, str]] = field(default_factory=dict)
+    warnings: str = ""
+
+    def digest(self) -> str:
+        """Hash of numbers and curves."""
+        digest = hashlib.sha256()
+        for name, values in sorted({**self.numbers, **self.curves, "mesh_phase": self.mesh_phase}.items()):
+            array = np.ascontiguousarray(values, dtype=float)
+            digest.update(f"{name} {array.shape}\n".encode())
+            digest.update(array.tobytes())
+        return digest.hexdigest()
+
+
+def record_of(run: xr.Dataset) -> Record:
+    """The record of a complete run; the wall time is the attribute `wall_time`, s."""
+    numbers = {
+        "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
+        "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
+        "max_normal_force": float(run["normal_force"].max()),
+        "newton_iterations": float(run.attrs["newton_iterations_total"]),
+        "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
+        "wall_time": float(run.attrs["wall_time"]),
+    }
+    phase = run["mesh_phase"].values
+    curves = {name: run[name].values for name in CURVES if name in run}
+    labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
+    return Record(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))

@@ -1,0 +1,71 @@
+"""A study as frozen dataclasses: the swept fields and one case for each combination of their values."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import fenics_gears
+from fenics_gears.elasticity.cache import content_key
+from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
+from fenics_gears.scene.data import Scene
+from fenics_gears.studies.axis import Axis
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run of a study.
+
+    `index`: its place, the last swept field turning fastest; `values`: of the swept fields, in words; `key`: hash of all that its
+    result depends on.
+    """
+
+    index: int
+    values: dict[str, str]
+    scene: Scene
+    key: str
+
+    @property
+    def name(self) -> str:
+        """What its files are called, without the ending."""
+        return f"{self.index:04d}-{self.key[:16]}"
+
+    def __str__(self) -> str:
+        """The case in words."""
+        return f"case {self.index} ({', '.join(f'{name} = {value}' for name, value in self.values.items())})"
+
+
+@dataclass(frozen=True)
+class Study:
+    """A validated study: every case's scene has been found right.
+
+    `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`); `text` and `scene_text`: the files it was
+    read from; `base_key`: hash of what the base scene says.
+    """
+
+    name: str
+    title: str
+    combine: str
+    axes: tuple[Axis, ...]
+    cases: tuple[Case, ...]
+    text: str
+    scene_text: str
+    base_key: str
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Names of the study's dimensions."""
+        return tuple(axis.name for axis in self.axes) if self.combine == "product" else ("case",)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the study's dimensions."""
+        return tuple(len(axis.values) for axis in self.axes) if self.combine == "product" else (len(self.cases),)
+
+
+def scene_key(scene: Scene) -> str:
+    """Hash of all that a scene's result depends on: what it says, however it is written, and the program's version."""
+    said: dict[str, Any] = asdict(scene)
+    for words in ("title", "text", "name"):
+        del said[words]
+    return content_key({"scene": said, "program": fenics_gears.__version__, "elasticity": ALGORITHM_VERSION})

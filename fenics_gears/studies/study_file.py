@@ -1,0 +1,289 @@
+"""From a study file to a `Study` whose every case has been validated."""
+
+from __future__ import annotations
+
+import itertools
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.model import model
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.lines import line_numbers
+from fenics_gears.scene.names import did_you_mean
+from fenics_gears.scene.problems import Problem, problems_of_schema, without_echoes
+from fenics_gears.scene.read import load_scene, scene_from_text
+from fenics_gears.scene.rules import broken_rules
+from fenics_gears.scene.written import WrittenFloat, as_written
+from fenics_gears.studies import fields
+from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
+from fenics_gears.studies.study import Case, Study, scene_key
+
+KEYS = ("title", "scene", "combine", "without", "set", "sweep")
+COMBINATIONS = ("product", "zip")
+MOST_CASES = 100_000
+MOST_MISTAKES = 10
+# Names that the combined dataset has for itself.
+TAKEN = {"case", "failed", "failure", "mesh_phase", "gear"}
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What a study file says, each field of a scene by its path."""
+
+    without: tuple[fields.Path, ...]
+    fixed: dict[fields.Path, Any]
+    axes: tuple[Axis, ...]
+    combine: str
+
+    def points(self) -> Iterator[tuple[Any, ...]]:
+        """The swept values of each case, the last axis turning fastest."""
+        values = [axis.values for axis in self.axes]
+        return itertools.product(*values) if self.combine == "product" else zip(*values)
+
+    def apply(self, tree: Mapping[str, Any], point: tuple[Any, ...]) -> dict[str, Any]:
+        """The scene of one case: first what is left out, then what is set, then what is swept."""
+        for path in self.without:
+            tree = fields.changed(tree, path, fields.ABSENT)
+        for path, value in self.fixed.items():
+            tree = fields.changed(tree, path, value)
+        for axis, value in zip(self.axes, point):
+            tree = fields.changed(tree, axis.path, value)
+        return dict(tree)
+
+
+class Mistakes:
+    """The mistakes of a study file so far, each said once."""
+
+    def __init__(self, source: str, lines: Mapping[tuple[str, ...], int]):
+        self._source, self._lines, self._said = source, lines, {}
+
+    def add(self, path: tuple[str, ...], written: str | None, message: str) -> None:
+        """Note a mistake at a path of the study file; ``written`` as for `Problem`."""
+        problem = Problem(path, written, message)
+        self._said.setdefault(problem.describe(self._source, self._lines))
+
+    def check(self) -> None:
+        """Raise SceneError with all mistakes, if there are any."""
+        if not self._said:
+            return
+        entries = list(self._said)
+        shown = entries[:MOST_MISTAKES] + ([f"... and {len(entries) - MOST_MISTAKES} more"] if len(entries) > MOST_MISTAKES else [])
+        count = "1 mistake" if len(entries) == 1 else f"{len(entries)} mistakes"
+        raise SceneError("\n".join([*shown, f"{count} in {self._source}. Nothing was computed or written."]))
+
+
+def load_study(path: str | Path) -> Study:
+    """Read a study file and its base scene and validate every case.
+
+    Raises SceneError, naming every mistake at once, before anything is computed.
+    """
+    path = Path(path)
+    text, tree = _parsed(path, "study")
+    mistakes = Mistakes(str(path), line_numbers(text))
+    _check_keys(tree, mistakes)
+    changes = _changes(tree, mistakes)
+    mistakes.check()
+    scene_file = path.parent / tree["scene"]
+    base = load_scene(scene_file)
+    scene_tree = tomllib.loads(base.text, parse_float=WrittenFloat)
+    _check_present(changes, scene_tree, str(scene_file), mistakes)
+    mistakes.check()
+    cases = _cases(path, changes, scene_tree, mistakes)
+    mistakes.check()
+    return Study(
+        name=path.stem,
+        title=tree.get("title", path.stem),
+        combine=changes.combine,
+        axes=changes.axes,
+        cases=cases,
+        text=text,
+        scene_text=base.text,
+        base_key=scene_key(base),
+    )
+
+
+def _parsed(path: Path, kind: str) -> tuple[str, dict[str, Any]]:
+    """The text of a TOML file and what it says."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        neighbours = [each.name for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+        raise SceneError(f"{path}: there is no such file.{did_you_mean(path.name, neighbours)}") from None
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a {kind} is a TOML file") from None
+    except (OSError, ValueError) as error:
+        raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    try:
+        return text, tomllib.loads(text, parse_float=WrittenFloat)
+    except (ValueError, RecursionError) as error:
+        raise SceneError(f"{path}: is not valid TOML: {error}\nNothing was computed or written.") from None
+
+
+def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
+    """The study file's own keys."""
+    for key, value in tree.items():
+        if key not in KEYS:
+            hint = did_you_mean(key, KEYS)
+            if not hint and (key,) in fields.known_paths():
+                hint = " A field of the scene belongs below [set], or below [sweep] with a list of values."
+            mistakes.add((key,), as_written(value), f"is not known in a study.{hint} Known: {', '.join(KEYS)}.")
+    for key in ("title", "scene", "combine"):
+        if key in tree and not isinstance(tree[key], str):
+            mistakes.add((key,), as_written(tree[key]), "is not a text.")
+    if "scene" not in tree:
+        mistakes.add(("scene",), None, 'is missing. Allowed: the file of the base scene, from this file\'s folder on, such as "lundvall2004.toml".')
+    if isinstance(tree.get("combine"), str) and tree["combine"] not in COMBINATIONS:
+        mistakes.add(("combine",), as_written(tree["combine"]), f'is not known.{did_you_mean(tree["combine"], COMBINATIONS)} Allowed: "product", "zip".')
+    for key in ("set", "sweep"):
+        if key in tree and not isinstance(tree[key], Mapping):
+            mistakes.add((key,), as_written(tree[key]), f"is not a section. Write a line [{key}], and below it fields of the scene.")
+    if not tree.get("sweep"):
+        mistakes.add(("sweep",), None, 'is missing. Add the section [sweep] with at least one field, such as motion.mesh_frequency = ["100 Hz", "200 Hz"].')
+
+
+def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
+    without = _without(tree, mistakes)
+    fixed = {path: value for path, value in _entries(tree, "set", mistakes)}
+    swept = []
+    for path, written in _entries(tree, "sweep", mistakes):
+        try:
+            swept.append((path, values_of(path, written)))
+        except AxisError as error:
+            mistakes.add(("sweep", ".".join(path)), _shown(written), str(error))
+    axes = _axes(swept)
+    _check_overlaps(without, fixed, axes, mistakes)
+    combine = tree.get("combine", "product")
+    _check_sizes(axes, combine, mistakes)
+    return Changes(without, fixed, axes, combine)
+
+
+def _without(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, ...]:
+    names = tree.get("without", [])
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        mistakes.add(("without",), as_written(names), 'is not a list of names. Allowed: sections and fields to leave out, such as ["inertia", "damping"].')
+        return ()
+    for name in names:
+        if problem := fields.why_unknown(tuple(name.split("."))):
+            mistakes.add(("without",), as_written(name), problem)
+    return tuple(tuple(name.split(".")) for name in names)
+
+
+def _entries(tree: Mapping[str, Any], table: str, mistakes: Mistakes) -> list[tuple[fields.Path, Any]]:
+    """Paths and values below [set] or [sweep], however the dotted path is spelt: quoted, bare, or as a table of its own."""
+    found: list[tuple[fields.Path, Any]] = []
+
+    def walk(home: fields.Path, values: Mapping[str, Any]) -> None:
+        for key, value in values.items():
+            path = (*home, *key.split("."))
+            if problem := fields.why_unknown(path):
+                mistakes.add((table, ".".join(path)), _shown(value), problem)
+            elif isinstance(value, Mapping) and fields.is_section(path):
+                walk(path, value)
+            else:
+                found.append((path, value))
+
+    walk((), tree[table] if isinstance(tree.get(table), Mapping) else {})
+    return found
+
+
+def _shown(value: Any) -> str:
+    return label(value) if isinstance(value, Mapping) else as_written(value)
+
+
+def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
+    """The axes, each called by the last part of its path where that is clear."""
+    last = [path[-1] for path, _ in swept]
+    return tuple(
+        Axis(path, values, path[-1] if last.count(path[-1]) == 1 and path[-1] not in TAKEN else "_".join(path), unit_of(values))
+        for path, values in swept
+    )
+
+
+def _check_overlaps(without, fixed, axes: tuple[Axis, ...], mistakes: Mistakes) -> None:
+    swept = [axis.path for axis in axes]
+    for path in swept:
+        for other in swept:
+            if other != path and other == path[: len(other)]:
+                mistakes.add(("sweep", ".".join(path)), None, f"lies in [{'.'.join(other)}], which is swept too. Sweep one of the two.")
+        if path in fixed:
+            mistakes.add(("set", ".".join(path)), None, "is swept too. Leave it out of [set].")
+        if swept.count(path) > 1:
+            mistakes.add(("sweep", ".".join(path)), None, "is swept twice.")
+    for path in without:
+        if path in fixed or path in swept:
+            mistakes.add(("without",), f'"{".".join(path)}"', "is set or swept as well. Leave it out of one of the two.")
+
+
+def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> None:
+    lengths = {axis.dotted: len(axis.values) for axis in axes}
+    if combine == "zip" and len(set(lengths.values())) > 1:
+        listed = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        mistakes.add(("combine",), '"zip"', f"needs as many values of each swept field: {listed}.")
+    cases = 1
+    for length in lengths.values():
+        cases *= length
+    if combine == "product" and cases > MOST_CASES:
+        mistakes.add(("sweep",), "", f"makes {cases} cases. Allowed: up to {MOST_CASES}.")
+
+
+def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: str, mistakes: Mistakes) -> None:
+    """"present" needs a section that the scene, with what is set, has."""
+    values = [(("sweep", axis.dotted), axis.path, axis.values) for axis in changes.axes]
+    values += [(("set", ".".join(path)), path, (value,)) for path, value in changes.fixed.items()]
+    for place, path, listed in values:
+        home: Any = Changes(changes.without, changes.fixed, (), "product").apply(scene_tree, ())
+        for name in path:
+            home = home.get(name) if isinstance(home, Mapping) else None
+        if home is None and any(value == fields.PRESENT for value in listed):
+            mistakes.add(place, f'"{fields.PRESENT}"', f"means the section as {scene_file} has it, but that has none. Write its fields as a table.")
+
+
+def _cases(path: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[Case, ...]:
+    cases: list[Case] = []
+    by_key: dict[str, Case] = {}
+    for index, point in enumerate(changes.points()):
+        values = {axis.dotted: label(value) for axis, value in zip(changes.axes, point)}
+        scene = _case_scene(f"{path.stem}-{index:04d}", changes, scene_tree, point, values, mistakes)
+        if scene is None:
+            continue
+        case = Case(index, values, scene, scene_key(scene))
+        same = by_key.setdefault(case.key, case)
+        if same is not case:
+            mistakes.add(("sweep",), "", f"{same} and {case} are the same scene. Leave one of them out.")
+        cases.append(case)
+    return tuple(cases)
+
+
+def _case_scene(name: str, changes: Changes, scene_tree, point, values: Mapping[str, str], mistakes: Mistakes) -> Scene | None:
+    """The validated scene of a case; None where it is wrong."""
+    tree = changes.apply(scene_tree, point)
+    problems = without_echoes(problems_of_schema(tree)[1] + broken_rules(tree))
+    for problem in problems:
+        mistakes.add(*_in_study(problem, changes, values))
+    if problems:
+        return None
+    scene = scene_from_text(fields.as_toml(tree), name)
+    try:
+        model(scene)
+    except GeometryError as error:
+        mistakes.add(("sweep",), "", f"with {_listed(values)}: {error}")
+        return None
+    return scene
+
+
+def _in_study(problem: Problem, changes: Changes, values: Mapping[str, str]) -> tuple[tuple[str, ...], str | None, str]:
+    """A problem of a case's scene as a mistake of the study file: at the line that makes it, where one does."""
+    for table, paths in (("sweep", [axis.path for axis in changes.axes]), ("set", list(changes.fixed))):
+        for path in paths:
+            length = min(len(path), len(problem.path))
+            if path[:length] == problem.path[:length] and problem.path:
+                return (table, ".".join(max(path, problem.path, key=len))), problem.written, problem.message
+    return problem.path, problem.written, f"{problem.message} (with {_listed(values)})"
+
+
+def _listed(values: Mapping[str, str]) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in values.items())

@@ -1,0 +1,40 @@
+"""What is told of a study when it ends."""
+
+from __future__ import annotations
+
+from fenics_gears.studies.run_study import Outcome
+
+MOST_FAILURES = 5
+
+
+def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
+    """Rows of label, value, unit."""
+    records = outcome.records.values()
+    rows = [
+        ("cases", f"{len(outcome.study.cases)}", ""),
+        ("kept from before", f"{outcome.kept}", ""),
+        ("computed", f"{len(records) - outcome.kept}", ""),
+    ]
+    if outcome.failures:
+        rows.append(("failed", f"{len(outcome.failures)}", ""))
+    if records:
+        values = [record.numbers["peak_to_peak_transmission_error"] for record in records]
+        rows.append(("transmission error, peak to peak", f"{min(values):.4g} to {max(values):.4g}", "rad"))
+        warned = sum(bool(record.warnings) for record in records)
+        if warned:
+            rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))
+    return [*rows, ("file", str(outcome.file), "")]
+
+
+def last_words(outcome: Outcome) -> str:
+    """What is not as it should be: failures, an interruption; empty where all is well."""
+    lines = []
+    if outcome.failures:
+        lines.append(f"{len(outcome.failures)} of {len(outcome.study.cases)} cases failed; run the study again to try them again. Why, and their scenes:")
+        shown = list(outcome.failures)[:MOST_FAILURES]
+        lines += [f"  {outcome.file.parent / 'cases' / outcome.study.cases[index].name}.failed.txt" for index in shown]
+        lines += ["  ..."] if len(outcome.failures) > MOST_FAILURES else []
+    if outcome.interrupted:
+        missing = len(outcome.study.cases) - len(outcome.records)
+        lines.append(f"Interrupted. What was done is kept; run the study again for the missing {missing} of {len(outcome.study.cases)} cases.")
+    return "\n".join(lines)

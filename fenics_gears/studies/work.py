@@ -1,0 +1,105 @@
+"""What one process of a study does with a task: condense a gear, run a case. Neither lets an error out."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.errors import GearsError
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.scene.data import Scene
+from fenics_gears.simulation import simulate, tooth_reach
+from fenics_gears.studies.case_files import save_case, save_failure
+from fenics_gears.studies.record import Record
+from fenics_gears.studies.study import Case
+from fenics_gears.studies.workshop import GEARS, cycle_key, gear_key, own_workshop
+
+Tick = Callable[[], None]
+
+
+@dataclass(frozen=True)
+class GearTask:
+    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over `reach` pitches."""
+
+    scene: Scene
+    name: str
+    reach: int
+
+
+@dataclass(frozen=True)
+class CaseTask:
+    """A case to be run, and the directory its file goes to."""
+
+    case: Case
+    directory: Path
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why a case has no result."""
+
+    reason: str
+
+
+def gear_tasks(cases: list[Case]) -> list[GearTask]:
+    """The distinct gears of the cases."""
+    reaches: dict[tuple, int] = {}
+    tasks: dict[tuple, GearTask] = {}
+    for case in cases:
+        built = model(case.scene)
+        cycle = cycle_key(built)[:3]  # the reach follows from gears and accuracy
+        if cycle not in reaches:
+            reaches[cycle] = tooth_reach(built)
+        for name in GEARS:
+            # Young's modulus is a factor, so the cache keeps one entry for all its values.
+            key = gear_key(built, name, reaches[cycle])
+            tasks.setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle]))
+    return list(tasks.values())
+
+
+def in_order_of_sharing(cases: list[Case]) -> list[Case]:
+    """The cases with those next to each other that share their contact operators; otherwise as they are."""
+    groups: dict[tuple, list[Case]] = {}
+    for case in cases:
+        groups.setdefault(cycle_key(model(case.scene)), []).append(case)
+    return [case for group in groups.values() for case in group]
+
+
+def condense(task: GearTask, tick: Tick | None = None) -> None:
+    """Bring a gear's flank compliance into the cache, and into this process."""
+    own_workshop().gear(model(task.scene), task.name, task.reach, user_cache())
+
+
+def run_case(task: CaseTask, tick: Tick | None = None) -> Record | Failure:
+    """Run a case and write its file; a failure is written too. Raises KeyboardInterrupt where Ctrl-C ended it."""
+    begun = time.perf_counter()
+    try:
+        run = simulate(task.case.scene, progress=Ticking(tick), preparation=own_workshop().prepared)
+        if not run.attrs["complete"]:
+            raise KeyboardInterrupt
+        return save_case(run.assign_attrs(wall_time=time.perf_counter() - begun), task.case, task.directory)
+    except GearsError as error:
+        reason = str(error)
+    except Exception as error:
+        if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
+            raise KeyboardInterrupt from error
+        reason = f"{type(error).__name__}: {error}"
+    save_failure(task.case, reason, traceback.format_exc(), task.directory)
+    return Failure(reason)
+
+
+class Ticking(SilentProgress):
+    """Calls ``tick`` as often as a simulation reports; it may raise KeyboardInterrupt."""
+
+    def __init__(self, tick: Tick | None):
+        self._tick = tick
+
+    def update(self, done: int, total: int) -> None:
+        """Call ``tick``."""
+        if self._tick is not None:
+            self._tick()

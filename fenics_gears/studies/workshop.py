@@ -1,0 +1,69 @@
+"""What the runs of one process share: the gears condensed last, and the contact operators of the last mesh cycle."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.model import Model
+from fenics_gears.progress import Progress
+from fenics_gears.simulation import Compliances, gear_compliance, mesh_cycle, tooth_reach
+
+GEARS = ("pinion", "wheel")
+NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
+
+
+class Workshop:
+    """Keeps the last two gears and the last mesh cycle; a frequency sweep builds its operators once.
+
+    Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, tip relief, contact grid,
+    steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and coefficient may differ.
+    """
+
+    def __init__(self):
+        self._gears: dict[tuple, FlankCompliance] = {}
+        self._cycle_key: tuple | None = None
+        self._prepared: tuple[Compliances, MeshCycle] | None = None
+
+    def prepared(self, built: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
+        """Compliances and mesh cycle for ``simulate``, kept or made."""
+        key = cycle_key(built)
+        if key == self._cycle_key:
+            compliances, cycle = self._prepared
+            return tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances), cycle
+        self._cycle_key = self._prepared = None  # frees its memory before the next is made
+        reach = tooth_reach(built)
+        kept = {gear_key(built, name, reach): name for name in GEARS}
+        compliances = tuple(self.gear(built, name, reach, cache) for name in GEARS)
+        self._gears = {key: gear for key, gear in self._gears.items() if key in kept}
+        self._cycle_key, self._prepared = key, (compliances, mesh_cycle(built, compliances))
+        return self._prepared
+
+    def gear(self, built: Model, name: str, reach: int, cache: Cache | None) -> FlankCompliance:
+        """Flank compliance of the "pinion" or the "wheel", kept, from the cache, or condensed."""
+        key = gear_key(built, name, reach)
+        if key not in self._gears:
+            self._gears[key] = gear_compliance(built, name, reach, cache)
+        return self._gears[key]
+
+
+@functools.lru_cache(maxsize=1)
+def own_workshop() -> Workshop:
+    """The workshop of this process."""
+    return Workshop()
+
+
+def gear_key(built: Model, name: str, reach: int) -> tuple:
+    """What a gear's flank compliance depends on."""
+    resolution = built.resolution
+    return getattr(built.pair, name), built.scene.gears.material, resolution.element, resolution.flank_element_size, reach
+
+
+def cycle_key(built: Model) -> tuple:
+    """What the contact operators of a mesh cycle depend on."""
+    scene, resolution = built.scene, built.resolution
+    accuracy = (resolution.element, resolution.flank_element_size, resolution.contact_grid, resolution.steps_per_mesh_cycle)
+    return scene.gears, scene.tip_relief, accuracy, tuple(built.drivetrain.indices), scene.friction is not None
