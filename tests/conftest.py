@@ -4,12 +4,20 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene
+
+# The suite draws the same examples on every run, so that a failure is the change's; `--hypothesis-profile explore` draws new ones.
+# Strategies that draw valid gears refuse many drawings on the way, and the first example may wait for a compiler.
+PATIENT = [HealthCheck.filter_too_much, HealthCheck.too_slow]
+settings.register_profile("suite", derandomize=True, deadline=None, suppress_health_check=PATIENT)
+settings.register_profile("explore", deadline=None, suppress_health_check=PATIENT)
+settings.load_profile("suite")
 
 DEMOS = Path(__file__).parents[1] / "demos"
 
