@@ -27,12 +27,14 @@ HALF_WIDTHS_BESIDE = 2.0
 STEPS_PER_MESH_CYCLE = 200
 STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
+# How often gears are meshed and condensed: the fast route, and the paper's.
+ONCE, EVERY_STEP = "once", "every step"
 PAIR_STIFFNESS = 14e3 / 206e3
 
 
 @dataclass(frozen=True)
 class Resolution:
-    """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle.
+    """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle, condensation.
 
     `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load.
     """
@@ -42,6 +44,7 @@ class Resolution:
     contact_grid: ContactGrid
     steps_per_mesh_cycle: int
     half_width: float
+    condensation: str
 
 
 def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:
@@ -80,6 +83,7 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
         contact_grid=ContactGrid(length, nodes),
         steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
         half_width=half_width,
+        condensation=asked.condensation or ONCE,
     )
 
 

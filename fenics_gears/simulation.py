@@ -7,20 +7,23 @@ from collections.abc import Callable
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_span
+from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, tooth_span
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.elasticity.remeshing import RemeshedStiffness
 from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.reference_route import remeshed
+from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results import dataset
 from fenics_gears.scene.data import Scene
 from fenics_gears.warm_up import compile_kernels
 
 Compliances = tuple[FlankCompliance, FlankCompliance]
-Preparation = Callable[[Model, Progress, Cache | None], tuple[Compliances, MeshCycle]]
+Preparation = Callable[[Model, Progress, Cache | None], tuple[Compliances | tuple[RemeshedStiffness, RemeshedStiffness], Cycle]]
 
 
 def simulate(
@@ -34,7 +37,7 @@ def simulate(
     """
     progress = progress if progress is not None else SilentProgress()
     built = model(scene)
-    compliances, cycle = (preparation or prepared)(built, progress, cache if cache is not None else user_cache())
+    gears, cycle = (preparation or prepared)(built, progress, cache if cache is not None else user_cache())
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
     marcher = Marcher(cycle, built.drivetrain, built.time_step, scene.friction.coefficient if scene.friction else 0.0)
@@ -42,13 +45,15 @@ def simulate(
     try:
         march = marcher.run(built.steps, built.stored_steps, progress.update)
     except ContactNotConverged as failure:
-        failure.partial = _result(built, cycle, failure.partial, compliances, compiled, complete=False)
+        failure.partial = _result(built, cycle, failure.partial, gears, compiled, complete=False)
         raise
-    return _result(built, cycle, march, compliances, compiled, complete=not march.interrupted)
+    return _result(built, cycle, march, gears, compiled, complete=not march.interrupted)
 
 
-def prepared(built: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
-    """The gears' flank compliances and the contact operators on them."""
+def prepared(built: Model, progress: Progress, cache: Cache | None):
+    """The gears' elasticity and the contact operators on it, by the route that the scene's condensation asks for."""
+    if built.resolution.condensation == EVERY_STEP:
+        return remeshed(built, progress, cache)
     compliances = gear_compliances(built, progress, cache)
     return compliances, mesh_cycle(built, compliances)
 
@@ -91,7 +96,7 @@ def mesh_cycle(built: Model, compliances: Compliances) -> MeshCycle:
     )
 
 
-def _result(built: Model, cycle: MeshCycle, march: March, compliances, compiled: float, complete: bool) -> xr.Dataset:
+def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
     result = dataset(built.scene, cycle, built.drivetrain, march, built.time_step)
     resolution = built.resolution
     return result.assign_attrs(
@@ -100,9 +105,10 @@ def _result(built: Model, cycle: MeshCycle, march: March, compliances, compiled:
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         contact_length=resolution.contact_grid.length,
-        contact_nodes=resolution.contact_grid.nodes,
+        contact_nodes=cycle.grid.nodes,
         steps_per_mesh_cycle=resolution.steps_per_mesh_cycle,
-        time_mesh=sum(gear.timings["time_mesh"] for gear in compliances),
-        time_condense=sum(gear.timings["time_condense"] for gear in compliances),
-        time_compile=compiled + sum(gear.timings["time_compile"] for gear in compliances),
+        condensation=resolution.condensation,
+        time_mesh=sum(gear.timings["time_mesh"] for gear in gears),
+        time_condense=sum(gear.timings["time_condense"] for gear in gears),
+        time_compile=compiled + sum(gear.timings["time_compile"] for gear in gears),
     )

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
 from fenics_gears.contact.tooth_pair import Flanks, PairNodes, ToothPair, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
@@ -53,7 +54,8 @@ def tooth_span(pair: GearPair, grid: ContactGrid, steps: int) -> int:
 class Cycle:
     """Contact equations over one mesh cycle of `steps` positions of a gear pair, each built when it is first asked for.
 
-    A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond.
+    A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond; `solve` is how a
+    step at a position is solved.
     """
 
     def __init__(self, pair: GearPair, grid: ContactGrid, steps: int):
@@ -71,6 +73,15 @@ class Cycle:
     def pair_number(self, step: int, index: int | np.ndarray):
         """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle `c`."""
         return step // self.steps - index
+
+    def solve(
+        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+    ) -> StepSolution:
+        """Solve a step at a position from the sets `status` (n,); `last`: the step before, None at the start.
+
+        Raises ContactNotConverged.
+        """
+        return solve_step(problem, status)
 
     def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
         """The tooth pairs that can touch at position `index` (0 to steps - 1)."""

@@ -84,15 +84,14 @@ class Iterate:
 
 
 def iterates(equations: Equations, displacement: np.ndarray, forces: np.ndarray) -> Iterator[Iterate]:
-    """The start and one iterate after another; ends where no step of the line search lowers the merit enough.
+    """The start, and one iterate after another without end.
 
     Raises numpy.linalg.LinAlgError where there is no search direction.
     """
     present = Iterate(displacement, forces, merit(equations, displacement, forces), 0.0)
-    yield present
-    while (following := _line_search(equations, present)) is not None:
-        yield following
-        present = following
+    while True:
+        yield present
+        present = _line_search(equations, present)
 
 
 def merit(equations: Equations, displacement: np.ndarray, forces: np.ndarray) -> float:
@@ -101,12 +100,13 @@ def merit(equations: Equations, displacement: np.ndarray, forces: np.ndarray) ->
     return 0.5 * float(first @ first + second @ second)
 
 
-def _line_search(equations: Equations, present: Iterate) -> Iterate | None:
+def _line_search(equations: Equations, present: Iterate) -> Iterate:
+    """The next iterate. Where no step fulfils the criterion the shortest is taken: the paper does not say, and this solves its pair."""
     step_u, step_p = equations.direction(present.displacement, present.forces)
     for halving in range(MOST_HALVINGS + 1):
         length = BETA**halving
         displacement, forces = present.displacement + length * step_u, present.forces + length * step_p
         value = merit(equations, displacement, forces)
         if value <= (1.0 - 2.0 * GAMMA * length) * present.merit:
-            return Iterate(displacement, forces, value, length)
-    return None
+            break
+    return Iterate(displacement, forces, value, length)

@@ -2,29 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.node_to_node import NodePairs, NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator
+from fenics_gears.contact.published_solver import PublishedSolver, RemeshedPosition
 from fenics_gears.contact.tooth_pair import Removal
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
 
 GEARS = (0, 1)
-
-
-@dataclass(frozen=True)
-class RemeshedPosition(Position):
-    """A position with its `index` in the mesh cycle and the stiffness of either gear, N/mm.
-
-    `stiffness`: (2n + 3, 2n + 3) over the contact nodes' normals and tangents and the centre (dx, dy, phi), in the gear's own frame.
-    """
-
-    index: int
-    stiffness: tuple[np.ndarray, np.ndarray]
 
 
 class RemeshedCycle(Cycle):
@@ -49,6 +37,11 @@ class RemeshedCycle(Cycle):
         self._removal, self._vertices, self._order = removal, grid, order
         self._coordinates, self._tangential = coordinates, tangential
         self._compliances: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+        self._solver = PublishedSolver(coordinates)
+
+    def solve(self, position: RemeshedPosition, problem, status, last):
+        """Newton with line search [B], the program's own ladder where it finds no solution."""
+        return self._solver(position, problem, status, last)
 
     def teeth(self, index: int) -> tuple[tuple[LoadedTooth, ...], tuple[LoadedTooth, ...]]:
         """The loaded teeth of pinion and wheel at position `index`, with the flank vertices that contact wants there."""

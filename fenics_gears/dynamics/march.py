@@ -11,7 +11,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, cold_start, solve_step
+from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
@@ -49,24 +49,10 @@ class March:
     seconds: float = 0.0
 
 
-StepSolver = Callable[[Position, StepProblem, np.ndarray, StepSolution | None], StepSolution]
-
-
-def active_sets(position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
-    """The program's own solver of a step: Newton on the mixed form, and its ladder."""
-    return solve_step(problem, status)
-
-
 class Marcher:
-    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
+    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none."""
 
-    `solve`: solves a step at a position from the sets that the last step suggests and that step's solution (None at the start).
-    """
-
-    def __init__(
-        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, solve: StepSolver = active_sets
-    ):
-        self._solver = solve
+    def __init__(self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float):
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.dynamic = AverageAcceleration(drivetrain, time_step)
         static_drivetrain = Drivetrain(
@@ -158,7 +144,7 @@ class Marcher:
             self.friction, self._needs_contact and not scheme.inert, self.tolerance,
         )  # fmt: skip
         try:
-            return self._solver(position, problem, status, last)
+            return self.cycle.solve(position, problem, status, last)
         except ContactNotConverged as failure:
             failure.time, failure.step = step * self.time_step, step
             raise

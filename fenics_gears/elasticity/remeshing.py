@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from time import perf_counter
 
 import numpy as np
@@ -19,6 +19,14 @@ from fenics_gears.scene.data import Material
 ALGORITHM_VERSION = 1
 
 
+@dataclass(frozen=True)
+class RemeshedStiffness:
+    """A gear's stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, at each position; `timings`: what it cost (s)."""
+
+    positions: list[np.ndarray]
+    timings: dict
+
+
 def remeshed_stiffness(
     gear: Gear,
     material: Material,
@@ -29,12 +37,12 @@ def remeshed_stiffness(
     cache: Cache | None = None,
     comm=None,
     report: Callable[[int, int], None] | None = None,
-) -> tuple[list[np.ndarray], dict]:
-    """Stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, at each position, and what it cost (s).
+) -> RemeshedStiffness:
+    """Stiffness of a gear at all positions: meshed and condensed, or from the cache.
 
     positions: for each the loaded teeth, tuples of remeshed_gear.LoadedTooth. comm: communicator that shares the positions out
-    (every rank calls this and gets all); None: this process alone, without MPI. report: called with positions done and in all.
-    Raises ComputationError, on every rank, when a position fails on any.
+    (every rank calls this, rank 0 gets them all, the others none); None: this process alone, without MPI. report: called with
+    positions done and in all, by this process. Raises ComputationError, on every rank, when a position fails on any.
     """
     key = content_key({
         "remeshed": ALGORITHM_VERSION,
@@ -45,16 +53,21 @@ def remeshed_stiffness(
         "positions": [[[tooth.angle, tooth.rolls.tolist()] for tooth in teeth] for teeth in positions],
     })
     clock = perf_counter()
-    cached = _from_rank_0(comm, lambda: cache.load(key) if cache is not None else None)
-    if cached is not None:
-        stiffness = [material.youngs_modulus * cached[str(i)] for i in range(len(positions))]
-        return stiffness, {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
+    first = comm is None or comm.rank == 0
+    cached = cache.load(key) if first and cache is not None else None
+    known = cached is not None
+    if comm is not None:
+        known = comm.bcast(known, root=0)
+    if known:
+        stiffness = [material.youngs_modulus * cached[str(i)] for i in range(len(positions))] if first else []
+        timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
+        return RemeshedStiffness(stiffness, timings)
     parts, timings = _shared(
         lambda mine: _computed(gear, material, element, flank_element_size, positions, mine, report), len(positions), comm
     )
-    if cache is not None and (comm is None or comm.rank == 0):
+    if cache is not None and first:
         cache.store(key, {str(i): parts[i] / material.youngs_modulus for i in parts})
-    return [parts[i] for i in range(len(positions))], {"from_cache": False, **timings}
+    return RemeshedStiffness([parts[i] for i in sorted(parts)], {"from_cache": False, **timings})
 
 
 def _computed(gear, material, element, flank_element_size, positions, mine, report) -> tuple[dict[int, np.ndarray], dict]:
@@ -72,24 +85,19 @@ def _computed(gear, material, element, flank_element_size, positions, mine, repo
     return found, body.timings
 
 
-def _from_rank_0(comm, function):
-    if comm is None:
-        return function()
-    return comm.bcast(function() if comm.rank == 0 else None, root=0)
-
-
 def _shared(compute, count: int, comm) -> tuple[dict[int, np.ndarray], dict]:
-    """All ranks' positions and the largest of their times; a failure on one rank is raised on all."""
+    """All ranks' positions on rank 0, none on the others, and the largest of their times; a failure on one is raised on all."""
     if comm is None:
         return compute(range(count))
+    failure, mine, times = None, {}, {}
     try:
-        mine = (*compute(range(comm.rank, count, comm.size)), None)
-    except GearsError as failure:
-        mine = ({}, {}, str(failure))
-    everyone = comm.allgather(mine)
-    failures = [f"rank {rank}: {failure}" for rank, (_, _, failure) in enumerate(everyone) if failure is not None]
+        mine, times = compute(range(comm.rank, count, comm.size))
+    except GearsError as error:
+        failure = f"rank {comm.rank}: {error}"
+    failures = [each for each in comm.allgather(failure) if each is not None]
     if failures:
         raise ComputationError("remeshing failed on " + "; ".join(failures))
-    parts = {index: stiffness for found, _, _ in everyone for index, stiffness in found.items()}
-    timings = {name: max(times[name] for _, times, _ in everyone) for name in everyone[0][1]}
-    return parts, timings
+    times = comm.allgather(times)
+    longest = {name: max(each[name] for each in times) for name in times[0]}
+    everyone = comm.gather(mine, root=0) or []
+    return {index: stiffness for found in everyone for index, stiffness in found.items()}, longest

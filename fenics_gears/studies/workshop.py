@@ -10,6 +10,8 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.model import Model
 from fenics_gears.progress import Progress
+from fenics_gears.reference_route import remeshed
+from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.simulation import Compliances, gear_compliance, mesh_cycle, tooth_reach
 
 GEARS = ("pinion", "wheel")
@@ -35,6 +37,9 @@ class Workshop:
             compliances, cycle = self._prepared
             return tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances), cycle
         self._cycle_key = self._prepared = None  # frees its memory before the next is made
+        if built.resolution.condensation == EVERY_STEP:
+            self._cycle_key, self._prepared = key, remeshed(built, progress, cache)
+            return self._prepared
         reach = tooth_reach(built)
         kept = {gear_key(built, name, reach): name for name in GEARS}
         compliances = tuple(self.gear(built, name, reach, cache) for name in GEARS)
@@ -65,5 +70,11 @@ def gear_key(built: Model, name: str, reach: int) -> tuple:
 def cycle_key(built: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on."""
     scene, resolution = built.scene, built.resolution
-    accuracy = (resolution.element, resolution.flank_element_size, resolution.contact_grid, resolution.steps_per_mesh_cycle)
+    accuracy = (
+        resolution.condensation,
+        resolution.element,
+        resolution.flank_element_size,
+        resolution.contact_grid,
+        resolution.steps_per_mesh_cycle,
+    )
     return scene.gears, scene.tip_relief, accuracy, tuple(built.drivetrain.indices), scene.friction is not None

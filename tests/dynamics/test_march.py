@@ -21,7 +21,7 @@ class Frozen:
 
     def __init__(self, cycle, step):
         self._position = cycle.position(step)
-        self.steps = cycle.steps
+        self.steps, self.solve = cycle.steps, cycle.solve
 
     def position(self, step):
         return replace(self._position, carried_from=np.arange(self._position.operator.nodes))

@@ -1,0 +1,51 @@
+"""The route of `condensation = "every step"`: both gears meshed anew at every position of a mesh cycle, as the paper does it.
+
+Slow; the published method, and the yardstick of the fast route, with which it shares no interpolation.
+"""
+
+from __future__ import annotations
+
+from fenics_gears.contact.remeshed_cycle import RemeshedCycle
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
+from fenics_gears.model import Model
+from fenics_gears.progress import Progress
+
+
+def remeshed(
+    built: Model, progress: Progress, cache: Cache | None, comm=None
+) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], RemeshedCycle]:
+    """Stiffness of pinion and wheel at every position, and the contact equations of a mesh cycle on them.
+
+    comm: MPI communicator over which the positions are shared out; every rank calls this, only rank 0 can use the result.
+    None: this process does all, and needs no MPI.
+    """
+    resolution = built.resolution
+    cycle = RemeshedCycle(
+        built.pair,
+        built.removal,
+        resolution.contact_grid,
+        element_named(resolution.element).order,
+        resolution.steps_per_mesh_cycle,
+        built.drivetrain.indices,
+        tangential=built.scene.friction is not None,
+    )
+    teeth = [cycle.teeth(index) for index in range(cycle.steps)]
+    gears = []
+    for number, name in enumerate(("pinion", "wheel")):
+        progress.stage(f"remesh {name}")
+        gears.append(
+            remeshed_stiffness(
+                getattr(built.pair, name),
+                built.scene.gears.material,
+                [both[number] for both in teeth],
+                element=resolution.element,
+                flank_element_size=resolution.flank_element_size,
+                cache=cache,
+                comm=comm,
+                report=progress.update,
+            )
+        )
+    cycle.stiffness = list(zip(*(gear.positions for gear in gears)))
+    return tuple(gears), cycle
