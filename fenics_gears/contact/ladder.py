@@ -74,7 +74,7 @@ def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 4
     Raises ContactNotConverged with the history of every rung when none converges.
     """
     attempts, spent = list(before), sum(len(history) for _, _, history, _ in before)
-    for rung, attempt in enumerate(_rungs(problem, status, max_iterations)):
+    for rung, attempt in _rungs(problem, status, max_iterations):
         result, record = attempt()
         attempts.append((LADDER[rung], OUTCOMES[result[0]], *record))
         spent += result[1]
@@ -84,15 +84,15 @@ def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 4
     raise ContactNotConverged(attempts, _reason(problem, attempts))
 
 
-def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[Callable]:
-    yield lambda: run_newton(problem, status, max_iterations)
-    if not len(problem.slip_before):
-        return
-    yield lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
-    yield lambda: run_newton(problem, status, max_iterations, r_scale=10.0)
-    yield lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
-    yield lambda: _friction_from_zero(problem, status, max_iterations)
-    yield lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
+def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[int, Callable]]:
+    """The rungs that apply, each with its place in LADDER; those between the first and the last are about friction."""
+    yield 0, lambda: run_newton(problem, status, max_iterations)
+    if len(problem.slip_before):
+        yield 1, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
+        yield 2, lambda: run_newton(problem, status, max_iterations, r_scale=10.0)
+        yield 3, lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
+        yield 4, lambda: _friction_from_zero(problem, status, max_iterations)
+    yield 5, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
 
 
 def run_newton(

@@ -231,3 +231,30 @@ def test_one_contact_node_is_exact():
     )
     solution = solve_step(problem, all_open(problem))
     assert solution.forces[0] == pytest.approx((5e3 / 2e5 - 0.01) / (1 / 2e5 + 3e-6), rel=1e-13)
+
+
+def test_frictionless_cycle_is_solved_one_change_at_a_time():
+    """Contact nodes closer than the elements are nearly dependent and make all-at-once changes cycle; Murty's rule ends, at NNLS's answer."""
+    solved_by_last = 0
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        n, coarse = 20, 5
+        weights = np.maximum(0.0, 1.0 - np.abs(np.linspace(0.0, coarse - 1, n)[:, None] - np.arange(coarse)))
+        problem = StepProblem(
+            stiffness=np.array([[1e4]]),
+            load=np.array([1e3]),
+            compliance=1e-6 * (weights @ weights.T + 1e-3 * np.eye(n)),
+            rigid=np.ones((n, 1)),
+            gap=1e-3 * rng.random(n),
+            slip_before=np.empty(0),
+            friction=0.0,
+            keep_one=False,
+            tolerance=Tolerance.of_load(1e3),
+        )
+        start = rng.integers(0, 2, n).astype(np.int8)
+        solution = solve_step(problem, start)
+        solved_by_last += RUNGS[solution.rung] == "one change at a time"
+        root = np.linalg.cholesky(problem.compliance + 1e-4)
+        expected, _ = nnls(root.T, np.linalg.solve(root, 0.1 - problem.gap))
+        assert solution.forces == pytest.approx(expected, rel=1e-6, abs=1e-3)
+    assert solved_by_last > 0

@@ -1,0 +1,82 @@
+"""Accuracy that follows from the scene: what the defaults go by, and that the scene's own values win."""
+
+from dataclasses import replace
+from math import pi, sqrt
+
+import pytest
+
+from fenics_gears.description import describe
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model import model
+from fenics_gears.resolution import (
+    COARSEST_ELEMENT,
+    FINEST_ELEMENT,
+    MOST_STEPS_PER_MESH_CYCLE,
+    hertz_half_width,
+    natural_frequencies,
+    resolve,
+)
+from fenics_gears.scene.data import Accuracy
+
+
+def of_scene(scene, **accuracy):
+    return model(replace(scene, accuracy=Accuracy(**accuracy))).resolution
+
+
+def test_values_of_the_scene_are_used_as_they_are(paper_scene):
+    """The paper's own: P2, 0.08 mm, 1.5 mm, 20 nodes, 100 steps."""
+    resolution = model(paper_scene).resolution
+    assert (resolution.element, resolution.flank_element_size) == ("P2", 0.08)
+    assert (resolution.contact_grid.length, resolution.contact_grid.nodes) == (1.5, 20)
+    assert resolution.steps_per_mesh_cycle == 100
+
+
+def test_half_width_of_a_textbook_contact():
+    """Literature (Johnson 1985, ch. 4): steel on steel, R = 10 mm, 100 N/mm: b = sqrt(4 F' R/(pi E*)) = 0.1060 mm."""
+    assert hertz_half_width(100.0, 10.0, 0.5 * 206e3 / 0.91) == pytest.approx(0.10606, rel=1e-3)
+
+
+def test_elements_follow_the_half_width(paper_scene):
+    """Hertz: the half-width grows as the root of the load, and the elements with it."""
+    resolution = of_scene(paper_scene)
+    assert resolution.flank_element_size == pytest.approx(resolution.half_width / 4.0)
+    light = of_scene(replace(paper_scene, load=replace(paper_scene.load, wheel_torque=437e3 / 2.0)))
+    assert light.flank_element_size == pytest.approx(resolution.flank_element_size / sqrt(2.0))
+
+
+@pytest.mark.parametrize("torque, part", [(0.0, FINEST_ELEMENT), (437e7, COARSEST_ELEMENT)])
+def test_elements_stay_reasonable_whatever_the_load(paper_scene, torque, part):
+    """No load has no half-width; an absurd one has a half-width of teeth: elements stay between two parts of the module."""
+    scene = replace(paper_scene, load=replace(paper_scene.load, wheel_torque=torque))
+    assert of_scene(scene).flank_element_size == pytest.approx(part * 4.5)
+
+
+def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
+    """Twenty steps a period of the drivetrain's highest mode, within bounds; the mesh cycle alone without inertia."""
+    shafts = drivetrain(paper_scene, paper_pair)
+    highest = natural_frequencies(shafts, 14.0 * 1e3 * 15.0)[-1]
+    scene = replace(paper_scene, motion=replace(paper_scene.motion, mesh_frequency=100.0), accuracy=Accuracy())
+    assert resolve(scene, paper_pair, shafts).steps_per_mesh_cycle == pytest.approx(20.0 * highest / 100.0, abs=1.0)
+    slow = replace(scene, motion=replace(scene.motion, mesh_frequency=0.01))
+    assert resolve(slow, paper_pair, shafts).steps_per_mesh_cycle == MOST_STEPS_PER_MESH_CYCLE
+    static = replace(scene, inertia=None, damping=None)
+    assert model(static).resolution.steps_per_mesh_cycle == 200
+
+
+def test_natural_frequencies_against_single_oscillators(paper_scene, paper_pair):
+    """Exact: without the mesh the translations are sqrt(k_b/m)/2 pi, phi1 is sqrt(k_s/J)/2 pi, phi2 and phi3 a free pair of sqrt(2 k_s/J)/2 pi."""
+    frequencies = natural_frequencies(drivetrain(paper_scene, paper_pair), 0.0)
+    translation, torsion = sqrt(0.155e6 / 4.9e-3) / (2.0 * pi), sqrt(0.203e9 / 24.5) / (2.0 * pi)
+    expected = sorted([0.0, *[translation] * 4, torsion, sqrt(2.0) * torsion])
+    assert frequencies == pytest.approx(expected, rel=1e-9, abs=1e-2)
+
+
+def test_description_says_what_a_run_will_use(paper_scene):
+    """`gears check` and a run read the same settings."""
+    sections = dict(describe(paper_scene).sections)
+    accuracy = {label: value for label, value, _ in sections["Accuracy"]}
+    assert accuracy["flank element size"] == 0.08
+    assert accuracy["steps"] == 3000
+    assert "Natural frequencies with one tooth pair in mesh (about)" in sections
+    static = replace(paper_scene, inertia=None, damping=None)
+    assert "Natural frequencies with one tooth pair in mesh (about)" not in dict(describe(static).sections)
