@@ -45,7 +45,7 @@ def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, ti
         },
     )
     attributes = _attributes(scene, march, result)
-    attributes["warnings"] = "\n".join(warnings_of(cycle, drivetrain, records))
+    attributes["warnings"] = "\n".join(warnings_of(cycle, drivetrain, march))
     return result.assign_attrs(attributes)
 
 

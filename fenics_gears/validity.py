@@ -7,16 +7,20 @@ import numpy as np
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.march import March, Record
 
 # cos(phi) is 1 within 0.1 % up to here: rotations are taken as small (paper, section 2).
 LARGEST_ROTATION = 0.05
 ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 
 
-def warnings_of(cycle: Cycle, drivetrain: Drivetrain, records: list[Record]) -> list[str]:
-    """Sentences on where the stored steps leave what the model assumes; empty where they do not."""
-    return [*_window(cycle, records), *_rotation(drivetrain, records), *_separation(cycle, records)]
+def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March) -> list[str]:
+    """Sentences on where a march leaves what the model assumes; empty where it does not.
+
+    Window and rotations are judged by the stored steps, loss of contact by every step done.
+    """
+    records = list(march.records)
+    return [*_window(cycle, records), *_rotation(drivetrain, records), *_separation(cycle, march)]
 
 
 def _window(cycle: Cycle, records: list[Record]) -> list[str]:
@@ -38,7 +42,7 @@ def _window(cycle: Cycle, records: list[Record]) -> list[str]:
 
 
 def _rotation(drivetrain: Drivetrain, records: list[Record]) -> list[str]:
-    states = np.array([record.state.position for record in records]).reshape(len(records), -1)
+    states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
     found = []
     for coordinate, name in ROTATIONS.items():
         largest = np.abs(drivetrain.value(states, coordinate)).max(initial=0.0)
@@ -50,22 +54,20 @@ def _rotation(drivetrain: Drivetrain, records: list[Record]) -> list[str]:
     return found
 
 
-def _separation(cycle: Cycle, records: list[Record]) -> list[str]:
-    """Flanks further apart than the backlash: the coast flanks would have touched, and are not part of the scene."""
-    backlash, first, steps, widest = cycle.pair.backlash, None, 0, 0.0
-    for record in records:
-        operator = record.position.operator
-        if not operator.nodes or np.any(record.solution.status != OPEN):
-            continue
-        opening = float(np.min(operator.gap - record.solution.displacement[: operator.nodes]))
-        steps, widest = steps + 1, max(widest, opening)
-        if first is None and opening > backlash:
-            first = record.step / cycle.steps
-    if first is not None:
-        return [
-            f"the teeth separate by up to {widest * 1e3:.4g} um, more than the backlash of {backlash * 1e3:.4g} um, from mesh "
-            f"cycle {first:.2f} on: the coast flanks would touch, which this scene does not have; from then on the result has no meaning"
-        ]
-    if steps:
-        return [f"the teeth lose contact in {steps} of {len(records)} stored steps, by up to {widest * 1e3:.3g} um"]
-    return []
+def _separation(cycle: Cycle, march: March) -> list[str]:
+    """Loss of contact: how often, how far; beyond the backlash the coast flanks, which the scene does not have, would have touched."""
+    if not march.separations:
+        return []
+    backlash, widest = cycle.flanks.pair.backlash, max(opening for _, opening in march.separations)
+    first, last = (march.separations[place][0] / cycle.steps for place in (0, -1))
+    lost = (
+        f"the teeth lose contact in {len(march.separations)} of {march.steps} steps, between mesh cycles {first:.2f} and {last:.2f}, "
+        f"by up to {widest * 1e3:.4g} um"
+    )
+    if widest <= backlash:
+        return [lost]
+    beyond = next(step for step, opening in march.separations if opening > backlash) / cycle.steps
+    return [
+        f"{lost}. That is more than the backlash of {backlash * 1e3:.4g} um: from mesh cycle {beyond:.2f} on the coast flanks would "
+        "touch, which this scene does not have, and the result has no meaning"
+    ]

@@ -38,3 +38,18 @@ def test_separation_beyond_the_backlash_is_named(coarse):
     undamped = replace(coarse, damping=None, motion=Motion(225.0, 60, 20))
     warnings = simulate(undamped).attrs["warnings"]
     assert "more than the backlash" in warnings and "no meaning" in warnings
+
+
+def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coarse, monkeypatch):
+    """Failure is part of the interface: a typed error that carries what was done, here nothing."""
+    from fenics_gears.contact.errors import ContactNotConverged
+    from fenics_gears.dynamics.march import Marcher
+
+    def fail(self):
+        raise ContactNotConverged([], "for the test")
+
+    monkeypatch.setattr(Marcher, "start", fail)
+    with pytest.raises(ContactNotConverged, match="for the test") as failure:
+        simulate(coarse)
+    assert failure.value.partial.sizes["time"] == 0
+    assert failure.value.partial.attrs["complete"] == 0

@@ -38,15 +38,22 @@ class March:
     """What a march has produced so far.
 
     `records`: the last steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
-    `interrupted`: stopped by the user.
+    `separations`: step and smallest opening (mm) of every step at which no node touched; `interrupted`: stopped by the user.
     """
 
     records: deque[Record] = field(default_factory=deque)
     newton_iterations: int = 0
     steps: int = 0
     rungs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RUNGS, 0))
+    separations: list[tuple[int, float]] = field(default_factory=list)
     interrupted: bool = False
     seconds: float = 0.0
+
+
+def smallest_opening(record: Record) -> float:
+    """Distance (mm) of the flanks at the contact node nearest to contact."""
+    operator = record.position.operator
+    return float(np.min(operator.gap - record.solution.displacement[: operator.nodes]))
 
 
 class Marcher:
@@ -81,6 +88,8 @@ class Marcher:
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
                 march.rungs[RUNGS[record.solution.rung]] += 1
                 march.records.append(record)
+                if not record.solution.status.any() and record.position.operator.nodes:
+                    march.separations.append((step, smallest_opening(record)))
                 now = time.perf_counter()
                 if report is not None and now - reported > SECONDS_BETWEEN_REPORTS:
                     report(step, steps)
