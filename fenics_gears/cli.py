@@ -16,6 +16,7 @@ from pathlib import Path
 from fenics_gears import __version__, environment
 from fenics_gears.errors import ComputationError, GearsError, GeometryError, SceneError
 from fenics_gears.interruption import Interruption
+from fenics_gears.job import communicator
 from fenics_gears.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 INTERRUPTED = 130
@@ -72,11 +73,18 @@ def run(options: argparse.Namespace) -> int:
     scene = _checked_scene(options.scene)
     directory = options.output or Path("results") / scene.name
     check_writable(directory)
+    # Every rank has now found the scene and the directory right, and none leaves the others waiting.
+    comm = communicator()
+    if comm is not None and comm.rank > 0:
+        from fenics_gears.simulation import assist
+
+        assist(scene, comm)
+        return 0
     from fenics_gears.simulation import simulate
 
     with Interruption(_progress(options.quiet)) as interruption:
         try:
-            dataset = simulate(scene, progress=interruption)
+            dataset = simulate(scene, progress=interruption, comm=comm)
         except ComputationError as error:
             if getattr(error, "partial", None) is None:
                 raise

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 
 import xarray as xr
@@ -27,17 +28,24 @@ Preparation = Callable[[Model, Progress, Cache | None], tuple[Compliances | tupl
 
 
 def simulate(
-    scene: Scene, *, progress: Progress | None = None, cache: Cache | None = None, preparation: Preparation | None = None
+    scene: Scene,
+    *,
+    progress: Progress | None = None,
+    cache: Cache | None = None,
+    preparation: Preparation | None = None,
+    comm=None,
 ) -> xr.Dataset:
     """Run a scene and return its result (design.md, Result).
 
-    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share.
+    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
+    of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
     computation; ComputationError when a stage fails, with what was done before as its attribute `partial`.
     """
     progress = progress if progress is not None else SilentProgress()
     built = model(scene)
-    gears, cycle = (preparation or prepared)(built, progress, cache if cache is not None else user_cache())
+    preparation = preparation or functools.partial(prepared, comm=comm)
+    gears, cycle = preparation(built, progress, cache if cache is not None else user_cache())
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
     marcher = Marcher(cycle, built.drivetrain, built.time_step, scene.friction.coefficient if scene.friction else 0.0)
@@ -50,10 +58,17 @@ def simulate(
     return _result(built, cycle, march, gears, compiled, complete=not march.interrupted)
 
 
-def prepared(built: Model, progress: Progress, cache: Cache | None):
+def assist(scene: Scene, comm) -> None:
+    """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
+    built = model(scene)
+    if built.resolution.condensation == EVERY_STEP:
+        remeshed(built, SilentProgress(), None, comm)
+
+
+def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
     """The gears' elasticity and the contact operators on it, by the route that the scene's condensation asks for."""
     if built.resolution.condensation == EVERY_STEP:
-        return remeshed(built, progress, cache)
+        return remeshed(built, progress, cache, comm)
     compliances = gear_compliances(built, progress, cache)
     return compliances, mesh_cycle(built, compliances)
 

@@ -50,7 +50,7 @@ def simulation(monkeypatch, tmp_path):
     stand_in = types.ModuleType("fenics_gears.simulation")
     stand_in.outcome, stand_in.calls = small_result(), []
 
-    def simulate(scene, *, progress=None):
+    def simulate(scene, *, progress=None, comm=None):
         stand_in.calls.append(scene)
         progress.stage("march")
         progress.update(1, 3)
@@ -117,7 +117,7 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
     before = signal.getsignal(signal.SIGINT)
     steps = []
 
-    def march(scene, *, progress):
+    def march(scene, *, progress, comm):
         progress.stage("march")
         try:
             for step in range(10):
@@ -139,7 +139,7 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
 def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
     """Authority: issue 2; a step that never ends can be left."""
 
-    def hang(scene, *, progress):
+    def hang(scene, *, progress, comm):
         progress.stage("march")
         progress.update(1, 10)
         os.kill(os.getpid(), signal.SIGINT)

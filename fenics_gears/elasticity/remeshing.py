@@ -92,8 +92,9 @@ def _shared(compute, count: int, comm) -> tuple[dict[int, np.ndarray], dict]:
     failure, mine, times = None, {}, {}
     try:
         mine, times = compute(range(comm.rank, count, comm.size))
-    except GearsError as error:
-        failure = f"rank {comm.rank}: {error}"
+    except Exception as error:
+        # Whatever it is, the other ranks wait to be told.
+        failure = f"rank {comm.rank}: {error}" if isinstance(error, GearsError) else f"rank {comm.rank}: {type(error).__name__}: {error}"
     failures = [each for each in comm.allgather(failure) if each is not None]
     if failures:
         raise ComputationError("remeshing failed on " + "; ".join(failures))

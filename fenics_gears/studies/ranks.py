@@ -7,14 +7,12 @@ on by mpi4py's own thread, and itself takes back and computes tasks from the las
 from __future__ import annotations
 
 import contextlib
-import os
 import queue
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from fenics_gears.environment import RANK_COUNTS
-from fenics_gears.errors import ComputationError
+from fenics_gears.job import communicator
 
 SECONDS_BETWEEN_LOOKS = 0.05
 
@@ -96,21 +94,12 @@ def ranks() -> Iterator[Alone | Together | None]:
 
     Raises ComputationError where a job of several processes was started that mpi4py cannot join.
     """
-    started = max(int(value) if value.isdigit() else 1 for value in (os.environ.get(name, "") for name in RANK_COUNTS))
-    if started <= 1:
+    world = communicator()
+    if world is None:
         yield Alone()
         return
-    try:
-        from mpi4py import MPI
-        from mpi4py.futures import MPICommExecutor
-    except ImportError as error:
-        raise ComputationError(f"This is one of {started} processes, but mpi4py cannot be loaded ({error}). Install it, or run the study alone.") from error
-    world = MPI.COMM_WORLD
-    if world.size != started:
-        raise ComputationError(
-            f"{started} processes were started, but mpi4py sees {world.size}: mpirun and mpi4py belong to different MPI installations. "
-            "Use the mpirun of the MPI that mpi4py was built with."
-        )
+    from mpi4py.futures import MPICommExecutor
+
     if world.rank > 0:
         # Rank 0 decides; a worker that Ctrl-C also reaches would leave it waiting.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
