@@ -106,8 +106,8 @@ def _factor(unit: str) -> float:
 
 
 def _example(path: Path) -> str:
-    number = "motion.mesh_frequency" == ".".join(path)
-    return '{ start = "50 Hz", stop = "1000 Hz", count = 20 }' if number else "{ start = ..., stop = ..., count = 20 }"
+    frequency = path == ("motion", "mesh_frequency")
+    return '{ start = "50 Hz", stop = "1000 Hz", count = 20 }' if frequency else "{ start = ..., stop = ..., count = 20 }"
 
 
 def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:

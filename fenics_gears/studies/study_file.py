@@ -83,7 +83,9 @@ def load_study(path: str | Path) -> Study:
     """
     path = Path(path)
     text, tree = _parsed(path, "study")
-    mistakes = Mistakes(str(path), line_numbers(text))
+    # A swept field has one name here, whether its dots are written bare or within quotes.
+    lines = {(name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()}
+    mistakes = Mistakes(str(path), lines)
     _check_keys(tree, mistakes)
     changes = _changes(tree, mistakes)
     mistakes.check()
@@ -243,11 +245,16 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
 
 
 def _cases(path: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[Case, ...]:
+    """Every case, validated; the same mistake of many cases is said once."""
     cases: list[Case] = []
     by_key: dict[str, Case] = {}
-    for index, point in enumerate(changes.points()):
+    wrong: dict[tuple, list[str]] = {}
+    points = list(changes.points())
+    for index, point in enumerate(points):
         values = {axis.dotted: label(value) for axis, value in zip(changes.axes, point)}
-        scene = _case_scene(f"{path.stem}-{index:04d}", changes, scene_tree, point, values, mistakes)
+        scene, problems = _case_scene(f"{path.stem}-{index:04d}", changes.apply(scene_tree, point))
+        for problem in problems:
+            wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
         if scene is None:
             continue
         case = Case(index, values, scene, scene_key(scene))
@@ -255,34 +262,35 @@ def _cases(path: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes
         if same is not case:
             mistakes.add(("sweep",), "", f"{same} and {case} are the same scene. Leave one of them out.")
         cases.append(case)
+    for (field, written, message), where in wrong.items():
+        mistakes.add(*_in_study(field, written, message, changes, where, len(points)))
     return tuple(cases)
 
 
-def _case_scene(name: str, changes: Changes, scene_tree, point, values: Mapping[str, str], mistakes: Mistakes) -> Scene | None:
-    """The validated scene of a case; None where it is wrong."""
-    tree = changes.apply(scene_tree, point)
+def _case_scene(name: str, tree: Mapping[str, Any]) -> tuple[Scene | None, list[Problem]]:
+    """The validated scene of a case, or what is wrong with it."""
     problems = without_echoes(problems_of_schema(tree)[1] + broken_rules(tree))
-    for problem in problems:
-        mistakes.add(*_in_study(problem, changes, values))
     if problems:
-        return None
+        return None, problems
     scene = scene_from_text(fields.as_toml(tree), name)
     try:
         model(scene)
     except GeometryError as error:
-        mistakes.add(("sweep",), "", f"with {_listed(values)}: {error}")
-        return None
-    return scene
+        return None, [Problem((), None, str(error))]
+    return scene, []
 
 
-def _in_study(problem: Problem, changes: Changes, values: Mapping[str, str]) -> tuple[tuple[str, ...], str | None, str]:
-    """A problem of a case's scene as a mistake of the study file: at the line that makes it, where one does."""
-    for table, paths in (("sweep", [axis.path for axis in changes.axes]), ("set", list(changes.fixed))):
-        for path in paths:
-            length = min(len(path), len(problem.path))
-            if path[:length] == problem.path[:length] and problem.path:
-                return (table, ".".join(max(path, problem.path, key=len))), problem.written, problem.message
-    return problem.path, problem.written, f"{problem.message} (with {_listed(values)})"
+def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:
+    """A mistake of some cases' scenes as one of the study file: at the line that makes it, where one line does."""
+    named = [("sweep", axis.path) for axis in changes.axes] + [("set", path) for path in changes.fixed]
+    for table, path in named:
+        length = min(len(path), len(field))
+        if field and path[:length] == field[:length]:
+            return (table, ".".join(max(path, field, key=len))), written, message
+    first = f"{'only ' if points == 1 else ''}with {where[0]}" if len(where) == 1 else f"in {len(where)} of {points} cases, first with {where[0]}"
+    if not field:
+        return ("sweep",), "", f"{message} ({first})"
+    return field, written, f"{message} (a field of the base scene, as this study changes it; {first})"
 
 
 def _listed(values: Mapping[str, str]) -> str:

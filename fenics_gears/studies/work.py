@@ -86,14 +86,12 @@ def run_case(task: CaseTask, tick: Tick | None = None) -> Record | Failure:
         if not run.attrs["complete"]:
             raise KeyboardInterrupt
         return save_case(run.assign_attrs(wall_time=time.perf_counter() - begun), task.case, task.directory)
-    except GearsError as error:
-        reason = str(error)
     except Exception as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
-        reason = f"{type(error).__name__}: {error}"
-    save_failure(task.case, reason, traceback.format_exc(), task.directory)
-    return Failure(reason)
+        reason = str(error) if isinstance(error, GearsError) else f"{type(error).__name__}: {error}"
+        save_failure(task.case, reason, traceback.format_exc(), task.directory)
+        return Failure(reason)
 
 
 class Ticking(SilentProgress):

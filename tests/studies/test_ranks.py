@@ -1,0 +1,129 @@
+"""Studies under mpirun: the same numbers as alone, for any number of ranks, with failures and killed ranks."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from tests.studies.conftest import command, environment, gears, stamps, write_study
+from tests.studies.test_run_study import FOUR, MANY, SOME_FAIL, load
+
+from fenics_gears.studies.ranks import Alone
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_a_study_under_mpirun_gives_what_it_gives_alone(folder, ranks):
+    """Authority: exact identity; a case's run does not depend on where it runs. Two cases: with 3 ranks there are more ranks than cases."""
+    study = write_study(folder, '[sweep]\nfriction = ["absent", "present"]\n')
+    assert gears(folder, "study", study, "--output", "alone", "--quiet").returncode == 0
+    together = gears(folder, "study", study, "--output", "here", ranks=ranks)
+    assert together.returncode == 0, together.stderr
+    assert (f"by {ranks} processes" in together.stderr) == (ranks > 1)
+    assert together.stdout.count("kept from before") == 1
+    alone, here = load("alone"), load("here")
+    assert here.drop_vars("wall_time").equals(alone.drop_vars("wall_time"))
+    again = gears(folder, "study", study, "--output", "here", ranks=ranks)
+    assert again.returncode == 0 and "2 kept, 0 to be computed" in again.stderr
+
+
+def test_a_failing_case_neither_hangs_nor_ends_the_other_ranks(folder):
+    """Authority: hard case 28; recorded as failed with the reason, the others finish, the exit code says so."""
+    study = write_study(folder, SOME_FAIL)
+    ended = gears(folder, "study", study, "--output", "here", ranks=2)
+    assert ended.returncode == 3, ended.stderr
+    combined = load("here")
+    assert list(combined["failed"].values) == [0, 1, 0]
+    assert "contact did not converge" in str(combined["failure"].values[1])
+    assert len(stamps("here")) == 2 and len(list(Path("here/cases").glob("*.failed.txt"))) == 1
+
+
+def test_a_wrong_study_ends_every_rank(folder):
+    """Authority: design.md; exit code 2, nothing written, and no rank is left waiting."""
+    study = write_study(folder, '[sweep]\nmotion.mesh_frequency = ["1 mm"]\n')
+    ended = gears(folder, "study", study, ranks=2)
+    assert ended.returncode == 2 and ended.stderr.count("is a length") == 1
+    assert not Path("results").exists()
+
+
+def test_both_of_two_ranks_compute(folder):
+    """Authority: issue 3; `mpirun -n 2` can only be 1.8 times as fast when rank 0 does not merely hand out."""
+    program = (
+        "import os, time\n"
+        "from fenics_gears import environment; environment.prepare()\n"
+        "from fenics_gears.studies.ranks import ranks\n"
+        "def rank(task, tick=None): time.sleep(0.05); return int(os.environ['OMPI_COMM_WORLD_RANK'])\n"
+        "with ranks() as team:\n"
+        "    if team is not None:\n"
+        "        found = {}\n"
+        "        team.run(rank, list(range(20)), found.__setitem__, lambda: None)\n"
+        "        print(*(found[i] for i in range(20)))\n"
+    )
+    Path("program.py").write_text(program)
+    call = command("x", ranks=2)
+    call = [*call[: call.index(sys.executable)], sys.executable, "program.py"]
+    told = subprocess.run(call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=60)
+    computed_by = told.stdout.split()
+    assert len(computed_by) == 20, told.stderr
+    assert 7 <= computed_by.count("0") <= 13
+
+
+def children(process):
+    """Ids of the processes that a process has started."""
+    return [int(pid) for pid in Path(f"/proc/{process}/task/{process}/children").read_text().split()]
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds the ranks in /proc")
+def test_a_killed_rank_loses_nothing_that_was_done(folder):
+    """Authority: hard case 27 under MPI: the job ends, and run again it computes only what is missing."""
+    study = write_study(folder, MANY)
+    process = subprocess.Popen(
+        command("study", study, "--output", "here", ranks=2),
+        cwd=folder, env=environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    deadline = time.monotonic() + 60
+    while len(stamps("here")) < 3 and time.monotonic() < deadline and process.poll() is None:
+        time.sleep(0.005)
+    os.kill(children(process.pid)[-1], signal.SIGKILL)
+    assert process.wait(timeout=60) != 0
+    before = stamps("here")
+    assert 3 <= len(before) < 30
+    again = gears(folder, "study", study, "--output", "here", ranks=2)
+    assert again.returncode == 0 and f"{len(before)} kept" in again.stderr, again.stderr
+    after = stamps("here")
+    assert len(after) == 30 and {name: after[name] for name in before} == before
+
+
+def test_alone_mpi_is_never_touched(folder):
+    """Authority: a study alone must run where MPI is absent or broken."""
+    study = write_study(folder, FOUR)
+    main = "import sys; sys.modules['mpi4py'] = None; from fenics_gears.cli import main; sys.exit(main(sys.argv[1:]))"
+    gears(folder, "study", study, "--output", "first", "--quiet")  # gears in the cache: no DOLFINx, which brings mpi4py
+    ended = subprocess.run(
+        [sys.executable, "-c", main, "study", str(study), "--output", "here"],
+        cwd=folder, env=environment(), capture_output=True, text=True, timeout=60,
+    )  # fmt: skip
+    assert ended.returncode == 0, ended.stderr
+
+
+def test_processes_that_mpi4py_cannot_join_are_refused(folder):
+    """Authority: two copies of one study must not both believe to be alone."""
+    study = write_study(folder, FOUR)
+    ended = subprocess.run(
+        command("study", study), cwd=folder, env={**environment(), "PMI_SIZE": "2"}, capture_output=True, text=True, timeout=60
+    )
+    assert ended.returncode == 3 and "different MPI installations" in ended.stderr
+    assert not Path("results").exists()
+
+
+def test_an_error_of_a_task_is_its_outcome():
+    """Authority: the promise of `run`; one task's error is not another's."""
+
+    def inverse(task, tick):
+        return 1 / task
+
+    found = {}
+    Alone().run(inverse, [1, 0, 2], found.__setitem__, lambda: None)
+    assert found[0] == 1 and isinstance(found[1], ZeroDivisionError) and found[2] == 0.5

@@ -1,0 +1,217 @@
+"""Running a study in one process: its files, what is kept, what is computed again, and what fails."""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.studies.conftest import command, environment, gears, stamps, write_study
+
+from fenics_gears import results
+from fenics_gears.cli import main
+from fenics_gears.simulation import simulate
+from fenics_gears.studies.case_files import sole_writer
+from fenics_gears.studies.study_file import load_study
+
+FOUR = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nfriction = ["absent", "present"]\n'
+# Quasi-static teeth lock where the friction coefficient is large (hard case 20): a failure that no test brings about.
+SOME_FAIL = 'without = ["inertia", "damping"]\n[sweep]\nfriction.coefficient = [0.1, 3, 0.2]\n'
+
+
+def load(directory):
+    """The combined dataset in memory."""
+    import xarray
+
+    with xarray.open_dataset(Path(directory) / "study.nc", engine="h5netcdf") as opened:
+        return opened.load()
+
+
+def test_every_case_is_what_a_run_of_its_scene_gives(folder):
+    """Authority: exact identity; what cases share changes no digit. The run of each scene alone is the reference."""
+    study = write_study(folder, FOUR)
+    assert main(["study", str(study), "--quiet"]) == 0
+    combined = load("results/study")
+    assert combined.sizes["mesh_frequency"] == combined.sizes["friction"] == 2
+    assert list(combined["mesh_frequency"].values) == [100.0, 200.0] and combined["mesh_frequency"].attrs["units"] == "Hz"
+    assert list(combined["friction"].values) == ["absent", "present"]
+    for case in load_study(study).cases:
+        alone, row = simulate(case.scene), combined.isel(mesh_frequency=case.index // 2, friction=case.index % 2)
+        for name in ("peak_to_peak_transmission_error", "mean_transmission_error"):
+            assert float(row[name]) == alone.attrs[name]
+        for name in ("transmission_error", "centre_y", "normal_force"):
+            assert np.array_equal(row[name].values, alone[name].values)
+        assert np.array_equal(results.load(Path("results/study", str(row["case_file"].values)))["contact_pressure"], alone["contact_pressure"])
+    assert np.isnan(combined["friction_force"].sel(friction="absent")).all()
+    assert np.isfinite(combined["friction_force"].sel(friction="present")).all()
+    assert combined.attrs["complete"] == 1 and combined.attrs["study"] == study.read_text(encoding="utf-8")
+    assert all(combined[name].attrs["units"] == "rad" for name in ("transmission_error", "mean_transmission_error"))
+
+
+def test_zip_has_one_dimension_with_the_fields_along_it(folder):
+    """Authority: the definition of zip."""
+    study = write_study(folder, 'combine = "zip"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nload.wheel_torque = ["100 N m", "0.2 kNm"]')
+    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
+    combined = load("here")
+    assert combined["peak_to_peak_transmission_error"].dims == ("case",)
+    assert list(combined["wheel_torque"].values) == [100.0, 200.0] and combined["wheel_torque"].attrs["units"] == "N m"
+    assert combined["wheel_torque"].dims == ("case",)
+
+
+def test_cases_with_different_steps_have_no_curves_but_their_numbers(folder):
+    """Authority: there is no common time axis."""
+    study = write_study(folder, "[sweep]\naccuracy.steps_per_mesh_cycle = [20, 22]")
+    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
+    combined = load("here")
+    assert "transmission_error" not in combined and "different time steps" in combined.attrs["curves"]
+    assert np.isfinite(combined["peak_to_peak_transmission_error"]).all()
+
+
+def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
+    """Authority: inode and time of each file; cases are found by content, wherever they stand in the sweep."""
+    study = write_study(folder, FOUR)
+    main(["study", str(study), "--quiet", "--output", "here"])
+    before, combined = stamps("here"), load("here")
+    assert main(["study", str(study), "--output", "here"]) == 0
+    assert stamps("here") == before
+    assert "4 kept, 0 to be computed" in capsys.readouterr().err
+    assert load("here").equals(combined)
+    write_study(folder, FOUR.replace('["100 Hz"', '["50 Hz", "100 Hz"'))
+    assert main(["study", str(study), "--output", "here"]) == 0
+    assert "4 kept, 2 to be computed" in capsys.readouterr().err
+    after = stamps("here")
+    assert set(before.values()) < set(after.values()) and len(after) == 6
+    assert load("here").sel(mesh_frequency=[100.0, 200.0]).drop_vars("case_file").equals(combined.drop_vars("case_file"))
+
+
+def test_a_changed_base_scene_is_noticed(folder, capsys):
+    """Authority: hash of what the scene says; a comment is no change, another face width is one."""
+    study = write_study(folder, FOUR)
+    main(["study", str(study), "--quiet", "--output", "here"])
+    before, old = stamps("here"), load("here")
+    scene = folder / "pair.toml"
+    text = scene.read_text(encoding="utf-8")
+    scene.write_text("# a comment\n" + text, encoding="utf-8")
+    main(["study", str(study), "--output", "here"])
+    assert "has changed" not in capsys.readouterr().err and stamps("here") == before
+    scene.write_text(text.replace('face_width = "15 mm"', 'face_width = "16 mm"'), encoding="utf-8")
+    assert main(["study", str(study), "--output", "here"]) == 0
+    assert "4 to be computed. The base scene has changed" in capsys.readouterr().err
+    after = stamps("here")
+    assert {name: after[name] for name in before} == before and len(after) == 8
+    new = load("here")
+    assert (new["mean_transmission_error"] < old["mean_transmission_error"]).all()
+    # A change that no case is left with changes no case.
+    write_study(folder, FOUR.replace("[sweep]", '[set]\ngears.face_width = "15 mm"\n[sweep]'))
+    assert main(["study", str(study), "--output", "here"]) == 0
+    assert "4 kept, 0 to be computed" in capsys.readouterr().err
+    assert load("here")["mean_transmission_error"].equals(old["mean_transmission_error"])
+
+
+@pytest.mark.parametrize("damage", ["cut", "overwritten", "swapped"])
+def test_a_damaged_file_is_computed_again(folder, caplog, damage):
+    """Authority: hard case 27; never a wrong number."""
+    study = write_study(folder, FOUR)
+    main(["study", str(study), "--quiet", "--output", "here"])
+    combined = load("here")
+    first, second = sorted(Path("here/cases").glob("*.nc"))[:2]
+    content = first.read_bytes()
+    if damage == "cut":
+        first.write_bytes(content[: len(content) // 2])
+    elif damage == "swapped":
+        first.write_bytes(second.read_bytes())
+    else:
+        values = results.load(first)["transmission_error"].values.tobytes()
+        assert values in content
+        first.write_bytes(content.replace(values, values[8:] + values[:8]))
+    before = stamps("here")
+    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
+    after = stamps("here")
+    assert [name for name in before if before[name] != after[name]] == [first.name]
+    assert "computed again" in caplog.text
+    assert load("here").drop_vars("wall_time").equals(combined.drop_vars("wall_time"))
+
+
+def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys):
+    """Authority: issue 3; hard case 20 brings the failure about. Exit code 3; tried again the next time."""
+    study = write_study(folder, SOME_FAIL)
+    assert main(["study", str(study), "--output", "here"]) == 3
+    assert "1 of 3 cases failed" in capsys.readouterr().err
+    combined = load("here")
+    assert list(combined["failed"].values) == [0, 1, 0]
+    assert list(np.isnan(combined["peak_to_peak_transmission_error"].values)) == [False, True, False]
+    assert "contact did not converge" in str(combined["failure"].values[1]) and str(combined["failure"].values[0]) == ""
+    assert combined.attrs["complete"] == 0 and combined.attrs["cases_failed"] == 1
+    (note,) = Path("here/cases").glob("*.failed.txt")
+    text = note.read_text(encoding="utf-8")
+    assert "contact did not converge" in text and "Traceback" in text and "coefficient = 3" in text
+    before = stamps("here")
+    assert main(["study", str(study), "--output", "here"]) == 3
+    assert "2 kept, 1 to be computed" in capsys.readouterr().err and stamps("here") == before
+
+
+def test_an_unwritable_cache_changes_nothing(folder, monkeypatch):
+    """Authority: elasticity's promise that a cache never decides whether a run works."""
+    study = write_study(folder, '[sweep]\nfriction = ["absent", "present"]')
+    assert main(["study", str(study), "--quiet", "--output", "cached"]) == 0
+    Path("no_folder").write_text("a file")
+    monkeypatch.setenv("FENICS_GEARS_CACHE", str(Path("no_folder/cache").absolute()))
+    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
+    assert load("here")["transmission_error"].equals(load("cached")["transmission_error"])
+
+
+def test_two_studies_do_not_share_a_directory(folder, capsys):
+    """Authority: hard case 27, two runs at once."""
+    study = write_study(folder, FOUR)
+    with sole_writer(folder / "here"):
+        assert main(["study", str(study), "--output", "here"]) == 3
+    assert "another study is writing there" in capsys.readouterr().err
+    assert stamps("here") == {}
+
+
+def test_quiet_says_nothing(folder, capfd):
+    """Authority: the option's own description."""
+    study = write_study(folder, '[sweep]\nfriction = ["absent"]')
+    assert main(["study", str(study), "--quiet"]) == 0
+    assert capfd.readouterr() == ("", "")
+
+
+MANY = '[set]\nmotion.mesh_cycles = 20\n[sweep]\nmotion.mesh_frequency = { start = "100 Hz", stop = "400 Hz", count = 30 }\n'
+
+
+def stopped_in_the_middle(folder, study, how):
+    """Start a study, stop it by a signal once three cases are done; its exit code and what it said."""
+    process = subprocess.Popen(command("study", study, "--output", "here"), cwd=folder, env=environment(), stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while len(stamps("here")) < 3 and time.monotonic() < deadline and process.poll() is None:
+        time.sleep(0.005)
+    os.kill(process.pid, how)
+    return process.wait(timeout=60), process.stderr.read()
+
+
+def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder):
+    """Authority: hard case 27, kill -9: nothing lost, nothing computed twice, nothing left half-written."""
+    study = write_study(folder, MANY)
+    assert stopped_in_the_middle(folder, study, signal.SIGKILL)[0] == -signal.SIGKILL
+    before = stamps("here")
+    assert 3 <= len(before) < 30
+    again = gears(folder, "study", study, "--output", "here")
+    assert again.returncode == 0 and f"{len(before)} kept, {30 - len(before)} to be computed" in again.stderr
+    after = stamps("here")
+    assert len(after) == 30 and {name: after[name] for name in before} == before
+    assert not list(Path("here").rglob("*.part")) and not list(Path("here").glob(".unfinished*"))
+    assert load("here").attrs["complete"] == 1
+
+
+def test_ctrl_c_keeps_what_is_done(folder):
+    """Authority: design.md; exit code 130, what was done is kept, marked incomplete."""
+    study = write_study(folder, MANY)
+    code, said = stopped_in_the_middle(folder, study, signal.SIGINT)
+    assert code == 130 and "Interrupted. What was done is kept" in said and "Traceback" not in said
+    combined = load("here")
+    done = len(stamps("here"))
+    assert 3 <= done < 30 and combined.attrs["complete"] == 0
+    assert int(np.isfinite(combined["peak_to_peak_transmission_error"]).sum()) == done
+    assert int(combined["failed"].sum()) == 0

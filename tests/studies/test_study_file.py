@@ -1,0 +1,174 @@
+"""Study files: what they sweep, and the mistakes that are refused."""
+
+import tomllib
+
+import numpy as np
+import pytest
+from tests.studies.conftest import DEMO, write_study
+
+from fenics_gears.cli import main
+from fenics_gears.studies import fields
+from fenics_gears.studies.study_file import load_study
+
+FREQUENCIES = 'motion.mesh_frequency = ["100 Hz", "200 Hz"]\n'
+
+
+def swept(folder, text):
+    """The study of a text below [sweep]."""
+    return load_study(write_study(folder, "[sweep]\n" + text))
+
+
+def test_a_product_has_every_combination_the_last_field_turning_fastest(folder):
+    """Authority: itertools.product."""
+    study = swept(folder, FREQUENCIES + 'load.wheel_torque = ["1 N m", "2 N m", "3 N m"]')
+    assert study.shape == (2, 3) and study.dimensions == ("mesh_frequency", "wheel_torque")
+    said = [(case.scene.motion.mesh_frequency, case.scene.load.wheel_torque) for case in study.cases]
+    assert said == [(f, 1000.0 * t) for f in (100.0, 200.0) for t in (1, 2, 3)]
+
+
+def test_zip_varies_all_fields_together(folder):
+    """Authority: zip."""
+    study = load_study(write_study(folder, 'combine = "zip"\n[sweep]\n' + FREQUENCIES + 'load.wheel_torque = ["1 N m", "2 N m"]'))
+    assert study.shape == (2,) and study.dimensions == ("case",)
+    assert [(c.scene.motion.mesh_frequency, c.scene.load.wheel_torque) for c in study.cases] == [(100.0, 1000.0), (200.0, 2000.0)]
+
+
+@pytest.mark.parametrize(
+    ("written", "numbers"),
+    [
+        ('{ start = "100 Hz", stop = "0.4 kHz", count = 4 }', [100, 200, 300, 400]),
+        ('{ start = "100 Hz", stop = "350 Hz", step = "100 Hz" }', [100, 200, 300]),
+        ('{ start = "300 Hz", stop = "100 Hz", step = "-0.1 kHz" }', [300, 200, 100]),
+        ('{ start = "100 Hz", stop = "10 kHz", count = 3, spacing = "logarithmic" }', [100, 1000, 10000]),
+    ],
+)
+def test_a_range_is_the_list_it_stands_for(folder, written, numbers):
+    """Authority: arithmetic."""
+    (axis,) = swept(folder, f"motion.mesh_frequency = {written}").axes
+    assert axis.unit == "Hz"
+    np.testing.assert_allclose(axis.coordinate(), numbers, rtol=1e-11)
+
+
+def test_a_range_of_whole_numbers_stays_whole(folder):
+    """Authority: the scene's schema, which refuses 20.0 nodes."""
+    study = swept(folder, "accuracy.contact_nodes = { start = 5, stop = 9, step = 2 }")
+    assert [case.scene.accuracy.contact_nodes for case in study.cases] == [5, 7, 9]
+
+
+@pytest.mark.parametrize(
+    "spelling", ['motion.mesh_frequency = ["100 Hz"]', '"motion.mesh_frequency" = ["100 Hz"]', 'motion = { mesh_frequency = ["100 Hz"] }']
+)
+def test_dotted_names_may_be_bare_quoted_or_tables(folder, spelling):
+    """Authority: TOML, where the first and the last are the same."""
+    assert swept(folder, spelling).axes[0].path == ("motion", "mesh_frequency")
+
+
+def test_a_field_called_start_is_no_range(folder):
+    """Authority: design.md, where tip relief has a field of that name."""
+    study = swept(folder, 'tip_relief.depth = ["10 um"]\ntip_relief.start = ["HPSTC", "29.61 deg"]')
+    assert [case.scene.tip_relief.pinion.start_roll_angle for case in study.cases] == [None, pytest.approx(np.radians(29.61))]
+
+
+def test_sections_can_be_absent_present_or_written_out(folder):
+    """Authority: the definition of the three spellings."""
+    study = swept(folder, 'friction = ["absent", "present", { coefficient = 0.3 }]')
+    assert [case.scene.friction and case.scene.friction.coefficient for case in study.cases] == [None, 0.1, 0.3]
+    assert list(study.axes[0].coordinate()) == ["absent", "present", "coefficient = 0.3"]
+
+
+def test_what_is_left_out_is_gone_before_what_is_set(folder):
+    """Authority: the definition of `without` and `[set]`."""
+    study = load_study(
+        write_study(
+            folder,
+            'without = ["inertia", "damping", "motion.mesh_frequency"]\n[set]\nmotion.pinion_speed = "60 rpm"\n'
+            '[sweep]\nload.wheel_torque = ["1 N m"]',
+        )
+    )
+    scene = study.cases[0].scene
+    assert scene.inertia is None and scene.damping is None and scene.bearings is not None
+    assert scene.motion.mesh_frequency == pytest.approx(16.0)
+
+
+def test_a_case_is_known_by_what_it_says_not_by_how_it_is_written(folder):
+    """Authority: unit conversion; 200 Hz are 0.2 kHz, and a comment changes nothing."""
+    first = swept(folder, 'motion.mesh_frequency = ["200 Hz", "100 Hz"]')
+    scene = folder / "pair.toml"
+    scene.write_text("# another comment\n" + scene.read_text(encoding="utf-8"), encoding="utf-8")
+    second = swept(folder, 'motion.mesh_frequency = ["0.2 kHz"]')
+    assert first.cases[0].key == second.cases[0].key != first.cases[1].key
+
+
+def test_a_scene_written_again_says_the_same():
+    """Authority: identity, over the demonstration scene and awkward texts."""
+    tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
+    tree["title"] = 'with "quotes", a \\ and\na line\x7f'
+    assert tomllib.loads(fields.as_toml(tree)) == tree
+
+
+WRONG = {
+    "no sweep": ("", ["sweep", "is missing"]),
+    "empty sweep": ("[sweep]\n", ["sweep", "is missing"]),
+    "unknown key": ("swep = 1\n[sweep]\n" + FREQUENCIES, ["swep = 1", 'Did you mean "sweep"?']),
+    "scene's section": ('[load]\nwheel_torque = "1 N m"\n[sweep]\n' + FREQUENCIES, ["[load]", "[set]"]),
+    "unknown field": ('[sweep]\nmotion.mesh_frequenzy = ["1 Hz"]', ["mesh_frequenzy", 'Did you mean "motion.mesh_frequency"?', ":3:"]),
+    "field without section": ('[sweep]\nmesh_frequency = ["1 Hz"]', ["mesh_frequency", "motion.mesh_frequency"]),
+    "unknown in set": ('[set]\nload.torque = "1 N m"\n[sweep]\n' + FREQUENCIES, ["load.torque", "load.wheel_torque"]),
+    "unknown in without": ('without = ["inertea"]\n[sweep]\n' + FREQUENCIES, ["inertea", 'Did you mean "inertia"?']),
+    "one value": ('[sweep]\nmotion.mesh_frequency = "1 Hz"', ['"1 Hz"', "Allowed: a list of values", "[set]"]),
+    "empty list": ("[sweep]\nmotion.mesh_frequency = []", ["is an empty list"]),
+    "wrong unit": ('[sweep]\nmotion.mesh_frequency = ["1 Hz", "3 mm"]', ['"3 mm"', "is a length", "Allowed"]),
+    "no unit": ("[sweep]\nmotion.mesh_frequency = [200]", ["without its unit", '"200 Hz"']),
+    "out of range": ("[sweep]\nfriction.coefficient = [0.1, 0]", ["friction.coefficient = 0", "leave the section [friction] out"]),
+    "section as number": ("[sweep]\nfriction = [0.1]", ["friction", "is a section", '"absent"']),
+    "misspelt absent": ('[sweep]\nfriction = ["absnt"]', ['Did you mean "absent"?']),
+    "present but absent": ('without = ["tip_relief"]\n[sweep]\ntip_relief.pinion = ["present"]', ["present", "pair.toml"]),
+    "zip of different lengths": ('combine = "zip"\n[sweep]\n' + FREQUENCIES + "friction.coefficient = [0.1]", ["mesh_frequency has 2", "coefficient has 1"]),
+    "unknown combination": ('combine = "prodct"\n[sweep]\n' + FREQUENCIES, ["prodct", 'Did you mean "product"?']),
+    "range without stop": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", count = 3 }', ["has no stop"]),
+    "range with count and step": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 Hz", count = 3, step = "1 Hz" }', ["one of count and step"]),
+    "range of two kinds": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 mm", count = 3 }', ["mixes a frequency (1/time) and a length"]),
+    "range backwards": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 Hz", step = "-1 Hz" }', ["does not lead from start to stop"]),
+    "logarithm of zero": ('[sweep]\nload.wheel_torque = { start = "0 N m", stop = "3 N m", count = 3, spacing = "logarithmic" }', ["must be above zero"]),
+    "misspelt range": ('[sweep]\nmotion.mesh_frequency = { begin = "1 Hz", stop = "3 Hz", count = 3 }', ["begin", "start, stop"]),
+    "endless range": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "1e6 Hz", step = "1e-6 Hz" }', ["up to 100000"]),
+    "too many cases": ("[sweep]\naccuracy.contact_nodes = { start = 2, stop = 1001, count = 1000 }\nfriction.coefficient = { start = 0.1, stop = 1, count = 1000 }", ["makes 1000000 cases"]),
+    "section and its field": ('[sweep]\nfriction = ["absent", "present"]\nfriction.coefficient = [0.1]', None),
+    "set and swept": ('[set]\nmotion.mesh_frequency = "1 Hz"\n[sweep]\n' + FREQUENCIES, ["is swept too"]),
+    "same case twice": ('[sweep]\nmotion.mesh_frequency = ["200 Hz", "0.2 kHz"]', ["case 0", "case 1", "the same scene"]),
+    "effects that do not fit": ('[sweep]\ninertia = ["present", "absent"]', ["damping", "inertia", "needs"]),
+    "impossible gears": ('[sweep]\ngears.centre_distance = ["91.5 mm", "95.5 mm"]', ["contact ratio", "95.5 mm"]),
+    "half a relief": ('[sweep]\ntip_relief.depth = ["10 um"]', ["tip_relief.start", "is missing"]),
+    "no TOML": ("[sweep\n", ["is not valid TOML"]),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_studies_are_refused_before_anything_is_written(folder, capsys, name):
+    """Authority: hard case 26; file, field, value, what is allowed, nearest name; exit code 2; nothing written."""
+    text, fragments = WRONG[name]
+    study = write_study(folder, text)
+    before = sorted(folder.rglob("*"))
+    assert main(["study", str(study)]) == 2
+    error = capsys.readouterr().err
+    assert str(study) in error
+    for fragment in fragments or ["not valid TOML"]:
+        assert fragment in error
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_a_wrong_base_scene_is_told_as_the_scenes_own_mistake(folder, capsys):
+    """Authority: hard case 26; the file named is the one to mend."""
+    study = write_study(folder, "[sweep]\n" + FREQUENCIES)
+    scene = folder / "pair.toml"
+    scene.write_text(scene.read_text(encoding="utf-8").replace('"4.5 mm"', '"4.5"'), encoding="utf-8")
+    assert main(["study", str(study)]) == 2
+    assert "pair.toml:" in capsys.readouterr().err
+
+
+def test_a_mistake_of_many_cases_is_said_once(folder, capsys):
+    """Authority: one cause, one message."""
+    study = write_study(folder, "[set]\nmotion.recorded_cycles = 9\n[sweep]\nload.wheel_torque = { start = \"1 N m\", stop = \"9 N m\", count = 50 }")
+    assert main(["study", str(study)]) == 2
+    error = capsys.readouterr().err
+    assert error.count("recorded_cycles") == 1 and "1 mistake" in error
