@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import xarray as xr
 
@@ -14,17 +15,18 @@ from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.elasticity.remeshing import RemeshedStiffness
 from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
-from fenics_gears.reference_route import remeshed
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results import dataset
 from fenics_gears.scene.data import Scene
 from fenics_gears.warm_up import compile_kernels
 
+if TYPE_CHECKING:
+    from fenics_gears.elasticity.remeshing import RemeshedStiffness
+
 Compliances = tuple[FlankCompliance, FlankCompliance]
-Preparation = Callable[[Model, Progress, Cache | None], tuple[Compliances | tuple[RemeshedStiffness, RemeshedStiffness], Cycle]]
+Preparation = Callable[[Model, Progress, Cache | None], "tuple[Compliances | tuple[RemeshedStiffness, RemeshedStiffness], Cycle]"]
 
 
 def simulate(
@@ -62,12 +64,17 @@ def assist(scene: Scene, comm) -> None:
     """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
     built = model(scene)
     if built.resolution.condensation == EVERY_STEP:
+        from fenics_gears.reference_route import remeshed
+
         remeshed(built, SilentProgress(), None, comm)
 
 
 def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
     """The gears' elasticity and the contact operators on it, by the route that the scene's condensation asks for."""
     if built.resolution.condensation == EVERY_STEP:
+        # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+        from fenics_gears.reference_route import remeshed
+
         return remeshed(built, progress, cache, comm)
     compliances = gear_compliances(built, progress, cache)
     return compliances, mesh_cycle(built, compliances)

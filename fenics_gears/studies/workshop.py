@@ -10,9 +10,8 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.model import Model
 from fenics_gears.progress import Progress
-from fenics_gears.reference_route import remeshed
 from fenics_gears.resolution import EVERY_STEP
-from fenics_gears.simulation import Compliances, gear_compliance, mesh_cycle, tooth_reach
+from fenics_gears.simulation import Compliances, gear_compliance, mesh_cycle, prepared, tooth_reach
 
 GEARS = ("pinion", "wheel")
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
@@ -38,10 +37,10 @@ class Workshop:
             return tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances), cycle
         self._cycle_key = self._prepared = None  # frees its memory before the next is made
         if built.resolution.condensation == EVERY_STEP:
-            self._cycle_key, self._prepared = key, remeshed(built, progress, cache)
+            self._cycle_key, self._prepared = key, prepared(built, progress, cache)
             return self._prepared
         reach = tooth_reach(built)
-        kept = {gear_key(built, name, reach): name for name in GEARS}
+        kept = {gear_key(built, name, reach) for name in GEARS}
         compliances = tuple(self.gear(built, name, reach, cache) for name in GEARS)
         self._gears = {key: gear for key, gear in self._gears.items() if key in kept}
         self._cycle_key, self._prepared = key, (compliances, mesh_cycle(built, compliances))
