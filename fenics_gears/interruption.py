@@ -37,10 +37,10 @@ class Interruption:
         self._counting = False
         self._progress.stage(name)
 
-    def update(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int, note: str = "") -> None:
         """Pass the count on; raises KeyboardInterrupt where Ctrl-C was pressed since the last one."""
         self._counting = True
-        self._progress.update(done, total)
+        self._progress.update(done, total, note)
         if self._asked:
             raise KeyboardInterrupt
 

@@ -18,8 +18,8 @@ class Progress(Protocol):
     def stage(self, name: str) -> None:
         """Begin the stage of that name, for instance "condense pinion"; the one before it is over."""
 
-    def update(self, done: int, total: int) -> None:
-        """Say that ``done`` of ``total`` parts of the present stage are done."""
+    def update(self, done: int, total: int, note: str = "") -> None:
+        """Say that ``done`` of ``total`` parts of the present stage are done; ``note``: what else there is to say, such as "2 failed"."""
 
     def close(self) -> None:
         """End the last stage."""
@@ -31,7 +31,7 @@ class SilentProgress:
     def stage(self, name: str) -> None:
         """Ignore the stage."""
 
-    def update(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int, note: str = "") -> None:
         """Ignore the count."""
 
     def close(self) -> None:
@@ -54,7 +54,7 @@ class LineProgress:
         self._name = name
         self._begun = self._spoken = self._clock()
 
-    def update(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int, note: str = "") -> None:
         """Print a line when the last one is old enough."""
         now = self._clock()
         if now - self._spoken < self._interval or total <= 0:
@@ -62,7 +62,8 @@ class LineProgress:
         self._spoken = now
         elapsed = now - self._begun
         left = f", about {seconds_in_words(elapsed * (total - done) / done)} left" if done else ""
-        self._print(f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %) after {seconds_in_words(elapsed)}{left}")
+        said = f", {note}" if note else ""
+        self._print(f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %){said} after {seconds_in_words(elapsed)}{left}")
 
     def close(self) -> None:
         """Print how long the stage took."""
@@ -96,15 +97,17 @@ class BarProgress:
         """Fill the bar before, begin a new one below it."""
         self._finish_stage()
         self._bars.start()
+        self._name = name
         self._task = self._bars.add_task(name, total=None)
         self._counted = False
 
-    def update(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int, note: str = "") -> None:
         """Move the bar."""
         if self._task is None:
             self.stage("work")
         self._counted = True
-        self._bars.update(self._task, completed=done, total=total)
+        said = {"description": f"{self._name}, {note}"} if note else {}
+        self._bars.update(self._task, completed=done, total=total, **said)
 
     def close(self) -> None:
         """Leave the bars as they stand and give the terminal back."""

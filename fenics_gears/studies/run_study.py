@@ -99,7 +99,8 @@ def _compute(missing: list[Case], directory: Path, team: Alone | Together, outco
     progress.stage("cases")
 
     def count() -> None:
-        progress.update(len(outcome.records) - outcome.kept + len(outcome.failures), len(missing))
+        failed = len(outcome.failures)
+        progress.update(len(outcome.records) - outcome.kept + failed, len(missing), f"{failed} failed" if failed else "")
 
     def finished(index: int, result: Record | Failure | Exception) -> None:
         case = missing[index]
@@ -109,7 +110,7 @@ def _compute(missing: list[Case], directory: Path, team: Alone | Together, outco
         # An exception is one that the worker could not even report, such as an MPI error.
         failure = result if isinstance(result, Failure) else Failure(f"{type(result).__name__}: {result}")
         outcome.failures[case.index] = failure
-        LOGGER.warning("%s failed (%d so far): %s", case, len(outcome.failures), failure.reason.splitlines()[0])
+        LOGGER.warning("%s failed: %s", case, failure.reason.splitlines()[0])
 
     team.run(run_case, [CaseTask(case, directory) for case in missing], finished, count)
     count()

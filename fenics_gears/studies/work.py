@@ -100,7 +100,7 @@ class Ticking(SilentProgress):
     def __init__(self, tick: Tick | None):
         self._tick = tick
 
-    def update(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int, note: str = "") -> None:
         """Call ``tick``."""
         if self._tick is not None:
             self._tick()
