@@ -1,0 +1,45 @@
+"""The paper's scenes at small resolutions, and a cache that the tests of this folder share."""
+
+from dataclasses import replace
+
+import pytest
+
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.resolution import EVERY_STEP, ONCE
+from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.simulation import simulate
+
+WINDOW = 1.5
+STEPS = 12
+
+
+@pytest.fixture(scope="session")
+def reference_cache(tmp_path_factory):
+    """Positions remeshed once for all scenes that differ in loads and effects only."""
+    return Cache(tmp_path_factory.mktemp("reference"))
+
+
+@pytest.fixture(scope="session")
+def paper_cases(paper_scene):
+    """The paper's scene quasi-static and at 200 Hz, with and without friction."""
+    static = replace(paper_scene, inertia=None, damping=None, motion=Motion(200.0, 2, 1))
+    dynamic = replace(paper_scene, motion=Motion(200.0, 10, 1))
+    return {
+        "static": static,
+        "static frictionless": replace(static, friction=None),
+        "200 Hz": dynamic,
+        "200 Hz frictionless": replace(dynamic, friction=None),
+    }
+
+
+@pytest.fixture(scope="session")
+def both_routes(reference_cache):
+    """Results of the fast and of the reference route at equal flank resolution; `preparation` is for the latter."""
+
+    def run(scene, element="P2", size=0.08, steps=STEPS, preparation=None):
+        accuracy = Accuracy(element, size, WINDOW, round(WINDOW / size) + 1, steps)
+        fast = simulate(replace(scene, accuracy=replace(accuracy, condensation=ONCE)), cache=reference_cache)
+        slow_scene = replace(scene, accuracy=replace(accuracy, condensation=EVERY_STEP))
+        return fast, simulate(slow_scene, cache=reference_cache, preparation=preparation)
+
+    return run

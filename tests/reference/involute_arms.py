@@ -1,0 +1,35 @@
+"""The reference route but for one thing: normal forces have the base radii as arms, as on the fast route.
+
+An involute turned by phi moves by rb phi along its own normal wherever it is touched. The published node-to-node equations see a
+material point at the height h off the line of action instead, which moves by h phi along e_x: they neglect that, moving tangentially,
+another part of a slanted flank takes its place. This part of the routes' difference stays under refinement.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import involute_arms, rigid_rows
+from fenics_gears.reference_route import remeshed
+
+
+class InvoluteArms(Cycle):
+    """A remeshed cycle with involute arms, over the centre `coordinates`; its steps are solved in the mixed form."""
+
+    def __init__(self, cycle, coordinates: list[int]):
+        super().__init__(cycle.pair, cycle.grid, cycle.steps)
+        self._cycle, self._coordinates = cycle, coordinates
+
+    def position(self, step: int):
+        position = self._cycle.position(step)
+        operator = position.operator
+        arms = involute_arms(operator.pairs, operator.base_radii)
+        rigid = rigid_rows(operator.pairs, operator.base_radii, arms, operator.sliding is not None)[:, self._coordinates]
+        return replace(position, operator=replace(operator, rigid=np.ascontiguousarray(rigid), normal_arms=arms))
+
+
+def with_involute_arms(built, progress, cache):
+    """A `preparation` for `simulate`."""
+    gears, cycle = remeshed(built, progress, cache)
+    return gears, InvoluteArms(cycle, built.drivetrain.indices)

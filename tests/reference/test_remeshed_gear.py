@@ -1,0 +1,128 @@
+"""A gear meshed anew with prescribed flank nodes, against brute force."""
+
+from math import radians
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.remeshed_gear import LoadedTooth, RemeshedGear
+from fenics_gears.elasticity.ring import centre_motion, rotation
+from fenics_gears.elasticity.sector_boundary import flank_roll_angles, flank_through
+from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import arc_length
+from fenics_gears.scene.data import Material
+
+COARSE = ElementSizes(flank=0.8, fillet=0.4, coast=1.0, body=3.0)
+PINION = Gear(16, 4.5, radians(20.0), 0.196, 41.32, 31.25, 15.0, 0.38 * 4.5)
+STEEL = Material(206e3, 0.3)
+ANGLE = 0.37
+# Roll angles on two neighbouring teeth and on the third after them.
+ROLLS = (np.array([0.45, 0.47, 0.5]), np.array([0.31, 0.28, 0.22, 0.2]), np.array([0.55, 0.6]))
+PLACES = (0, 1, 3)
+
+
+def relative(difference, reference):
+    return np.abs(difference).max() / np.abs(reference).max()
+
+
+def loaded_teeth():
+    return tuple(LoadedTooth(ANGLE + place * PINION.angular_pitch, rolls) for place, rolls in zip(PLACES, ROLLS))
+
+
+def whole_mesh(quadrilaterals: bool) -> BodyMesh:
+    """All sectors, meshed as wanted, in their places and merged along the cuts."""
+    points, cells, hub, count = [], [], [], 0
+    for tooth in range(PINION.teeth):
+        rolls = flank_through(PINION, COARSE.flank, ROLLS[PLACES.index(tooth)]) if tooth in PLACES else None
+        mesh = sector_mesh(PINION, COARSE, quadrilaterals, rolls)
+        points.append(mesh.points @ rotation(ANGLE + tooth * PINION.angular_pitch).T)
+        cells.append(mesh.cells + count)
+        hub.append(mesh.edges["hub"] + count)
+        count += len(mesh.points)
+    every = np.vstack(points)
+    first = np.array([min(near) for near in cKDTree(every).query_ball_point(every, 1e-7)])
+    kept, index = np.unique(first, return_inverse=True)
+    return BodyMesh(every[kept], index.ravel()[np.vstack(cells)], {"hub": index.ravel()[np.vstack(hub)]})
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_joined_sectors_equal_the_remeshed_whole_gear(name):
+    """Exact identity (1e-9, hard case 6): meshing and condensing the whole gear with the same nodes gives the same stiffness."""
+    element = ELEMENTS[name]
+    body = RemeshedGear(PINION, STEEL, element, COARSE)
+    stiffness = body.stiffness(loaded_teeth())
+    mesh = whole_mesh(element.quadrilateral)
+    wanted = np.vstack([body.contact_points(tooth.rolls) @ rotation(tooth.angle).T for tooth in loaded_teeth()])
+    hub = mesh.edge_nodes("hub", element.order)
+    whole = condense(mesh, element, STEEL.poissons_ratio, {"contact": wanted, "hub": hub})
+    contact = 2 * len(wanted)
+    tie = np.zeros((len(whole.stiffness), contact + 3))
+    tie[:contact, :contact] = np.eye(contact)
+    tie[contact:, contact:] = centre_motion(hub)
+    expected = STEEL.youngs_modulus * tie.T @ whole.stiffness @ tie
+    assert relative(stiffness - expected, expected) < 1e-9
+    # Compliance weighs what the stiffness hides: the motion of a tooth as a whole.
+    compliance = np.linalg.inv(expected[:contact, :contact])
+    assert relative(np.linalg.inv(stiffness[:contact, :contact]) - compliance, compliance) < 1e-9
+
+
+def test_rigid_motions_cost_nothing():
+    """Exact identity (hard case 5): three rigid motions in the kernel, nothing else."""
+    body = RemeshedGear(PINION, STEEL, ELEMENTS["P2"], COARSE)
+    stiffness = body.stiffness(loaded_teeth())
+    points = np.vstack([body.contact_points(tooth.rolls) @ rotation(tooth.angle).T for tooth in loaded_teeth()])
+    motion = np.vstack([centre_motion(points), np.eye(3)])
+    assert np.abs(stiffness @ motion).max() <= 1e-10 * np.abs(stiffness).max() * np.abs(motion).max()
+    eigenvalues = np.linalg.eigvalsh(stiffness[:-3, :-3])
+    assert eigenvalues[0] > 0.0
+
+
+@pytest.mark.parametrize("name", ["P1", "P2"])
+def test_prescribing_the_standard_vertices_changes_nothing(name):
+    """Exact identity (1e-9): with the fast route's own flank vertices the compliance is a part of the fast route's."""
+    element, size = ELEMENTS[name], 0.3
+    sizes = element_sizes(PINION, element, size)
+    rolls = flank_roll_angles(PINION, size)[6:15]
+    stiffness = RemeshedGear(PINION, STEEL, element, sizes).stiffness((LoadedTooth(0.0, rolls),))
+    compliance = np.linalg.inv(stiffness[:-3, :-3])
+    fast = flank_compliance(PINION, STEEL, element=name, flank_element_size=size, tooth_offsets=0).blocks[0]
+    rows = 2 * 6 * element.order + np.arange(len(compliance))
+    assert relative(compliance - fast[np.ix_(rows, rows)], compliance) < 1e-9
+
+
+@pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
+def test_flank_through_prescribed_vertices(size):
+    """By construction: every prescribed vertex is there, neighbours stay neighbours, no element is larger than asked, an even number."""
+    for prescribed in ROLLS:
+        rolls = flank_through(PINION, size, prescribed)
+        places = np.abs(rolls[:, None] - prescribed).argmin(axis=0)
+        assert rolls[places] == pytest.approx(prescribed, abs=1e-15)
+        assert np.ptp(places) == len(prescribed) - 1
+        lengths = np.diff(arc_length(PINION.base_radius, rolls))
+        outside = np.delete(lengths, np.arange(places.min(), places.max()))
+        assert np.all(lengths > 0.0) and outside.max() <= size * (1 + 1e-9)
+        assert len(lengths) % 2 == 0
+        assert [rolls[0], rolls[-1]] == pytest.approx([PINION.form_roll_angle, PINION.tip_roll_angle], abs=1e-15)
+
+
+def test_a_vertex_at_the_tip_is_the_tip():
+    """By construction: round-off beside the flank's end makes no sliver."""
+    for off in (-1e-12, 1e-12):
+        rolls = flank_through(PINION, 0.3, np.array([0.6, PINION.tip_roll_angle + off]))
+        assert rolls[-1] == pytest.approx(PINION.tip_roll_angle, abs=1e-15)
+        assert np.diff(arc_length(PINION.base_radius, rolls)).min() > 0.1
+
+
+def test_an_odd_flank_of_quadrilaterals_is_refused():
+    """Message: vertices that span the whole flank in an odd number of elements, which the split into quadrilaterals cannot follow."""
+    ends = np.linspace(PINION.form_roll_angle, PINION.tip_roll_angle, 4)
+    with pytest.raises(ComputationError, match="contact_nodes"):
+        sector_mesh(PINION, COARSE, True, flank_through(PINION, COARSE.flank, ends))
