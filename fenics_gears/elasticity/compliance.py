@@ -20,6 +20,8 @@ class FlankCompliance:
         displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs are
         interleaved x0, y0, x1, y1, ...; components are those of each tooth's own canonical frame.
         blocks[0] is symmetric positive definite.
+    flanks: 1, or 2 where the coast flank is known too: its 2n dofs then follow the drive flank's 2n, in the tooth's frame
+        mirrored at its centreline, in which the coast flank has the drive flank's place.
     timings: what the computation cost: time_mesh, time_compile, time_condense (s), unknowns,
         from_cache and the like.
     """
@@ -28,6 +30,7 @@ class FlankCompliance:
     element_order: int
     blocks: np.ndarray
     timings: dict = field(default_factory=dict, compare=False)
+    flanks: int = 1
 
     @property
     def nodes(self) -> int:

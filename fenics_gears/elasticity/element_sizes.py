@@ -15,6 +15,7 @@ class ElementSizes:
     flank: along the working flank, kept down to ``depth`` times itself below it. fillet: along root
     and fillets. coast: along the coast flank and the tip. body: largest size in the tooth and the rim
     below it; further inside elements go on growing. growth: increase of size per distance.
+    both_flanks: the coast flank is a working flank too, meshed as the drive flank's mirror image.
     """
 
     flank: float
@@ -23,6 +24,7 @@ class ElementSizes:
     body: float
     depth: float = 2.5
     growth: float = 0.35
+    both_flanks: bool = False
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from time import perf_counter
 
 import numpy as np
@@ -34,17 +34,18 @@ def flank_compliance(
     flank_element_size: float,
     tooth_offsets: int,
     body_element_size: float | None = None,
+    coast_flank: bool = False,
     cache: Cache | None = None,
     comm=None,
 ) -> FlankCompliance:
     """Flank compliance of a gear in plane strain, from the cache or by meshing and condensing one tooth sector.
 
     flank_element_size, body_element_size: mm, along the working flank and the largest anywhere (None: from the module).
-    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. comm: communicator of one rank, COMM_SELF when
+    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. coast_flank: know the coast flank too. comm: communicator of one rank, COMM_SELF when
     None. Raises SceneError for an unknown element or an impossible size, ComputationError when a stage fails.
     """
     chosen = element_named(element)
-    sizes = element_sizes(gear, chosen, flank_element_size, body_element_size)
+    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
     _check(gear, material, tooth_offsets)
     clock = perf_counter()
     key = content_key({
@@ -67,6 +68,7 @@ def flank_compliance(
         element_order=chosen.order,
         blocks=arrays["unit_blocks"] / material.youngs_modulus,
         timings={**timings, "unknowns": int(arrays["unknowns"]), "condensed_unknowns": int(arrays["condensed_unknowns"])},
+        flanks=2 if coast_flank else 1,
     )
 
 
@@ -99,6 +101,20 @@ def _check(gear: Gear, material: Material, tooth_offsets: int) -> None:
         raise SceneError(f"youngs_modulus is {material.youngs_modulus} MPa, must be positive and finite")
 
 
+def coast_mirrored(blocks: np.ndarray, gear: Gear) -> np.ndarray:
+    """Blocks (offsets + 1, 4n, 4n) over drive and coast flank, the coast flank's components mirrored at the tooth's centreline."""
+    centreline = -0.5 * np.pi - gear.tooth_half_angle_at_base
+    mirror = np.array([
+        [np.cos(2.0 * centreline), np.sin(2.0 * centreline)], [np.sin(2.0 * centreline), -np.cos(2.0 * centreline)]
+    ])
+    half = blocks.shape[1] // 2
+    frame = np.eye(2 * half)
+    frame[half:, half:] = np.kron(np.eye(half // 2), mirror)
+    mirrored = frame @ blocks @ frame.T
+    mirrored[0] = 0.5 * (mirrored[0] + mirrored[0].T)
+    return mirrored
+
+
 def _computed(gear, element, sizes, poissons_ratio, tooth_offsets, comm):
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
@@ -108,9 +124,11 @@ def _computed(gear, element, sizes, poissons_ratio, tooth_offsets, comm):
     clock = perf_counter()
     mesh = sector_mesh(gear, sizes, element.quadrilateral)
     meshed = perf_counter()
-    sector = condensed_sector(mesh, element, poissons_ratio, comm)
+    sector = condensed_sector(mesh, element, poissons_ratio, comm, both_flanks=sizes.both_flanks)
     condensed = perf_counter()
     blocks = ring_compliance(sector, gear.teeth, tooth_offsets)
+    if sizes.both_flanks:
+        blocks = coast_mirrored(blocks, gear)
     joined = perf_counter()
     corners = mesh.points[mesh.edge_points("flank")]
     arrays = {

@@ -17,15 +17,18 @@ from fenics_gears.errors import ComputationError
 
 
 def condensed_sector(
-    mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None, flank: np.ndarray | None = None
+    mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None, flank: np.ndarray | None = None, both_flanks: bool = False
 ) -> CondensedBody:
     """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
 
-    flank: (k, 2), mm, nodes to keep of the flank, all of them when None.
+    flank: (k, 2), mm, nodes to keep of the flank, all of them when None. both_flanks: the group "flank" holds the drive flank's
+    nodes, then the coast flank's, each by radius.
     """
     hub = mesh.edge_nodes("hub", element.order)
+    sides = ("flank", "coast") if both_flanks else ("flank",)
+    working = np.vstack([by_radius(mesh.edge_nodes(side, element.order)) for side in sides])
     points = {
-        "flank": by_radius(mesh.edge_nodes("flank", element.order)) if flank is None else flank,
+        "flank": working if flank is None else flank,
         "lower": by_radius(without(mesh.edge_nodes("lower cut", element.order), hub)),
         "upper": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
         "hub": hub,

@@ -88,7 +88,7 @@ def sector_boundary(
         "root": _on_circle(gear.root_radius, nodes(root, 12), root),
         "flank": flank,
         "tip": _on_circle(gear.tip_radius, nodes(tip), tip),
-        "coast": nodes(coast, 4),
+        "coast": coast if sizes.both_flanks else nodes(coast, 4),
         "coast root": outline.coast(_on_circle(gear.root_radius, nodes(root, 12), root))[::-1],
         "lower cut": radii[::-1, None] * _directions(hub_angles[:1]),
         "hub": _on_circle(gear.bore_radius, nodes(hub), hub),
@@ -106,11 +106,15 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
     body, fillet, coast_size = (min(size, largest) for size in (sizes.body, sizes.fillet, sizes.coast))
     roots = np.vstack([root, outline.coast(root)])
     tooth = np.vstack([flank, roots, coast])
+
+    def working(side: np.ndarray) -> SizeSource:
+        return SizeSource(side, min(sizes.flank, body), sizes.depth * sizes.flank, growth)
+
     return SizeField(
         sources=(
-            SizeSource(flank, min(sizes.flank, body), sizes.depth * sizes.flank, growth),
+            working(flank),
             SizeSource(roots, fillet, fillet, growth),
-            SizeSource(coast, coast_size, coast_size, growth),
+            working(coast) if sizes.both_flanks else SizeSource(coast, coast_size, coast_size, growth),
             SizeSource(tooth, body, BODY_REACH * gear.module, growth),
             # In a slender wedge elements may not outgrow the sector's own width.
             SizeSource(hub, min(largest, hub_size), 0.0, min(growth, gear.angular_pitch)),

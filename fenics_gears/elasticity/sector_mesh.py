@@ -12,7 +12,7 @@ from fenics_gears.elasticity.sector_boundary import SectorBoundary, sector_bound
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 
-CONDENSED_PARTS = ("flank", "hub", "lower cut", "upper cut")
+NAMED_PARTS = ("flank", "coast", "hub", "lower cut", "upper cut")
 TRIANGLE, QUADRILATERAL = 2, 3  # gmsh's numbers of cell types
 
 
@@ -98,7 +98,7 @@ def _odd_points(boundary: SectorBoundary) -> dict[tuple[int, int], np.ndarray]:
 
 
 def _edges(boundary: SectorBoundary, index: np.ndarray) -> dict[str, np.ndarray]:
-    parts = {name: index[boundary.part(name)] for name in CONDENSED_PARTS}
+    parts = {name: index[boundary.part(name)] for name in NAMED_PARTS}
     return {name: np.stack([part[:-1], part[1:]], axis=-1) for name, part in parts.items()}
 
 
