@@ -13,7 +13,7 @@ import numpy as np
 from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.operator import ContactOperator, earlier_rigid_tangent, over_nodes, rigid_rows, rigid_slip
 from fenics_gears.contact.tooth_pair import PairNodes, Removal, facing_points
-from fenics_gears.contact.window import ContactGrid, contact_roll_angles, flank_limits, node_offsets
+from fenics_gears.contact.window import ContactGrid, contact_roll_angles, flank_ends, node_offsets
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
 
@@ -65,14 +65,14 @@ def node_pairs(
 
 
 def _vertex_offsets(pair: GearPair, xi: float, grid: ContactGrid) -> np.ndarray:
-    """Offsets (mm) of the contact grid without an end node that all but stands on the flank's end."""
+    """Offsets (mm) of the contact grid without an end node that all but stands on an end of either flank."""
     offsets = node_offsets(pair, xi, grid)
     if len(offsets) < 3:
         return offsets
-    lowest, highest = flank_limits(pair, xi)
     near, exact = SMALLEST_REST * grid.spacing, 1e-9 * grid.spacing
-    first = int(exact < offsets[0] - lowest < near)
-    last = len(offsets) - int(exact < highest - offsets[-1] < near)
+    below, above = flank_ends(pair, xi)
+    first = int(any(exact < offsets[0] - end < near for end in below))
+    last = len(offsets) - int(any(exact < end - offsets[-1] < near for end in above))
     return offsets[first:last]
 
 

@@ -33,23 +33,29 @@ def contact_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
     return xi / pair.pinion.base_radius, (pair.line_of_action_length - xi) / pair.wheel.base_radius
 
 
-def flank_limits(pair: GearPair, xi: float) -> tuple[float, float]:
-    """Offsets (mm) between which both flanks exist: tips on one side, form circles on the other."""
+def flank_ends(pair: GearPair, xi: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Offsets (mm) where the flanks end: below the line of action (pinion's tip, wheel's form circle), and above it (the others)."""
     pinion, wheel = pair.pinion, pair.wheel
     roll_1, roll_2 = contact_roll_angles(pair, xi)
 
     def height(gear, roll, contact_roll):
         return flank_point(gear.base_radius, roll, contact_roll)[1]
 
-    lowest = max(
+    below = (
         pinion.base_radius - height(pinion, pinion.tip_roll_angle, roll_1),
         height(wheel, wheel.form_roll_angle, roll_2) - wheel.base_radius,
     )
-    highest = min(
-        height(wheel, wheel.tip_roll_angle, roll_2) - wheel.base_radius,
+    above = (
         pinion.base_radius - height(pinion, pinion.form_roll_angle, roll_1),
+        height(wheel, wheel.tip_roll_angle, roll_2) - wheel.base_radius,
     )
-    return float(lowest), float(highest)
+    return below, above
+
+
+def flank_limits(pair: GearPair, xi: float) -> tuple[float, float]:
+    """Offsets (mm) between which both flanks exist: tips on one side, form circles on the other."""
+    below, above = flank_ends(pair, xi)
+    return float(max(below)), float(min(above))
 
 
 def node_offsets(pair: GearPair, xi: float, grid: ContactGrid) -> np.ndarray:

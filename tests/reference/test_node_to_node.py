@@ -1,0 +1,139 @@
+"""Nodes that meet pair by pair, and the last step's displacement between them."""
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.node_to_node import NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator, roll_interpolation
+from fenics_gears.contact.operator import CENTRE_COORDINATES, rigid_rows
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.geometry.involute import canonical_point
+from fenics_gears.elasticity.ring import rotation
+
+GRID = ContactGrid(1.5, 16)
+NO_REMOVAL = (None, None)
+
+
+def pairs_at(pair, phase, grid=GRID, order=1):
+    """The tooth pairs 0 and 1 at a phase of the mesh cycle."""
+    positions = [(k, pair.path_start + (phase + k) * pair.base_pitch) for k in (0, 1)]
+    return tuple(node_pairs(pair, NO_REMOVAL, grid, order, k, xi) for k, xi in positions if xi < pair.path_end)
+
+
+@pytest.mark.parametrize("falling", [False, True])
+def test_interpolation_is_exact_for_linear_fields(falling):
+    """Exact identity: [A.2], [A.3] reproduce a field that is linear in the roll angle; at a known angle the value itself."""
+    known = np.array([0.31, 0.35, 0.36, 0.44])
+    known = known[::-1] if falling else known
+    rolls = np.array([0.31, 0.33, 0.355, 0.36, 0.43, 0.44])
+    weights, reached = roll_interpolation(rolls, known)
+    assert reached.all()
+    assert weights @ (2.0 - 3.0 * known) == pytest.approx(2.0 - 3.0 * rolls, abs=1e-14)
+    assert weights[3, np.argmin(np.abs(known - 0.36))] == 1.0
+
+
+def test_interpolation_says_what_it_does_not_reach():
+    """[A.4]: beyond the known angles there is no interpolation, and no weight."""
+    weights, reached = roll_interpolation(np.array([0.1, 0.2, 0.9]), np.array([0.15, 0.3]))
+    assert reached.tolist() == [False, True, False]
+    assert np.all(weights[[0, 2]] == 0.0)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, paper_pair):
+    """Exact geometry: at a contact node both meshes' nodes have the same offset, and [9] is the distance between them.
+
+    A second-order element's middle node lies on the chord, within its sagitta of the flank (Taylor: h^2/(8 rho), with some slant).
+    """
+    pair, nodes = paper_pair, pairs_at(paper_pair, 0.2, order=order)[0]
+    points, sagitta = [], 1e-9
+    for gear, rolls, contact in ((pair.pinion, nodes.pinion_roll, nodes.contact_roll[0]), (pair.wheel, nodes.wheel_roll, nodes.contact_roll[1])):
+        vertices = canonical_point(gear.base_radius, rolls[::order]) @ rotation(contact).T
+        placed = np.empty((len(rolls), 2))
+        placed[::order] = vertices
+        if order == 2:
+            placed[1::2] = 0.5 * (vertices[1:] + vertices[:-1])
+            lengths = np.linalg.norm(np.diff(vertices, axis=0), axis=1)
+            sagitta += 1.1 * (lengths**2 / (8.0 * gear.base_radius * np.minimum(rolls[2::2], rolls[:-2:2]))).max()
+        points.append(placed)
+    pinion = points[0] + [0.0, pair.pinion.base_radius]
+    wheel = [pair.line_of_action_length, 0.0] - (points[1] + [0.0, pair.wheel.base_radius])
+    assert pinion[:, 1] == pytest.approx(nodes.offsets, abs=1e-9)
+    assert wheel[:, 1] == pytest.approx(nodes.offsets, abs=1e-9)
+    assert (wheel - pinion)[:, 0] == pytest.approx(nodes.gap, abs=sagitta)
+    assert pinion[:, 0] == pytest.approx(nodes.pinion_arm, abs=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_forces_of_an_even_pressure(order, paper_pair):
+    """Exact identity: the flank lengths of the nodes integrate what the element's shape functions do, order + 1 polynomials at least."""
+    nodes = pairs_at(paper_pair, 0.5, order=order)[0]
+    ends = nodes.offsets[[0, -1]]
+    for power in range(order + 1 if order == 1 else 4):
+        expected = (ends[1] ** (power + 1) - ends[0] ** (power + 1)) / (power + 1)
+        assert nodes.lengths @ nodes.offsets**power == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+def test_teeth_and_their_stiffness_are_in_order(paper_pair):
+    """By construction: teeth by rising angle, a pitch apart on either gear; rows come back in the order of the pairs."""
+    pairs = pairs_at(paper_pair, 0.1)
+    assert len(pairs) == 2
+    for gear, body in enumerate((paper_pair.pinion, paper_pair.wheel)):
+        teeth = loaded_teeth(pairs, gear, 1)
+        assert np.diff([tooth.angle for tooth in teeth]) == pytest.approx(body.angular_pitch, rel=1e-12)
+        labels = np.concatenate([100.0 * tooth.rolls for tooth in teeth])
+        marked = np.diag(np.concatenate([np.repeat(labels, 2), [1.0, 2.0, 3.0]]))
+        found = np.diag(by_direction(marked, pairs, gear))
+        rolls = np.concatenate([pair.rolls(gear) for pair in pairs])
+        assert found == pytest.approx(np.concatenate([100.0 * rolls, 100.0 * rolls, [1.0, 2.0, 3.0]]))
+
+
+def last_displacement(pair, spacing_cells, steps=40):
+    """The operator of a step, and rigid rows and offsets of the step before, on rigid teeth (no compliance)."""
+    grid = ContactGrid(1.5, spacing_cells + 1)
+    now, before = (pairs_at(pair, phase, grid) for phase in (0.5, 0.5 - 1.0 / steps))
+    nodes = [sum(len(p.offsets) for p in pairs) for pairs in (now, before)]
+    soft = [tuple(np.zeros((2 * n, 2 * n)) for _ in range(2)) for n in nodes]
+    operator = node_to_node_operator(
+        pair,
+        NodeResponse(now, soft[0]),
+        coordinates=list(range(len(CENTRE_COORDINATES))),
+        before=NodeResponse(before, soft[1]),
+        advance=pair.pinion.angular_pitch / steps,
+    )
+    return operator, now, before
+
+
+def test_last_rigid_displacement_of_the_same_material_points(paper_pair):
+    """Exact kinematics [A.4]: a rotation moves a point at x by phi x along e_y. Linear interpolation [A.2] is within
+    (spacing of roll angles)^2/8 of the largest second derivative of x/rb by the roll angle, v cos(v_c - v) - sin(v_c - v)."""
+    for cells in (12, 24):
+        operator, now, before = last_displacement(paper_pair, cells)
+        turned = paper_pair.pinion.angular_pitch / 40
+        place = canonical_point(paper_pair.pinion.base_radius, now[0].pinion_roll) @ rotation(now[0].contact_roll[0] - turned).T
+        exact = place[:, 0] / paper_pair.pinion.base_radius
+        bound = np.abs(np.diff(before[0].pinion_roll)).max() ** 2 / 8.0 * (now[0].pinion_roll.max() + 0.05)
+        assert 0.1 * bound < np.abs(operator.previous_rigid[:, 2] - exact).max() < bound
+        translation = operator.previous_rigid[:, [1, 4]]
+        assert translation == pytest.approx(np.tile([1.0, -1.0], (len(exact), 1)), abs=1e-13)
+        assert np.all(operator.previous_rigid[:, [0, 3, 6]] == 0.0)
+
+
+def test_published_arms_are_heights(paper_pair):
+    """Exact kinematics of a rigid body: the point at (x, -h) of a gear turned by phi moves by (h phi, x phi)."""
+    operator, now, _ = last_displacement(paper_pair, 12)
+    radius = paper_pair.pinion.base_radius
+    place = canonical_point(radius, now[0].pinion_roll) @ rotation(now[0].contact_roll[0]).T
+    n = operator.nodes
+    assert operator.rigid[:n, 2] * radius == pytest.approx(-place[:, 1], abs=1e-9)
+    assert operator.rigid[n:, 2] * radius == pytest.approx(place[:, 0], abs=1e-9)
+    involute = rigid_rows(now, operator.base_radii, (np.full(n, radius), np.full(n, operator.base_radii[1])), True)
+    assert np.abs(operator.rigid[:n, 2] - involute[:n, 2]).max() == pytest.approx(0.75 / radius, rel=1e-6)
+
+
+def test_no_sliver_beside_the_end_of_a_flank(paper_pair):
+    """By construction: a node stands on the flank's end, or at least 0.3 spacings from it."""
+    for phase in np.linspace(0.0, 1.0, 400, endpoint=False):
+        for nodes in pairs_at(paper_pair, phase):
+            for gear, body in enumerate((paper_pair.pinion, paper_pair.wheel)):
+                rest = 0.5 * body.base_radius * (body.tip_roll_angle**2 - nodes.rolls(gear).max() ** 2)
+                assert rest < 1e-6 or rest > 0.29 * GRID.spacing

@@ -1,0 +1,115 @@
+"""The Newton method of Appendix B against the program's own solver, and against its own definition."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.ladder import PUBLISHED, StepProblem, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.published_newton import BETA, GAMMA, MOST_HALVINGS, Equations, iterates, merit
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.reference_route import remeshed
+from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.scene.data import Accuracy
+
+NODES, CENTRE = 7, 3
+
+
+def random_problem(seed, tangential=True, friction=0.2):
+    """A step in the mixed form whose drivetrain is regular, and the same in [24], [25], [C.1] by K = (C + G K_eff^-1 G^T)^-1."""
+    generator = np.random.default_rng(seed)
+    m = 2 * NODES if tangential else NODES
+    factor = generator.normal(size=(m, m))
+    compliance = 1e-6 * (factor @ factor.T / m + np.eye(m))
+    rigid = generator.uniform(-1.0, 1.0, (m, CENTRE))
+    rigid[:NODES, 0] = 1.0
+    root = generator.normal(size=(CENTRE, CENTRE))
+    stiffness = 1e5 * (root @ root.T + np.eye(CENTRE))
+    load = np.array([3e3, *generator.normal(size=CENTRE - 1) * 100.0])
+    problem = StepProblem(
+        stiffness=stiffness,
+        load=load,
+        compliance=compliance,
+        rigid=rigid,
+        gap=generator.uniform(0.0, 0.02, NODES),
+        slip_before=generator.normal(size=NODES) * 0.02 if tangential else np.empty(0),
+        friction=friction if tangential else 0.0,
+        keep_one=False,
+        tolerance=Tolerance.of_load(3e3),
+    )
+    moved = np.linalg.solve(stiffness, np.column_stack([load, rigid.T]))
+    relative = np.linalg.inv(compliance + rigid @ moved[:, 1:])
+    equations = Equations(
+        stiffness=relative,
+        load=-relative @ (rigid @ moved[:, 0]),
+        gap=problem.gap,
+        slip_before=problem.slip_before,
+        friction=problem.friction,
+        r=1.0 / np.diag(compliance),
+    )
+    return problem, equations
+
+
+def solved(equations, most=200):
+    """Iterates up to a merit that is round-off."""
+    found = []
+    for iterate in iterates(equations, np.zeros(len(equations.r)), np.zeros(len(equations.r))):
+        found.append(iterate)
+        if (len(found) > 1 and iterate.merit < 1e-14) or len(found) > most:
+            return found
+
+
+@pytest.mark.parametrize("tangential", [True, False])
+@pytest.mark.parametrize("seed", range(25))
+def test_same_solution_as_active_sets(seed, tangential):
+    """Other solver: the active-set Newton on the mixed form, whose answers are checked against enumeration elsewhere."""
+    problem, equations = random_problem(seed, tangential)
+    expected = solve_step(problem, cold_start(problem.gap, np.zeros(NODES, dtype=int)))
+    found = solved(equations)[-1]
+    assert found.merit < 1e-14
+    assert found.forces == pytest.approx(expected.forces, abs=1e-7 * 3e3)
+    assert found.displacement == pytest.approx(expected.displacement, abs=1e-9)
+    assert np.array_equal(equations.status(found.displacement, found.forces) > 0, expected.status > 0)
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_merit_decreases_as_the_criterion_asks(seed):
+    """Definition [B.3]: Phi(y + beta^m z) <= (1 - 2 gamma beta^m) Phi(y) with the first m that does, the shortest step where none does."""
+    shortest = BETA**MOST_HALVINGS
+    found = solved(random_problem(seed)[1])
+    for before, after in zip(found, found[1:]):
+        assert shortest <= after.length <= 1.0
+        if after.length > shortest and before.merit > 1e-9:
+            assert after.merit <= (1.0 - 2.0 * GAMMA * after.length) * before.merit
+    assert found[-1].merit < 1e-14
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_direction_is_newtons(seed):
+    """Finite differences: along z the directional derivative of H is -H [B.2], at points where no law has a kink."""
+    _, equations = random_problem(seed)
+    generator = np.random.default_rng(seed + 100)
+    displacement, forces = generator.normal(size=2 * NODES) * 0.01, generator.normal(size=2 * NODES) * 2e3
+    step_u, step_p = equations.direction(displacement, forces)
+    small = 1e-9
+    value = np.concatenate(equations.residual(displacement, forces))
+    moved = np.concatenate(equations.residual(displacement + small * step_u, forces + small * step_p))
+    assert (moved - value) / small == pytest.approx(-value, abs=2e-6 * np.abs(value).max())
+    assert merit(equations, displacement, forces) == pytest.approx(0.5 * value @ value, rel=1e-12)
+
+
+def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, reference_cache):
+    """Message: a load that pulls the flanks apart has no static equilibrium; the error lists the published method first, then the ladder."""
+    accuracy = Accuracy("P2", 0.3, 1.5, 8, 2, EVERY_STEP)
+    built = model(replace(paper_cases["static frictionless"], accuracy=accuracy))
+    cycle = remeshed(built, SilentProgress(), reference_cache)[1]
+    pulled = replace(built.drivetrain, load=-built.drivetrain.load)
+    with pytest.raises(ContactNotConverged, match="no static equilibrium") as caught:
+        Marcher(cycle, pulled, built.time_step, 0.0).run(2, 2)
+    attempts = caught.value.attempts
+    assert [name for name, *_ in attempts][:2] == [PUBLISHED, "newton"]
+    assert all(np.all(np.isfinite(history)) for _, _, history, _ in attempts)

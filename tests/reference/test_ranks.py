@@ -1,0 +1,68 @@
+"""Remeshing shared out between MPI ranks."""
+
+import numpy as np
+import pytest
+from tests.studies.conftest import CHECKOUT, gears
+
+from fenics_gears import results
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.remeshing import remeshed_stiffness
+from fenics_gears.errors import ComputationError
+from fenics_gears.scene.read import load_scene
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def scene_file(tmp_path_factory):
+    """The paper's scene, coarse, remeshed at every step."""
+    text = (CHECKOUT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+    for old, new in (
+        ('condensation = "once"', 'condensation = "every step"'),
+        ("steps_per_mesh_cycle = 100", "steps_per_mesh_cycle = 5"),
+        ("mesh_cycles = 30", "mesh_cycles = 2"),
+        ("contact_nodes = 20 ", "contact_nodes = 8 "),
+        ('"0.08 mm"', '"0.3 mm"'),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path_factory.mktemp("ranks") / "every_step.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_two_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch):
+    """Exact identity: which process condenses a position changes nothing, and only rank 0 writes."""
+    monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))
+    run = gears(tmp_path, "run", scene_file, "--output", tmp_path / "run", ranks=2)
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.count("Files") == 1
+    together, alone = results.load(tmp_path / "run" / "run.nc"), simulate(load_scene(scene_file), cache=Cache(tmp_path / "other"))
+    for name in ("transmission_error", "contact_pressure", "friction_force"):
+        assert np.array_equal(together[name].values, alone[name].values, equal_nan=True)
+    assert together.attrs["condensation"] == "every step"
+
+
+class TwoRanks:
+    """A communicator whose other rank has failed or not."""
+
+    rank, size = 0, 2
+
+    def __init__(self, other):
+        self._other = other
+
+    def bcast(self, value, root):
+        return value
+
+    def allgather(self, value):
+        return [value, self._other]
+
+    def gather(self, value, root):
+        return [value, {}]
+
+
+def test_a_failure_on_one_rank_is_an_error_on_all(paper_pair, paper_scene):
+    """Hard case 28: no hang, and the message says where and why."""
+    with pytest.raises(ComputationError, match="rank 1: gmsh"):
+        remeshed_stiffness(
+            paper_pair.pinion, paper_scene.gears.material, [], element="P1", flank_element_size=1.0, comm=TwoRanks("rank 1: gmsh gave up")
+        )

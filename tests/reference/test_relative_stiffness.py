@@ -1,0 +1,112 @@
+"""The paper's elimination [22], [C.1] against the mixed form, which keeps the centre coordinates."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.relative_stiffness import RelativeStiffness
+from fenics_gears.dynamics.average_acceleration import AverageAcceleration
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.scene.data import Motion
+
+NODES = 6
+RADII = (33.8, 50.7)
+CASES = ("all", "no bearings", "no shafts", "bare", "static", "static bare")
+
+
+def scene_of(scene, case):
+    changes = {
+        "no bearings": {"bearings": None},
+        "no shafts": {"shafts": None},
+        "bare": {"shafts": None, "bearings": None},
+        "static": {"inertia": None, "damping": None},
+        "static bare": {"shafts": None, "bearings": None, "inertia": None, "damping": None},
+    }
+    return replace(scene, **changes.get(case, {}))
+
+
+def elastic_gears(seed):
+    """Stiffness of two gears over normals, tangents and centre that costs rigid motions nothing; compliances and motions too."""
+    generator, gears = np.random.default_rng(seed), []
+    for radius in RADII:
+        factor = generator.normal(size=(2 * NODES, 2 * NODES))
+        compliance = 1e-6 * (factor @ factor.T / NODES + np.eye(2 * NODES))
+        motion = np.zeros((2 * NODES, 3))
+        motion[:NODES, 0] = motion[NODES:, 1] = 1.0
+        motion[:NODES, 2] = radius + generator.uniform(-0.7, 0.7, NODES)
+        motion[NODES:, 2] = generator.uniform(5.0, 20.0, NODES)
+        stiffness = np.linalg.inv(compliance)
+        coupling = -stiffness @ motion
+        gears.append((np.block([[stiffness, coupling], [coupling.T, motion.T @ stiffness @ motion]]), compliance, motion))
+    return gears
+
+
+def mixed_form(gears, coordinates, tangential):
+    """C (m, m) and G (m, k) of u = G q - C p."""
+    kept = 2 * NODES if tangential else NODES
+    rigid = np.zeros((2 * NODES, 7))
+    rigid[:, :3] = gears[0][2] / [1.0, 1.0, RADII[0]]
+    rigid[:, 3:6] = gears[1][2] / [-1.0, -1.0, RADII[1]]
+    return (gears[0][1] + gears[1][1])[:kept, :kept], rigid[:kept, coordinates]
+
+
+@pytest.mark.parametrize("tangential", [True, False])
+@pytest.mark.parametrize("case", CASES)
+def test_elimination_equals_the_mixed_form(case, tangential, paper_scene, paper_pair):
+    """Exact identity: K q + G^T p = F and u = G q - C p satisfy K u + p + f = 0 [C.1], and the centre comes back.
+
+    With static cases K is singular; forces in equilibrium with the load are then taken, the free rotation at will.
+    """
+    shafts = drivetrain(scene_of(paper_scene, case), paper_pair)
+    effective, generator = AverageAcceleration(shafts, 5e-5).stiffness, np.random.default_rng(7)
+    gears = elastic_gears(3)
+    compliance, rigid = mixed_form(gears, shafts.indices, tangential)
+    force = shafts.load + generator.normal(size=len(shafts.load))
+    forces = generator.uniform(100.0, 900.0, len(compliance))
+    if "static" in case:
+        forces, coordinates = balanced(effective, rigid, force, forces)
+    else:
+        coordinates = np.linalg.solve(effective, force - rigid.T @ forces)
+    displacement = rigid @ coordinates - compliance @ forces
+    reduced = RelativeStiffness([gear[0] for gear in gears], effective, shafts.indices, RADII, tangential)
+    residual = reduced.stiffness @ displacement + forces + reduced.load(force)
+    scale = np.abs(reduced.stiffness).max() * np.abs(displacement).max()
+    assert np.abs(residual).max() < 1e-11 * scale
+    assert reduced.coordinates(force, displacement) == pytest.approx(coordinates, rel=1e-8, abs=1e-9 * np.abs(coordinates).max())
+
+
+def balanced(effective, rigid, force, forces):
+    """Forces changed so that the free motion of a singular K does no work, and one of the then many solutions q."""
+    values, vectors = np.linalg.eigh(effective)
+    free = vectors[:, np.abs(values) < 1e-9 * max(values.max(), 1.0)]
+    assert free.shape[1] == 1
+    along = rigid @ free[:, 0]
+    forces = forces + along * (free[:, 0] @ force - along @ forces) / (along @ along)
+    coordinates = np.linalg.pinv(effective) @ (force - rigid.T @ forces) + 0.3 * free[:, 0]
+    return forces, coordinates
+
+
+def test_stiffness_is_symmetric_and_semi_definite(paper_scene, paper_pair):
+    """Exact identity (hard case 5): no energy is negative; without mass on the wheel's shaft one motion, its rotation, costs none."""
+    for case, zero in (("all", 0), ("static", 1)):
+        shafts = drivetrain(scene_of(paper_scene, case), paper_pair)
+        effective = AverageAcceleration(shafts, 5e-5).stiffness
+        stiffness = RelativeStiffness([gear[0] for gear in elastic_gears(5)], effective, shafts.indices, RADII, True).stiffness
+        assert np.array_equal(stiffness, stiffness.T)
+        values = np.linalg.eigvalsh(stiffness)
+        assert np.sum(np.abs(values) < 1e-10 * values.max()) == zero
+        assert values.min() > -1e-10 * values.max()
+
+
+@pytest.mark.parametrize("frequency", [0.01, 1e-6])
+def test_long_steps_lose_no_more_digits(frequency, paper_cases, both_routes):
+    """Equilibrium: with the wheel's inertia vanishing its couple is the load's. [22] inverts K_qq + K^i, so that 4J/dt^2 may vanish.
+
+    What inertia and damping are left in proportion to the frequency is below 2e-7 of the load at 0.01 Hz.
+    """
+    scene = replace(paper_cases["200 Hz"], motion=Motion(frequency, 2, 1))
+    reference = both_routes(scene)[1]
+    couple = -reference.reaction_couple.sel(gear="wheel").values
+    assert couple == pytest.approx(np.full_like(couple, scene.load.wheel_torque), rel=1e-9 + 2e-5 * frequency)
+    assert reference.attrs["steps_by_rung: Newton with line search"] == reference.attrs["steps"]
