@@ -7,6 +7,7 @@ import fcntl
 import json
 import logging
 import os
+import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.output import written_aside
 from fenics_gears.studies.record import Record, record_of
 from fenics_gears.studies.study import Case, Study
 
@@ -92,6 +94,8 @@ def sole_writer(directory: Path) -> Iterator[None]:
             LOGGER.debug("%s: no locks on this file system: %s", directory, error)
         for left in (directory / "cases").glob(".*.part"):
             left.unlink(missing_ok=True)
+        for left in directory.glob(".unfinished-*"):
+            shutil.rmtree(left, ignore_errors=True)
         yield
 
 
@@ -106,7 +110,6 @@ def base_changed(study: Study, directory: Path) -> bool:
     except (OSError, ValueError, AttributeError):
         before = None
     index = {"title": study.title, "base_scene": study.base_key, "cases": {case.name: case.values for case in study.cases}}
-    aside = path.with_name(f".study.json.{os.getpid()}.part")
-    aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8")
-    os.replace(aside, path)
+    with written_aside(directory, []) as aside:
+        (aside / path.name).write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8")
     return before is not None and before != study.base_key

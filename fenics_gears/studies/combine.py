@@ -40,9 +40,10 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
     if study.combine == "zip":
         result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
     for name, (units, long_name) in NUMBERS.items():
-        values = [records[i].numbers[name] if i in records else np.nan for i in range(len(study.cases))]
+        values = [records[i].numbers[name] if i in records else np.nan for i in _indices(study)]
         result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
-    result["failed"] = (study.dimensions, _over_cases(study, [int(i in failures) for i in _indices(study)]), {"long_name": "whether the case failed"})
+    failed = np.array([int(i in failures) for i in _indices(study)])
+    result["failed"] = (study.dimensions, failed.reshape(study.shape), {"units": "1", "long_name": "whether the case failed"})
     texts = {
         "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
         "warnings": ("what the run says against itself", {i: record.warnings for i, record in records.items()}),
@@ -76,10 +77,6 @@ def save_study(dataset: xr.Dataset, directory: Path) -> Path:
 
 def _indices(study: Study) -> range:
     return range(len(study.cases))
-
-
-def _over_cases(study: Study, values: list) -> np.ndarray:
-    return np.array(values).reshape(study.shape)
 
 
 def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
