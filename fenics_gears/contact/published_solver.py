@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,13 +22,13 @@ SMALL = 1e-3
 
 @dataclass(frozen=True)
 class RemeshedPosition(Position):
-    """A position with its `index` in the mesh cycle and the stiffness of either gear, N/mm.
+    """A position with its `index` in the mesh cycle and a function that gives the stiffness of either gear, N/mm.
 
-    `stiffness`: (2n + 3, 2n + 3) over the contact nodes' normals and tangents and the centre (dx, dy, phi), in the gear's own frame.
+    `stiffness()`: (2n + 3, 2n + 3) over the contact nodes' normals and tangents and the centre (dx, dy, phi), in the gear's own frame.
     """
 
     index: int
-    stiffness: tuple[np.ndarray, np.ndarray]
+    stiffness: Callable[[], tuple[np.ndarray, np.ndarray]]
 
 
 class PublishedSolver:
@@ -68,7 +69,7 @@ class PublishedSolver:
         key = (position.index, problem.stiffness.tobytes())
         if key not in self._reduced:
             self._reduced[key] = RelativeStiffness(
-                position.stiffness,
+                position.stiffness(),
                 problem.stiffness,
                 self._coordinates,
                 position.operator.base_radii,

@@ -47,65 +47,79 @@ class RelativeStiffness:
 
     `gears`: stiffness (2n + 3, 2n + 3) of pinion and wheel over their nodes' normals, tangents and (dx, dy, phi); `effective`
     (k, k): effective stiffness of the drivetrain over `coordinates`, positions in CENTRE_COORDINATES; `base_radii`, mm.
+    What is linear in drivetrain forces F and displacement u is kept as small matrices, since a run keeps many of these.
     """
 
     def __init__(self, gears, effective: np.ndarray, coordinates: list[int], base_radii, tangential: bool):
-        names = [CENTRE_COORDINATES[index] for index in coordinates]
-        self._places = [[i for i, name in enumerate(names) if name in known] for known in (PINION, WHEEL)]
-        self._end = [i for i, name in enumerate(names) if name == "shaft_end"]
-        wheel = self._places[1]
-        self._end_stiffness = effective[np.ix_(self._end, self._end)]
-        self._end_coupling = effective[np.ix_(self._end, wheel)]
-        # phi3 eliminated, [20].
-        self._from_end = np.linalg.solve(self._end_stiffness, self._end_coupling)
-        blocks = [effective[np.ix_(places, places)] for places in self._places]
-        blocks[1] = blocks[1] - self._end_coupling.T @ self._from_end
-        self._gears = [
-            CentreEliminated(stiffness, _motion([names[i] for i in places], known, radius), block)
-            for stiffness, places, known, radius, block in zip(gears, self._places, (PINION, WHEEL), base_radii, blocks)
-        ]
-        first, second = (gear.stiffness for gear in self._gears)
-        self._sum = cho_factor(first + second)
-        self._share = cho_solve(self._sum, first)
-        relative = first - first @ self._share
-        self._full = 0.5 * (relative + relative.T)
-        self._nodes, self._tangential, self.stiffness = len(first) // 2, tangential, self._full
+        shafts = _Shafts(effective, [CENTRE_COORDINATES[index] for index in coordinates])
+        first, second = (
+            CentreEliminated(stiffness, _motion(names, known, radius), block)
+            for stiffness, names, known, radius, block in zip(gears, shafts.names, (PINION, WHEEL), base_radii, shafts.stiffness)
+        )
+        unit = np.eye(len(coordinates))
+        force_1, force_2 = shafts.forces(unit)
+        difference = first.load(force_1) - second.load(force_2)
+        factor = cho_factor(first.stiffness + second.stiffness)
+        share = cho_solve(factor, first.stiffness)
+        relative = first.stiffness - first.stiffness @ share
+        relative = 0.5 * (relative + relative.T)
+        load = first.load(force_1) - share.T @ difference
+        # u_2 of the wheel by u and by F; the pinion has the rest of u.
+        wheel_by_force = cho_solve(factor, difference)
+        by_force = shafts.coordinates(
+            unit, first.centre(force_1, -wheel_by_force), second.centre(force_2, wheel_by_force)
+        )
+        nothing = np.zeros((len(coordinates), len(relative)))
+        zero_1, zero_2 = shafts.forces(nothing)
+        by_displacement = shafts.coordinates(
+            nothing, first.centre(zero_1, np.eye(len(relative)) - share), second.centre(zero_2, share)
+        )
         if not tangential:
-            n = self._nodes
-            self._free = cho_factor(self._full[n:, n:])
-            self._tangents = cho_solve(self._free, self._full[n:, :n])
-            self.stiffness = self._full[:n, :n] - self._full[:n, n:] @ self._tangents
+            n = len(relative) // 2
+            free = cho_factor(relative[n:, n:])
+            by_normal, by_load = cho_solve(free, relative[n:, :n]), cho_solve(free, load[n:])
+            by_force = by_force - by_displacement[:, n:] @ by_load
+            by_displacement = by_displacement[:, :n] - by_displacement[:, n:] @ by_normal
+            load = load[:n] - by_normal.T @ load[n:]
+            relative = relative[:n, :n] - relative[:n, n:] @ by_normal
+        self.stiffness = np.ascontiguousarray(relative)
+        self._load, self._by_force, self._by_displacement = load, by_force, by_displacement
 
     def load(self, force: np.ndarray) -> np.ndarray:
         """f (m,), N, of [C.1] for drivetrain forces F (k,)."""
-        relative = self._relative_load(force)
-        if self._tangential:
-            return relative
-        n = self._nodes
-        return relative[:n] - self._tangents.T @ relative[n:]
+        return self._load @ force
 
     def coordinates(self, force: np.ndarray, displacement: np.ndarray) -> np.ndarray:
         """Centre coordinates (k,), mm, that go with drivetrain forces (k,) and a relative displacement (m,)."""
-        n = self._nodes
-        if not self._tangential:
-            tangents = -cho_solve(self._free, self._full[n:, :n] @ displacement + self._relative_load(force)[n:])
-            displacement = np.concatenate([displacement, tangents])
-        pinion_force, wheel_force = self._forces(force)
-        difference = self._gears[0].load(pinion_force) - self._gears[1].load(wheel_force)
-        second = self._share @ displacement + cho_solve(self._sum, difference)
-        result = np.empty(len(force))
-        result[self._places[0]] = self._gears[0].centre(pinion_force, displacement - second)
-        wheel = self._gears[1].centre(wheel_force, second)
-        result[self._places[1]] = wheel
-        result[self._end] = np.linalg.solve(self._end_stiffness, force[self._end] - self._end_coupling @ wheel)
-        return result
+        return self._by_force @ force + self._by_displacement @ displacement
 
-    def _forces(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+
+class _Shafts:
+    """The drivetrain's effective stiffness split between the gears, phi3 eliminated [20], [21].
+
+    `names`, `stiffness`: of the coordinates of pinion and wheel.
+    """
+
+    def __init__(self, effective: np.ndarray, names: list[str]):
+        self._places = [[i for i, name in enumerate(names) if name in known] for known in (PINION, WHEEL)]
+        self._end = [i for i, name in enumerate(names) if name == "shaft_end"]
+        self.names = [[names[i] for i in places] for places in self._places]
+        self._end_stiffness = effective[np.ix_(self._end, self._end)]
+        self._coupling = effective[np.ix_(self._end, self._places[1])]
+        self._from_end = np.linalg.solve(self._end_stiffness, self._coupling)
+        pinion, wheel = (effective[np.ix_(places, places)] for places in self._places)
+        self.stiffness = [pinion, wheel - self._coupling.T @ self._from_end]
+
+    def forces(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """F^1 and F^2 from the drivetrain's forces (k, any)."""
         return force[self._places[0]], force[self._places[1]] - self._from_end.T @ force[self._end]
 
-    def _relative_load(self, force: np.ndarray) -> np.ndarray:
-        first, second = (gear.load(part) for gear, part in zip(self._gears, self._forces(force)))
-        return first - self._share.T @ (first - second)
+    def coordinates(self, force: np.ndarray, pinion: np.ndarray, wheel: np.ndarray) -> np.ndarray:
+        """All coordinates (k, any) from those of the gears."""
+        result = np.empty((len(force), pinion.shape[1]))
+        result[self._places[0]], result[self._places[1]] = pinion, wheel
+        result[self._end] = np.linalg.solve(self._end_stiffness, force[self._end] - self._coupling @ wheel)
+        return result
 
 
 def _motion(names: list[str], known: dict[str, tuple[int, float]], base_radius: float) -> np.ndarray:

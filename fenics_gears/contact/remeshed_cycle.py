@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.node_to_node import NodePairs, NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator
 from fenics_gears.contact.published_solver import PublishedSolver, RemeshedPosition
-from fenics_gears.contact.tooth_pair import Removal
+from fenics_gears.contact.tooth_pair import Place, Removal
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
 
 GEARS = (0, 1)
+# A position needs its own and that of the one before; positions are built in the order of time.
+KEPT_COMPLIANCES = 3
 
 
 class RemeshedCycle(Cycle):
@@ -47,8 +51,8 @@ class RemeshedCycle(Cycle):
         """The loaded teeth of pinion and wheel at position `index`, with the flank vertices that contact wants there."""
         return tuple(loaded_teeth(self.pairs_at(index), gear, self._order) for gear in GEARS)
 
-    def _pair(self, index: int, xi: float) -> NodePairs | None:
-        return node_pairs(self.pair, self._removal, self._vertices, self._order, index, xi)
+    def _pair(self, place: Place) -> NodePairs | None:
+        return node_pairs(self.pair, self._removal, self._vertices, self._order, place)
 
     def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> RemeshedPosition:
         before = None
@@ -61,7 +65,7 @@ class RemeshedCycle(Cycle):
             before=before,
             advance=advance,
         )
-        return RemeshedPosition(operator, carried, index, self._own_stiffness(index))
+        return RemeshedPosition(operator, carried, index, partial(self._own_stiffness, index))
 
     def _own_stiffness(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         pairs, width = self.pairs_at(index), self.pair.face_width
@@ -70,6 +74,8 @@ class RemeshedCycle(Cycle):
     def _compliance(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         """Flank compliance of either gear, hub held."""
         if index not in self._compliances:
+            if len(self._compliances) >= KEPT_COMPLIANCES:
+                del self._compliances[next(iter(self._compliances))]
             self._compliances[index] = tuple(_inverse(stiffness[:-3, :-3]) for stiffness in self._own_stiffness(index))
         return self._compliances[index]
 
