@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.contact.mesh_cycle import pair_positions
+from fenics_gears.contact.mesh_cycle import pair_places
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.model import Model, model
 from fenics_gears.resolution import EVERY_STEP, mesh_stiffness, natural_frequencies
@@ -46,7 +46,7 @@ def _tangential(built: Model) -> int:
 def _contact_rows(built: Model) -> float:
     """Rows of the contact operator, on the average over the mesh cycle."""
     grid = built.resolution.contact_grid
-    pairs = [len(pair_positions(built.pair, grid, phase / 16)) for phase in range(16)]
+    pairs = [len(pair_places(built.pair, grid, phase / 16, built.scene.coast_flanks is not None)) for phase in range(16)]
     return _tangential(built) * grid.nodes * sum(pairs) / len(pairs)
 
 

@@ -58,7 +58,7 @@ def _separation(cycle: Cycle, march: March) -> list[str]:
     """Loss of contact: how often, how far; beyond the backlash the coast flanks, which the scene does not have, would have touched."""
     if not march.separations:
         return []
-    backlash, widest = cycle.flanks.pair.backlash, max(opening for _, opening in march.separations)
+    backlash, widest = cycle.pair.backlash, max(opening for _, opening in march.separations)
     first, last = (march.separations[place][0] / cycle.steps for place in (0, -1))
     lost = (
         f"the teeth lose contact in {len(march.separations)} of {march.steps} steps, between mesh cycles {first:.2f} and {last:.2f}, "

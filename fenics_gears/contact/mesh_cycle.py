@@ -12,7 +12,7 @@ import numpy as np
 
 from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
-from fenics_gears.contact.tooth_pair import Flanks, PairNodes, ToothPair, tooth_pair
+from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
 from fenics_gears.geometry.pair import GearPair
 
@@ -25,29 +25,31 @@ class Position:
     carried_from: np.ndarray
 
 
-def pair_positions(pair: GearPair, grid: ContactGrid, phase: float) -> list[tuple[int, float]]:
-    """Index and position `xi` (mm from T1) of every tooth pair whose window is not empty at `phase` (0 <= phase < 1).
+def pair_places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False) -> list[Place]:
+    """Every pair of flanks whose window is not empty at `phase` (0 <= phase < 1): drive flanks, then coast flanks if asked for.
 
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come.
     """
     half = 0.5 * grid.length
 
-    def can_touch(index: int) -> bool:
-        lowest, highest = flank_limits(pair, pair.path_start + (phase + index) * pair.base_pitch)
+    def can_touch(place: Place) -> bool:
+        lowest, highest = flank_limits(pair, place.contact_rolls)
         return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
 
     # Off the line of action a tip can touch up to the window's length before and after the path of contact.
     reach = 2 + int(np.ceil(grid.length / pair.base_pitch))
     candidates = range(-reach, int(np.ceil(pair.contact_ratio)) + reach)
-    return [(k, pair.path_start + (phase + k) * pair.base_pitch) for k in candidates if can_touch(k)]
+    sides = (drive_place, coast_place) if coast_flanks else (drive_place,)
+    places = (side(pair, k, pair.path_start + (phase + k) * pair.base_pitch) for side in sides for k in candidates)
+    return [place for place in places if can_touch(place)]
 
 
-def tooth_span(pair: GearPair, grid: ContactGrid, steps: int) -> int:
+def tooth_span(pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False) -> int:
     """Pitches between the outermost teeth whose flanks interact, from one step to the next included."""
-    spans = []
+    spans = [0]
     for step in range(steps):
-        indices = [index for index, _ in pair_positions(pair, grid, step / steps)]
-        spans.append(indices[-1] - indices[0] if indices else 0)
+        teeth = [place.teeth for place in pair_places(pair, grid, step / steps, coast_flanks)]
+        spans += [max(of_gear) - min(of_gear) for of_gear in zip(*teeth)]
     return max(spans) + 1
 
 
@@ -58,8 +60,8 @@ class Cycle:
     step at a position is solved.
     """
 
-    def __init__(self, pair: GearPair, grid: ContactGrid, steps: int):
-        self.pair, self.grid, self.steps = pair, grid, steps
+    def __init__(self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False):
+        self.pair, self.grid, self.steps, self.coast_flanks = pair, grid, steps, coast_flanks
         self._pairs: dict[int, tuple[PairNodes, ...]] = {}
         self._positions: dict[int, Position] = {}
 
@@ -86,7 +88,7 @@ class Cycle:
     def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
         """The tooth pairs that can touch at position `index` (0 to steps - 1)."""
         if index not in self._pairs:
-            built = (self._pair(k, xi) for k, xi in pair_positions(self.pair, self.grid, index / self.steps))
+            built = (self._pair(place) for place in pair_places(self.pair, self.grid, index / self.steps, self.coast_flanks))
             self._pairs[index] = tuple(pair for pair in built if pair is not None)
         return self._pairs[index]
 
@@ -94,11 +96,11 @@ class Cycle:
         pairs, previous = self.pairs_at(index), self.pairs_at((index - 1) % self.steps)
         if index == 0:
             # Passing the end of a cycle every pair's index rises by one.
-            previous = tuple(replace(pair, index=pair.index + 1) for pair in previous)
+            previous = tuple(replace(pair, place=replace(pair.place, index=pair.place.index + 1)) for pair in previous)
         carried = carried_nodes(pairs, previous, self.grid.spacing)
         return self._position(index, pairs, previous, self.pair.pinion.angular_pitch / self.steps, carried)
 
-    def _pair(self, index: int, xi: float) -> PairNodes | None:
+    def _pair(self, place: Place) -> PairNodes | None:
         raise NotImplementedError
 
     def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> Position:
@@ -113,12 +115,12 @@ class MeshCycle(Cycle):
     """
 
     def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, coordinates: list[int], tangential: bool):
-        super().__init__(flanks.pair, grid, steps)
+        super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2)
         self.flanks, self._coordinates, self._tangential = flanks, coordinates, tangential
         self._pairing = CompliancePairing(flanks)
 
-    def _pair(self, index: int, xi: float) -> ToothPair | None:
-        return tooth_pair(self.flanks, self.grid, index, xi)
+    def _pair(self, place: Place) -> ToothPair | None:
+        return tooth_pair(self.flanks, self.grid, place)
 
     def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> Position:
         operator = contact_operator(
@@ -136,14 +138,15 @@ def carried_nodes(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...],
     """For each node the one of the same pair that stood at the same offset a step before; -1 where there is none."""
     starts, start = {}, 0
     for pair in previous:
-        starts[pair.index] = (start, pair.offsets)
+        starts[pair.place.flank, pair.place.index] = (start, pair.offsets)
         start += len(pair.offsets)
     carried = []
     for pair in pairs:
-        if pair.index not in starts:
+        key = pair.place.flank, pair.place.index
+        if key not in starts:
             carried.append(np.full(len(pair.offsets), -1))
             continue
-        first, offsets = starts[pair.index]
+        first, offsets = starts[key]
         distance = np.abs(pair.offsets[:, None] - offsets[None, :])
         nearest = np.argmin(distance, axis=1)
         near = distance[np.arange(len(nearest)), nearest] <= 0.75 * spacing

@@ -12,8 +12,8 @@ import numpy as np
 
 from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.operator import ContactOperator, earlier_rigid_tangent, over_nodes, rigid_rows, rigid_slip
-from fenics_gears.contact.tooth_pair import PairNodes, Removal, facing_points
-from fenics_gears.contact.window import ContactGrid, contact_roll_angles, flank_ends, node_offsets
+from fenics_gears.contact.tooth_pair import PairNodes, Place, Removal, facing_points
+from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
 
@@ -33,13 +33,13 @@ class NodePairs(PairNodes):
 
 
 def node_pairs(
-    pair: GearPair, removal: tuple[Removal | None, Removal | None], grid: ContactGrid, order: int, index: int, xi: float
+    pair: GearPair, removal: tuple[Removal | None, Removal | None], grid: ContactGrid, order: int, place: Place
 ) -> NodePairs | None:
-    """The tooth pair whose theoretical contact lies at `xi` (mm from T1), or None where its window is empty.
+    """The contact nodes of the flanks at a place, or None where their window is empty.
 
     `grid` spaces the element vertices; elements of second `order` have a contact node midway between each two.
     """
-    vertices = _vertex_offsets(pair, xi, grid)
+    vertices = _vertex_offsets(pair, place.contact_rolls, grid)
     if not len(vertices):
         return None
     lengths, offsets = hat_integrals(vertices), vertices
@@ -47,30 +47,29 @@ def node_pairs(
         middle, cells = 0.5 * (vertices[1:] + vertices[:-1]), np.diff(vertices)
         # The force of an even pressure on a second-order element: 1/6, 4/6, 1/6 (Simpson).
         offsets, lengths = _alternating(vertices, middle), _alternating(lengths / 3.0, cells * 2.0 / 3.0)
-    rolls, arms, gap = facing_points(pair, removal, xi, offsets)
+    rolls, arms, gap = facing_points(pair, removal, place.contact_rolls, offsets)
     if order == 2:
         # Elements are straight-sided: their middle nodes stand on the chord.
         arms = tuple(_alternating(arm[::2], 0.5 * (arm[2::2] + arm[:-2:2])) for arm in arms)
     return NodePairs(
-        index=index,
+        place=place,
         offsets=offsets,
         lengths=lengths,
         gap=gap,
         pinion_arm=arms[0],
         wheel_arm=arms[1],
         pinion_roll=rolls[0],
-        contact_roll=contact_roll_angles(pair, xi),
         wheel_roll=rolls[1],
     )
 
 
-def _vertex_offsets(pair: GearPair, xi: float, grid: ContactGrid) -> np.ndarray:
+def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
     """Offsets (mm) of the contact grid without an end node that all but stands on an end of either flank."""
-    offsets = node_offsets(pair, xi, grid)
+    offsets = node_offsets(pair, contact_rolls, grid)
     if len(offsets) < 3:
         return offsets
     near, exact = SMALLEST_REST * grid.spacing, 1e-9 * grid.spacing
-    below, above = flank_ends(pair, xi)
+    below, above = flank_ends(pair, contact_rolls)
     first = int(any(exact < offsets[0] - end < near for end in below))
     last = len(offsets) - int(any(exact < end - offsets[-1] < near for end in above))
     return offsets[first:last]
@@ -84,7 +83,7 @@ def _alternating(even: np.ndarray, odd: np.ndarray) -> np.ndarray:
 
 def loaded_teeth(pairs: tuple[NodePairs, ...], gear: int, order: int) -> tuple[LoadedTooth, ...]:
     """The teeth of a gear that have contact nodes, by rising angle: the pairs' order on the pinion, its reverse on the wheel."""
-    teeth = (LoadedTooth(pair.contact_roll[gear], pair.rolls(gear)[::order]) for pair in pairs)
+    teeth = (LoadedTooth(pair.place.contact_rolls[gear], pair.rolls(gear)[::order]) for pair in pairs)
     return tuple(sorted(teeth, key=lambda tooth: tooth.angle))
 
 
@@ -189,16 +188,16 @@ def _pairwise(pairs, previous, gear: int) -> tuple[np.ndarray, np.ndarray]:
     """Weights of [A.2] between the nodes of the same tooth pair, and the nodes they reach."""
     starts, start = {}, 0
     for pair in previous:
-        starts[pair.index] = (start, pair)
+        starts[pair.place.index] = (start, pair)
         start += len(pair.offsets)
     weights, reached, row = np.zeros((sum(len(pair.offsets) for pair in pairs), start)), [], 0
     for pair in pairs:
         rows = slice(row, row + len(pair.offsets))
         row = rows.stop
-        if pair.index not in starts:
+        if pair.place.index not in starts:
             reached.append(np.zeros(len(pair.offsets), dtype=bool))
             continue
-        first, earlier = starts[pair.index]
+        first, earlier = starts[pair.place.index]
         weights[rows, first : first + len(earlier.offsets)], inside = roll_interpolation(pair.rolls(gear), earlier.rolls(gear))
         reached.append(inside)
     return weights, np.concatenate(reached) if reached else np.empty(0, dtype=bool)

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product, directions
-from fenics_gears.contact.tooth_pair import Flanks, PairNodes, ToothPair
+from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, ToothPair
+from fenics_gears.elasticity.compliance import FlankCompliance
 
 # The seven centre coordinates q of model.md section 4. Rotations are carried as arc lengths rb1 phi1, rb2 phi2, rb2 phi3
 # (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another.
@@ -53,13 +54,29 @@ class ContactOperator:
 
     @property
     def node_pair(self) -> np.ndarray:
-        """Tooth pair index of each node (n,)."""
-        return np.repeat([pair.index for pair in self.pairs], [len(pair.offsets) for pair in self.pairs])
+        """Position in `pairs` of the pair that each node (n,) belongs to."""
+        return per_node(self.pairs, np.arange(len(self.pairs)))
+
+    @property
+    def on_drive_flanks(self) -> np.ndarray:
+        """Whether a node (n,) is on the drive flanks, not the coast flanks."""
+        return per_node(self.pairs, np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool))
 
 
 def over_nodes(pairs: tuple[PairNodes, ...], name: str) -> np.ndarray:
     """An array of every pair's contact nodes, one pair after the other."""
     return np.concatenate([getattr(pair, name) for pair in pairs]) if pairs else np.empty(0)
+
+
+def per_node(pairs: tuple[PairNodes, ...], values: np.ndarray) -> np.ndarray:
+    """A value of each pair (pairs, ...) repeated for its contact nodes (n, ...)."""
+    return np.repeat(values, [len(pair.offsets) for pair in pairs], axis=0)
+
+
+def _axes(pairs: tuple[PairNodes, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Normal (n, 2) and tangential (n, 2) direction of each node in space, and the sign (n,) of rotations there."""
+    axes = per_node(pairs, np.array([pair.place.axes for pair in pairs]).reshape(len(pairs), 2, 2))
+    return axes[:, 0], axes[:, 1], per_node(pairs, np.array([pair.place.turn for pair in pairs]))
 
 
 def involute_arms(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
@@ -81,11 +98,12 @@ def rigid_rows(
     """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm."""
     nodes = sum(len(pair.offsets) for pair in pairs)
     rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
-    rows[:nodes, 0], rows[:nodes, 2] = 1.0, normal_arms[0] / base_radii[0]
-    rows[:nodes, 3], rows[:nodes, 5] = -1.0, normal_arms[1] / base_radii[1]
-    if tangential and nodes:
-        rows[nodes:, 1], rows[nodes:, 2] = 1.0, over_nodes(pairs, "pinion_arm") / base_radii[0]
-        rows[nodes:, 4], rows[nodes:, 5] = -1.0, over_nodes(pairs, "wheel_arm") / base_radii[1]
+    normal, tangent, turn = _axes(pairs)
+    rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_arms[0] / base_radii[0]
+    rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_arms[1] / base_radii[1]
+    if tangential:
+        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * over_nodes(pairs, "pinion_arm") / base_radii[0]
+        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * over_nodes(pairs, "wheel_arm") / base_radii[1]
     return rows
 
 
@@ -94,19 +112,23 @@ class CompliancePairing:
 
     def __init__(self, flanks: Flanks):
         width = flanks.pair.face_width
-        self._blocks = []
-        for gear in flanks.compliance:
-            ahead = [np.ascontiguousarray(block) / width for block in gear.blocks]
-            behind = [np.ascontiguousarray(block.T) for block in ahead]
-            self._blocks.append((ahead, behind))
+        self._reach = [gear.offsets for gear in flanks.compliance]
+        self._blocks = [
+            {
+                (offset, a, b): np.ascontiguousarray(gear.block(offset)[_flank_dofs(gear, a), _flank_dofs(gear, b)]) / width
+                for offset in range(-gear.offsets, gear.offsets + 1)
+                for a in range(gear.flanks)
+                for b in range(gear.flanks)
+            }
+            for gear in flanks.compliance
+        ]
 
     def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
         # A later pair index means a tooth ahead on the pinion (counter-clockwise), and behind on the wheel.
-        offset = (responding.index - loaded.index) * (1 if gear == 0 else -1)
-        ahead, behind = self._blocks[gear]
-        if abs(offset) >= len(ahead):
-            raise IndexError(f"teeth {abs(offset)} pitches apart, flank compliance reaches {len(ahead) - 1}")
-        return ahead[offset] if offset >= 0 else behind[-offset]
+        offset = (responding.place.teeth[gear] - loaded.place.teeth[gear]) * (1 if gear == 0 else -1)
+        if abs(offset) > self._reach[gear]:
+            raise IndexError(f"teeth {abs(offset)} pitches apart, flank compliance reaches {self._reach[gear]}")
+        return self._blocks[gear][offset, responding.place.flank, loaded.place.flank]
 
     def product(
         self,
@@ -148,6 +170,10 @@ class CompliancePairing:
         return result.reshape(result.shape[0] * result.shape[1], -1)
 
 
+def _flank_dofs(gear: FlankCompliance, flank: int) -> slice:
+    return slice(2 * gear.nodes * flank, 2 * gear.nodes * (flank + 1))
+
+
 def _slices(pairs: tuple[ToothPair, ...]) -> list[slice]:
     ends = np.cumsum([0] + [len(pair.offsets) for pair in pairs])
     return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
@@ -155,12 +181,12 @@ def _slices(pairs: tuple[ToothPair, ...]) -> list[slice]:
 
 def own_directions(tangential: bool):
     """Directions at a pair's own position: e_x, and e_y where friction asks for it."""
-    return lambda gear, pair: directions(pair.contact_roll[gear], tangential)
+    return lambda gear, pair: directions(pair.place.contact_rolls[gear], tangential)
 
 
 def earlier_tangent(advance: tuple[float, float]):
     """e_y at the material point as it stood `advance` (rad, of either gear) before: that tooth's frame then."""
-    return lambda gear, pair: directions(pair.contact_roll[gear] - advance[gear], True)[1:]
+    return lambda gear, pair: directions(pair.place.contact_rolls[gear] - pair.place.turn * advance[gear], True)[1:]
 
 
 def contact_operator(
@@ -205,7 +231,8 @@ def rigid_slip(pairs: tuple[PairNodes, ...], rotation_ratio: float, advance: flo
 
     v_rigid = omega1 (x - (z1/z2) (L - x)) of [12], zero at the pitch point.
     """
-    return advance * (over_nodes(pairs, "pinion_arm") - rotation_ratio * over_nodes(pairs, "wheel_arm"))
+    turn = per_node(pairs, np.array([pair.place.turn for pair in pairs]))
+    return advance * turn * (over_nodes(pairs, "pinion_arm") - rotation_ratio * over_nodes(pairs, "wheel_arm"))
 
 
 def earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
@@ -213,7 +240,8 @@ def earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
     rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
     offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_arm", "wheel_arm"))
     height_1, height_2 = radii[0] - offsets, radii[1] + offsets
+    _, tangent, turn = _axes(pairs)
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
-    rows[:, 1], rows[:, 2] = 1.0, (arm_1 * np.cos(turned[0]) - height_1 * np.sin(turned[0])) / radii[0]
-    rows[:, 4], rows[:, 5] = -1.0, (arm_2 * np.cos(turned[1]) - height_2 * np.sin(turned[1])) / radii[1]
+    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * np.cos(turned[0]) - turn * height_1 * np.sin(turned[0])) / radii[0]
+    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * np.cos(turned[1]) - turn * height_2 * np.sin(turned[1])) / radii[1]
     return rows

@@ -9,7 +9,7 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.node_to_node import NodePairs, NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator
 from fenics_gears.contact.published_solver import PublishedSolver, RemeshedPosition
-from fenics_gears.contact.tooth_pair import Removal
+from fenics_gears.contact.tooth_pair import Place, Removal
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
@@ -51,8 +51,8 @@ class RemeshedCycle(Cycle):
         """The loaded teeth of pinion and wheel at position `index`, with the flank vertices that contact wants there."""
         return tuple(loaded_teeth(self.pairs_at(index), gear, self._order) for gear in GEARS)
 
-    def _pair(self, index: int, xi: float) -> NodePairs | None:
-        return node_pairs(self.pair, self._removal, self._vertices, self._order, index, xi)
+    def _pair(self, place: Place) -> NodePairs | None:
+        return node_pairs(self.pair, self._removal, self._vertices, self._order, place)
 
     def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> RemeshedPosition:
         before = None

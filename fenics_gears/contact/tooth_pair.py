@@ -14,7 +14,7 @@ from fenics_gears.contact.interpolation import (
     hat_integrals,
     quadrature_offsets,
 )
-from fenics_gears.contact.window import ContactGrid, contact_roll_angles, node_offsets
+from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, node_offsets
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
 from fenics_gears.geometry.pair import GearPair
@@ -34,23 +34,56 @@ class Flanks:
     removal: tuple[Removal | None, Removal | None] = (None, None)
 
 
-@dataclass(frozen=True)
-class PairNodes:
-    """Contact nodes (n,) of the tooth pair `index` at one position.
+DRIVE, COAST = 0, 1
 
-    `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open), `pinion_arm` and `wheel_arm` (mm: distance from the tangent points T1 and T2 along the line of action),
-    `pinion_roll` (rad), `contact_roll` of either gear (rad).
+
+@dataclass(frozen=True)
+class Place:
+    """Where a pair of flanks stands: `index` of the pinion's tooth, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
+
+    Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of action's
+    direction and the one across it in space, `turn` the sign of rotations.
     """
 
     index: int
+    flank: int
+    contact_rolls: tuple[float, float]
+    axes: tuple[tuple[float, float], tuple[float, float]] = ((1.0, 0.0), (0.0, 1.0))
+    turn: float = 1.0
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Index of the pinion's and of the wheel's tooth, by the drive pairs they belong to."""
+        return self.index, self.index - self.flank
+
+
+def drive_place(pair: GearPair, index: int, xi: float) -> Place:
+    """The drive flanks of tooth pair `index`, with contact at `xi` (mm from T1)."""
+    return Place(index, DRIVE, contact_roll_angles(pair, xi))
+
+
+def coast_place(pair: GearPair, index: int, xi: float) -> Place:
+    """The coast flank of the pinion's tooth in pair `index`, whose drive flank touches at `xi` (mm), and the one that faces it."""
+    cosine, sine = np.cos(2.0 * pair.operating_pressure_angle), np.sin(2.0 * pair.operating_pressure_angle)
+    return Place(index, COAST, coast_roll_angles(pair, xi), ((-cosine, -sine), (-sine, cosine)), -1.0)
+
+
+@dataclass(frozen=True)
+class PairNodes:
+    """Contact nodes (n,) of the flanks at `place`.
+
+    `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
+    open), `pinion_arm` and `wheel_arm` (mm: distance from the tangent points T1 and T2 along the line of action),
+    `pinion_roll` (rad).
+    """
+
+    place: Place
     offsets: np.ndarray
     lengths: np.ndarray
     gap: np.ndarray
     pinion_arm: np.ndarray
     wheel_arm: np.ndarray
     pinion_roll: np.ndarray
-    contact_roll: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -60,20 +93,21 @@ class ToothPair(PairNodes):
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
 
-def rolls_at(pair: GearPair, xi: float, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Roll angles (rad, any shape) on pinion and wheel of the flank points at offsets (mm), with contact at `xi` (mm from T1)."""
+def rolls_at(pair: GearPair, contact_rolls: tuple[float, float], offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Roll angles (rad, any shape) on pinion and wheel of the flank points at offsets (mm), given those on the line of action."""
     radii = (pair.pinion.base_radius, pair.wheel.base_radius)
     heights = (radii[0] - offsets, radii[1] + offsets)
     return tuple(
         roll_angle_at_height(radius, contact_roll, height)
-        for radius, contact_roll, height in zip(radii, contact_roll_angles(pair, xi), heights)
+        for radius, contact_roll, height in zip(radii, contact_rolls, heights)
     )
 
 
-def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None], xi: float, offsets: np.ndarray):
+def facing_points(
+    pair: GearPair, removal: tuple[Removal | None, Removal | None], contact_rolls: tuple[float, float], offsets: np.ndarray
+):
     """Flank points that face each other at offsets (mm, any shape): roll angles (rad) and distances from T1, T2 (mm) of both, gap (mm)."""
-    rolls = rolls_at(pair, xi, offsets)
-    gears, contact_rolls = (pair.pinion, pair.wheel), contact_roll_angles(pair, xi)
+    rolls, gears = rolls_at(pair, contact_rolls, offsets), (pair.pinion, pair.wheel)
     arms = tuple(
         flank_point(gear.base_radius, roll, contact_roll)[0] for gear, roll, contact_roll in zip(gears, rolls, contact_rolls)
     )
@@ -84,31 +118,31 @@ def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None]
     return rolls, arms, gap
 
 
-def tooth_pair(flanks: Flanks, grid: ContactGrid, index: int, xi: float) -> ToothPair | None:
-    """The tooth pair whose theoretical contact lies at `xi` (mm from T1), or None where its window is empty."""
-    offsets = node_offsets(flanks.pair, xi, grid)
+def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | None:
+    """The contact nodes of the flanks at a place, or None where their window is empty."""
+    offsets = node_offsets(flanks.pair, place.contact_rolls, grid)
     if not len(offsets):
         return None
     pinion, wheel = flanks.pair.pinion, flanks.pair.wheel
-    roll_1, roll_2 = contact_roll_angles(flanks.pair, xi)
-    _, (x_1, x_2), gap = facing_points(flanks.pair, flanks.removal, xi, quadrature_offsets(offsets))
-    node_rolls = rolls_at(flanks.pair, xi, offsets)
+    # Modifications are made on the drive flanks.
+    removal = flanks.removal if place.flank == DRIVE else (None, None)
+    _, (x_1, x_2), gap = facing_points(flanks.pair, removal, place.contact_rolls, quadrature_offsets(offsets))
+    node_rolls = rolls_at(flanks.pair, place.contact_rolls, offsets)
     interpolation = tuple(
         flank_interpolation(
             offsets, rolls, gear.base_radius, contact_roll, sense, flank.roll_angle, flank.element_order
         )
         for gear, rolls, contact_roll, sense, flank in zip(
-            (pinion, wheel), node_rolls, (roll_1, roll_2), (-1.0, 1.0), flanks.compliance
+            (pinion, wheel), node_rolls, place.contact_rolls, (-1.0, 1.0), flanks.compliance
         )
     )
     return ToothPair(
-        index=index,
+        place=place,
         offsets=offsets,
         lengths=hat_integrals(offsets),
         gap=hat_average(offsets, gap),
         pinion_arm=hat_average(offsets, x_1),
         wheel_arm=hat_average(offsets, x_2),
         pinion_roll=node_rolls[0],
-        contact_roll=(roll_1, roll_2),
         interpolation=interpolation,
     )

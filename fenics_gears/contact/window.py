@@ -33,10 +33,24 @@ def contact_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
     return xi / pair.pinion.base_radius, (pair.line_of_action_length - xi) / pair.wheel.base_radius
 
 
-def flank_ends(pair: GearPair, xi: float) -> tuple[tuple[float, float], tuple[float, float]]:
+def coast_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
+    """The same for the coast flank of the pinion's tooth that touches at `xi`, and the wheel's coast flank that faces it.
+
+    Mirrored at the line of centres coast flanks are drive flanks: a tooth whose drive flank stands at roll angle v has its coast
+    flank at 2 alpha_w + 2 psi_b - v there, psi_b being half its angle at the base circle. The flank that faces it is that of the
+    wheel's tooth one base pitch behind. The two do not touch: rb1 v1 + rb2 v2 = L - backlash.
+    """
+    drive = contact_roll_angles(pair, xi)[0], contact_roll_angles(pair, xi - pair.base_pitch)[1]
+    return tuple(
+        2.0 * (pair.operating_pressure_angle + gear.tooth_half_angle_at_base) - roll
+        for gear, roll in zip((pair.pinion, pair.wheel), drive)
+    )
+
+
+def flank_ends(pair: GearPair, contact_rolls: tuple[float, float]) -> tuple[tuple[float, float], tuple[float, float]]:
     """Offsets (mm) where the flanks end: below the line of action (pinion's tip, wheel's form circle), and above it (the others)."""
     pinion, wheel = pair.pinion, pair.wheel
-    roll_1, roll_2 = contact_roll_angles(pair, xi)
+    roll_1, roll_2 = contact_rolls
 
     def height(gear, roll, contact_roll):
         return flank_point(gear.base_radius, roll, contact_roll)[1]
@@ -52,16 +66,19 @@ def flank_ends(pair: GearPair, xi: float) -> tuple[tuple[float, float], tuple[fl
     return below, above
 
 
-def flank_limits(pair: GearPair, xi: float) -> tuple[float, float]:
+def flank_limits(pair: GearPair, contact_rolls: tuple[float, float]) -> tuple[float, float]:
     """Offsets (mm) between which both flanks exist: tips on one side, form circles on the other."""
-    below, above = flank_ends(pair, xi)
+    below, above = flank_ends(pair, contact_rolls)
     return float(max(below)), float(min(above))
 
 
-def node_offsets(pair: GearPair, xi: float, grid: ContactGrid) -> np.ndarray:
-    """Offsets `y` (n,), mm, increasing, of the contact nodes of the pair at `xi`; empty when it cannot touch."""
+def node_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
+    """Offsets `y` (n,), mm, increasing, of the contact nodes of a pair; empty when it cannot touch.
+
+    `contact_rolls` (rad): of either gear on the line of action.
+    """
     half = 0.5 * grid.length
-    lowest, highest = flank_limits(pair, xi)
+    lowest, highest = flank_limits(pair, contact_rolls)
     start, end = max(lowest, -half), min(highest, half)
     length = end - start
     if length <= 1e-9 * grid.length:

@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_limits
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -38,7 +39,7 @@ class March:
     """What a march has produced so far.
 
     `records`: the last steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
-    `separations`: step and smallest opening (mm) of every step at which no node touched; `interrupted`: stopped by the user.
+    `separations`: step and smallest opening (mm) of every step at which no drive flank touched; `interrupted`: stopped by the user.
     """
 
     records: deque[Record] = field(default_factory=deque)
@@ -50,10 +51,11 @@ class March:
     seconds: float = 0.0
 
 
-def smallest_opening(record: Record) -> float:
-    """Distance (mm) of the flanks at the contact node nearest to contact."""
+def smallest_opening(record: Record, flank: int = DRIVE) -> float:
+    """Distance (mm) of the drive or coast flanks at the contact node nearest to contact; infinite where there is no such node."""
     operator = record.position.operator
-    return float(np.min(operator.gap - record.solution.displacement[: operator.nodes]))
+    openings = (operator.gap - record.solution.displacement[: operator.nodes])[operator.on_drive_flanks == (flank == DRIVE)]
+    return float(np.min(openings, initial=np.inf))
 
 
 class Marcher:
@@ -88,7 +90,7 @@ class Marcher:
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
                 march.rungs[RUNGS[record.solution.rung]] += 1
                 march.records.append(record)
-                if not record.solution.status.any() and record.position.operator.nodes:
+                if not record.solution.status[record.position.operator.on_drive_flanks].any():
                     march.separations.append((step, smallest_opening(record)))
                 now = time.perf_counter()
                 if report is not None and now - reported > SECONDS_BETWEEN_REPORTS:

@@ -111,6 +111,11 @@ class TipRelief:
 
 
 @dataclass(frozen=True)
+class CoastFlanks:
+    """Contact on the unloaded flanks, with the backlash that the geometry has."""
+
+
+@dataclass(frozen=True)
 class Accuracy:
     """How the scene is computed; None where the program shall choose from the scene."""
 
@@ -136,6 +141,7 @@ class Scene:
     damping: Damping | None = None
     friction: Friction | None = None
     tip_relief: TipRelief | None = None
+    coast_flanks: CoastFlanks | None = None
     accuracy: Accuracy = Accuracy()
     text: str = ""
     name: str = "scene"

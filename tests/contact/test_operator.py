@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.compliance_product import directions
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_positions, tooth_span
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_span
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)
@@ -33,17 +33,17 @@ def test_compliance_equals_the_dense_product(cycle):
     for gear, compliance in enumerate(cycle.flanks.compliance):
         rows = []
         for pair in operator.pairs:
-            axes = directions(pair.contact_roll[gear], True)
+            axes = directions(pair.place.contact_rolls[gear], True)
             weights = pair.interpolation[gear].weights
             rows.append([np.kron(weights, axis) for axis in axes])
         for a, pair_a in enumerate(operator.pairs):
             for b, pair_b in enumerate(operator.pairs):
-                ahead = (pair_a.index - pair_b.index) * (1 if gear == 0 else -1)
+                ahead = (pair_a.place.index - pair_b.place.index) * (1 if gear == 0 else -1)
                 block = compliance.block(ahead) / cycle.flanks.pair.face_width
                 for d in range(2):
                     for e in range(2):
-                        first = d * n + np.searchsorted(operator.node_pair, pair_a.index)
-                        second = e * n + np.searchsorted(operator.node_pair, pair_b.index)
+                        first = d * n + np.searchsorted(operator.node_pair, a)
+                        second = e * n + np.searchsorted(operator.node_pair, b)
                         part = rows[a][d] @ block @ rows[b][e].T
                         expected[first : first + len(part), second : second + part.shape[1]] += part
     assert len(operator.pairs) >= 2
@@ -53,7 +53,7 @@ def test_compliance_equals_the_dense_product(cycle):
 def test_gap_is_second_order_beside_the_line_of_action(cycle, paper_pair):
     """Literature: two cylinders of the flanks' radii, g = y^2/2 (1/xi + 1/(L - xi)) near the contact point."""
     pair = cycle.position(6).operator.pairs[0]
-    xi = pair.contact_roll[0] * paper_pair.pinion.base_radius
+    xi = pair.place.contact_rolls[0] * paper_pair.pinion.base_radius
     near = np.abs(pair.offsets) < 0.35
     curvature = 1.0 / xi + 1.0 / (paper_pair.line_of_action_length - xi)
     averaged = 0.5 * curvature * (pair.offsets**2 + GRID.spacing**2 / 6.0)
@@ -123,7 +123,7 @@ def test_sliding_vanishes_at_the_pitch_point(cycle, paper_pair):
 def test_every_pair_that_can_carry_is_there(paper_pair):
     """contact ratio 1.47: one to three windows open at any phase, and neighbours differ by one base pitch."""
     for phase in np.linspace(0.0, 0.99, 34):
-        positions = pair_positions(paper_pair, GRID, phase)
+        positions = pair_places(paper_pair, GRID, phase)
         assert 1 <= len(positions) <= 3
-        assert np.diff([xi for _, xi in positions]) == pytest.approx(paper_pair.base_pitch)
+        assert np.diff([place.contact_rolls[0] for place in positions]) == pytest.approx(paper_pair.pinion.angular_pitch)
     assert tooth_span(paper_pair, GRID, 20) >= 2

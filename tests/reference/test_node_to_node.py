@@ -5,6 +5,7 @@ import pytest
 
 from fenics_gears.contact.node_to_node import NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator, roll_interpolation
 from fenics_gears.contact.operator import CENTRE_COORDINATES, rigid_rows
+from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.elasticity.ring import rotation
@@ -16,7 +17,7 @@ NO_REMOVAL = (None, None)
 def pairs_at(pair, phase, grid=GRID, order=1):
     """The tooth pairs 0 and 1 at a phase of the mesh cycle."""
     positions = [(k, pair.path_start + (phase + k) * pair.base_pitch) for k in (0, 1)]
-    return tuple(node_pairs(pair, NO_REMOVAL, grid, order, k, xi) for k, xi in positions if xi < pair.path_end)
+    return tuple(node_pairs(pair, NO_REMOVAL, grid, order, drive_place(pair, k, xi)) for k, xi in positions if xi < pair.path_end)
 
 
 @pytest.mark.parametrize("falling", [False, True])
@@ -46,7 +47,7 @@ def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, pap
     """
     pair, nodes = paper_pair, pairs_at(paper_pair, 0.2, order=order)[0]
     points, sagitta = [], 1e-9
-    for gear, rolls, contact in ((pair.pinion, nodes.pinion_roll, nodes.contact_roll[0]), (pair.wheel, nodes.wheel_roll, nodes.contact_roll[1])):
+    for gear, rolls, contact in ((pair.pinion, nodes.pinion_roll, nodes.place.contact_rolls[0]), (pair.wheel, nodes.wheel_roll, nodes.place.contact_rolls[1])):
         vertices = canonical_point(gear.base_radius, rolls[::order]) @ rotation(contact).T
         placed = np.empty((len(rolls), 2))
         placed[::order] = vertices
@@ -109,7 +110,7 @@ def test_last_rigid_displacement_of_the_same_material_points(paper_pair):
     for cells in (12, 24):
         operator, now, before = last_displacement(paper_pair, cells)
         turned = paper_pair.pinion.angular_pitch / 40
-        place = canonical_point(paper_pair.pinion.base_radius, now[0].pinion_roll) @ rotation(now[0].contact_roll[0] - turned).T
+        place = canonical_point(paper_pair.pinion.base_radius, now[0].pinion_roll) @ rotation(now[0].place.contact_rolls[0] - turned).T
         exact = place[:, 0] / paper_pair.pinion.base_radius
         bound = np.abs(np.diff(before[0].pinion_roll)).max() ** 2 / 8.0 * (now[0].pinion_roll.max() + 0.05)
         assert 0.1 * bound < np.abs(operator.previous_rigid[:, 2] - exact).max() < bound
@@ -122,7 +123,7 @@ def test_published_arms_are_heights(paper_pair):
     """Exact kinematics of a rigid body: the point at (x, -h) of a gear turned by phi moves by (h phi, x phi)."""
     operator, now, _ = last_displacement(paper_pair, 12)
     radius = paper_pair.pinion.base_radius
-    place = canonical_point(radius, now[0].pinion_roll) @ rotation(now[0].contact_roll[0]).T
+    place = canonical_point(radius, now[0].pinion_roll) @ rotation(now[0].place.contact_rolls[0]).T
     n = operator.nodes
     assert operator.rigid[:n, 2] * radius == pytest.approx(-place[:, 1], abs=1e-9)
     assert operator.rigid[n:, 2] * radius == pytest.approx(place[:, 0], abs=1e-9)

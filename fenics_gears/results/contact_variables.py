@@ -1,0 +1,94 @@
+"""Contact in the result: forces of the mesh, of every tooth pair and of every contact node, and what they ask of the shafts."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.contact.laws import OPEN
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import rigid_rows
+from fenics_gears.contact.tooth_pair import COAST, DRIVE
+from fenics_gears.dynamics.march import Record, smallest_opening
+from fenics_gears.scene.data import Scene
+
+
+def mesh_variables(scene: Scene, records: list[Record]) -> dict:
+    """Forces of the whole mesh, on the drive flanks and on the coast flanks, and what all of them ask of either gear's centre."""
+    on_drive = [record.position.operator.on_drive_flanks for record in records]
+    normal = np.array([_normal(record)[drive].sum() for record, drive in zip(records, on_drive)])
+    reactions = np.array([_reactions(record) for record in records]).reshape(len(records), 2, 3)
+    values = {
+        "normal_force": (("time",), normal),
+        "reaction_x": (("time", "gear"), reactions[:, :, 0]),
+        "reaction_y": (("time", "gear"), reactions[:, :, 1]),
+        "reaction_couple": (("time", "gear"), reactions[:, :, 2]),
+        "newton_iterations": (("time",), np.array([record.solution.iterations for record in records])),
+        "closed_nodes": (("time",), np.array([np.count_nonzero(record.solution.status != OPEN) for record in records])),
+    }
+    if scene.friction is not None:
+        tangential = [_tangential(record)[drive].sum() for record, drive in zip(records, on_drive)]
+        values["friction_force"] = (("time",), np.array(tangential))
+    if scene.coast_flanks is not None:
+        coast = [_normal(record)[~drive].sum() for record, drive in zip(records, on_drive)]
+        values["coast_normal_force"] = (("time",), np.array(coast))
+        for name, flank in (("drive_flank_opening", DRIVE), ("coast_flank_opening", COAST)):
+            openings = [max(smallest_opening(record, flank), 0.0) for record in records]
+            values[name] = (("time",), np.array(openings))
+    return values
+
+
+def _normal(record: Record) -> np.ndarray:
+    return record.solution.forces[: record.position.operator.nodes]
+
+
+def _tangential(record: Record) -> np.ndarray:
+    return record.solution.forces[record.position.operator.nodes :]
+
+
+def _reactions(record: Record) -> np.ndarray:
+    """Force (x, y), N, and couple (N mm) of the contact forces on pinion and wheel about their centres, (2, 3): -G^T p."""
+    operator, forces = record.position.operator, record.solution.forces
+    rows = rigid_rows(operator.pairs, operator.base_radii, operator.normal_arms, tangential=len(forces) > operator.nodes)
+    return -(rows.T @ forces)[:6].reshape(2, 3) * np.array([[1.0, 1.0, radius] for radius in operator.base_radii])
+
+
+def pair_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
+    """Forces of each tooth pair and the pressure over its contact nodes, on drive and coast flanks; zero where a pair does not touch."""
+    values = _flank_variables(scene, cycle, records, numbers, DRIVE)
+    if scene.coast_flanks is not None:
+        coast = _flank_variables(scene, cycle, records, numbers, COAST)
+        values["pair_coast_normal_force"] = coast["pair_normal_force"]
+        values |= {f"coast_{name}": data for name, data in coast.items() if name in ("contact_pressure", "contact_roll_angle")}
+    return values
+
+
+def _flank_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int], flank: int) -> dict:
+    row = {number: i for i, number in enumerate(numbers)}
+    width, most = scene.gears.face_width, cycle.grid.nodes
+    force = np.zeros((2, len(records), len(numbers)))
+    stress = np.zeros((2, len(records), len(numbers), most))
+    place = np.full((2, len(records), len(numbers), most), np.nan)
+    for i, record in enumerate(records):
+        normal, tangential, start = _normal(record), _tangential(record), 0
+        for pair in record.position.operator.pairs:
+            nodes = slice(start, start + len(pair.offsets))
+            start = nodes.stop
+            if pair.place.flank != flank:
+                continue
+            j, count = row[int(cycle.pair_number(record.step, pair.place.index))], len(pair.offsets)
+            for kind, forces in enumerate((normal, tangential)):
+                if len(forces):
+                    force[kind, i, j] = forces[nodes].sum()
+                    stress[kind, i, j, :count] = forces[nodes] / (pair.lengths * width)
+            place[0, i, j, :count], place[1, i, j, :count] = pair.offsets, pair.pinion_roll
+    over_nodes = ("time", "pair", "contact_node")
+    values = {
+        "pair_normal_force": (("time", "pair"), force[0]),
+        "contact_pressure": (over_nodes, stress[0]),
+        "contact_offset": (over_nodes, place[0]),
+        "contact_roll_angle": (over_nodes, place[1]),
+    }
+    if scene.friction is not None:
+        values["pair_friction_force"] = (("time", "pair"), force[1])
+        values["contact_traction"] = (over_nodes, stress[1])
+    return values

@@ -1,0 +1,109 @@
+"""The result of a run: one labelled dataset, with units and long names.
+
+Dimensions: `time`, `gear` ("pinion", "wheel"), `pair` (tooth pairs, counted through the run), `contact_node`. A variable that
+belongs to an effect is there only when the scene names that effect.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+import fenics_gears
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
+from fenics_gears.dynamics.march import March, Record
+from fenics_gears.effects import result_variables
+from fenics_gears.results.contact_variables import mesh_variables, pair_variables
+from fenics_gears.scene.data import Scene
+from fenics_gears.validity import warnings_of
+
+GEARS = ("pinion", "wheel")
+
+
+def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, time_step: float) -> xr.Dataset:
+    """The stored steps of a march as a dataset; every variable with units and long name."""
+    records = list(march.records)
+    values = _centre_variables(scene, drivetrain, records)
+    values |= mesh_variables(scene, records)
+    pairs = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
+    values |= pair_variables(scene, cycle, records, pairs)
+    values |= _energy_variables(scene, drivetrain, records)
+    steps = np.array([record.step for record in records], dtype=float)
+    described = {variable.name: variable for variable in result_variables(scene)}
+    result = xr.Dataset(
+        {name: (dims, data, _labels(described[name])) for name, (dims, data) in values.items()},
+        coords={
+            "time": ("time", steps * time_step, {"units": "s", "long_name": "time"}),
+            "mesh_phase": ("time", steps / cycle.steps, {"units": "1", "long_name": "mesh cycles since the start"}),
+            "gear": ("gear", list(GEARS), {"long_name": "gear"}),
+            "pair": ("pair", np.array(pairs, dtype=np.int64), {"long_name": "tooth pair, counted through the run"}),
+        },
+    )
+    attributes = _attributes(scene, march, result)
+    attributes["warnings"] = "\n".join(warnings_of(cycle, drivetrain, march))
+    return result.assign_attrs(attributes)
+
+
+def _labels(variable) -> dict[str, str]:
+    return {"units": variable.units, "long_name": variable.long_name}
+
+
+def _centre_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]) -> dict:
+    states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
+
+    def both(first: str, second: str) -> np.ndarray:
+        return np.stack([drivetrain.value(states, first), drivetrain.value(states, second)], axis=1)
+
+    rotation = both("rotation_1", "rotation_2")
+    ratio = scene.gears.pinion.teeth / scene.gears.wheel.teeth
+    values = {
+        "transmission_error": (("time",), rotation[:, 1] + ratio * rotation[:, 0]),
+        "rotation": (("time", "gear"), rotation),
+    }
+    if scene.bearings is not None:
+        values["centre_x"] = (("time", "gear"), both("centre_x1", "centre_x2"))
+        values["centre_y"] = (("time", "gear"), both("centre_y1", "centre_y2"))
+    if scene.shafts is not None:
+        values["shaft_end_rotation"] = (("time",), drivetrain.value(states, "shaft_end"))
+    return values
+
+
+def _energy_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]) -> dict:
+    """Elastic energy of the teeth, and of shafts, bearings and motion where the scene has them (N mm)."""
+    teeth = [0.5 * r.solution.forces @ r.position.operator.compliance @ r.solution.forces for r in records]
+    parts = {"energy_teeth": np.array(teeth)}
+    translations = np.array([name in TRANSLATIONS for name in drivetrain.coordinates])
+    states = np.array([record.state.position for record in records]).reshape(len(records), len(translations))
+    if scene.bearings is not None:
+        parts["energy_bearings"] = _quadratic(states * translations, drivetrain.stiffness)
+    if scene.shafts is not None:
+        parts["energy_shafts"] = _quadratic(states * ~translations, drivetrain.stiffness)
+    if scene.inertia is not None:
+        velocities = np.array([record.state.velocity for record in records]).reshape(states.shape)
+        parts["energy_kinetic"] = _quadratic(velocities, drivetrain.mass)
+    parts["energy"] = sum(parts.values())
+    return {name: (("time",), energy) for name, energy in parts.items()}
+
+
+def _quadratic(states: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    return 0.5 * np.einsum("ti,ij,tj->t", states, matrix, states)
+
+
+def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
+    error = result["transmission_error"].values
+    attributes = {
+        "title": scene.title,
+        "scene": scene.text,
+        "scene_name": scene.name,
+        "fenics_gears_version": fenics_gears.__version__,
+        "complete": int(not march.interrupted),
+        "steps": march.steps,
+        "newton_iterations_total": march.newton_iterations,
+        "time_march": march.seconds,
+    }
+    attributes |= {f"steps_by_rung: {rung}": count for rung, count in march.rungs.items() if count}
+    if len(error):
+        attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
+        attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
+    return attributes
