@@ -9,8 +9,10 @@ from fenics_gears.contact.remeshed_cycle import RemeshedCycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
+from fenics_gears.errors import SceneError
 from fenics_gears.model import Model
 from fenics_gears.progress import Progress
+from fenics_gears.resolution import EVERY_STEP, ONCE
 
 
 def remeshed(
@@ -19,8 +21,13 @@ def remeshed(
     """Stiffness of pinion and wheel at every position, and the contact equations of a mesh cycle on them.
 
     comm: MPI communicator over which the positions are shared out; every rank calls this, only rank 0 can use the result.
-    None: this process does all, and needs no MPI.
+    None: this process does all, and needs no MPI. Raises SceneError where the scene has coast flanks.
     """
+    if built.scene.coast_flanks is not None:
+        raise SceneError(
+            f'{built.scene.name}: condensation = "{EVERY_STEP}" meshes nodes for the drive flanks only. '
+            f'Leave [coast_flanks] out, or choose condensation = "{ONCE}".'
+        )
     resolution = built.resolution
     cycle = RemeshedCycle(
         built.pair,

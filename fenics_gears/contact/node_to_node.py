@@ -102,7 +102,9 @@ def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int)
 def height_arms(pairs: tuple[NodePairs, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """Arms (n,), mm, of forces along the line of action at the nodes: their heights above either centre.
 
-    A force along e_x at a node off the line of action; the involute's own normal there is turned by a little and has the arm rb.
+    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself, and being slanted off the line
+    of action it brings another point there; with that the arm would be rb. Without it contact shifts by R (phi2 - phi1), R the
+    relative radius, and T1/rb1 differs from T2/rb2 by that over rb: 0.04 mm and 0.2 % on the paper's pair.
     """
     offsets = over_nodes(pairs, "offsets")
     return base_radii[0] - offsets, base_radii[1] + offsets

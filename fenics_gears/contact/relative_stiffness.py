@@ -5,7 +5,8 @@ contact force alike: K_i u_i + p + f_i = 0, and the relative displacement u is u
 turn: the paper's u_c^2 and F_e^2 are -u_2 and -f_2.)
 
 [22] eliminates the centre through K_inv = [K_qq + K^i]^-1, which stands also where the drivetrain alone holds nothing (K^i
-singular, a wheel without mass): the flank nodes hold the centre. K_i is then singular and only contact holds it.
+singular, a wheel without mass): the flank nodes hold the centre. K_i is then singular and only contact holds it. The stiffnesses
+being differences of far larger ones, some 1e-10 of the load is lost in round-off, whatever the time step.
 """
 
 from __future__ import annotations
@@ -102,7 +103,7 @@ class _Shafts:
 
     def __init__(self, effective: np.ndarray, names: list[str]):
         self._places = [[i for i, name in enumerate(names) if name in known] for known in (PINION, WHEEL)]
-        self._end = [i for i, name in enumerate(names) if name == "shaft_end"]
+        self._end = [i for i, name in enumerate(names) if name == "shaft_twist"]
         self.names = [[names[i] for i in places] for places in self._places]
         self._end_stiffness = effective[np.ix_(self._end, self._end)]
         self._coupling = effective[np.ix_(self._end, self._places[1])]

@@ -10,11 +10,12 @@ from fenics_gears.contact.ladder import PUBLISHED, StepProblem, cold_start, solv
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.published_newton import BETA, GAMMA, MOST_HALVINGS, Equations, iterates, merit
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.errors import SceneError
 from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.reference_route import remeshed
 from fenics_gears.resolution import EVERY_STEP
-from fenics_gears.scene.data import Accuracy
+from fenics_gears.scene.data import Accuracy, CoastFlanks
 
 NODES, CENTRE = 7, 3
 
@@ -100,6 +101,13 @@ def test_direction_is_newtons(seed):
     moved = np.concatenate(equations.residual(displacement + small * step_u, forces + small * step_p))
     assert (moved - value) / small == pytest.approx(-value, abs=2e-6 * np.abs(value).max())
     assert merit(equations, displacement, forces) == pytest.approx(0.5 * value @ value, rel=1e-12)
+
+
+def test_coast_flanks_are_refused(paper_cases):
+    """Message: the reference route has no nodes on the coast flanks and says so before it meshes."""
+    scene = replace(paper_cases["static"], coast_flanks=CoastFlanks(), accuracy=Accuracy(condensation=EVERY_STEP))
+    with pytest.raises(SceneError, match="coast_flanks"):
+        remeshed(model(scene), SilentProgress(), None)
 
 
 def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, reference_cache):
