@@ -103,7 +103,7 @@ class _Shafts:
 
     def __init__(self, effective: np.ndarray, names: list[str]):
         self._places = [[i for i, name in enumerate(names) if name in known] for known in (PINION, WHEEL)]
-        self._end = [i for i, name in enumerate(names) if name == "shaft_twist"]
+        self._end = [i for i, name in enumerate(names) if name not in PINION and name not in WHEEL]
         self.names = [[names[i] for i in places] for places in self._places]
         self._end_stiffness = effective[np.ix_(self._end, self._end)]
         self._coupling = effective[np.ix_(self._end, self._places[1])]
