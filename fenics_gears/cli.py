@@ -18,6 +18,7 @@ from fenics_gears.errors import ComputationError, GearsError, GeometryError, Sce
 from fenics_gears.interruption import Interruption
 from fenics_gears.job import communicator
 from fenics_gears.progress import BarProgress, LineProgress, Progress, SilentProgress
+from fenics_gears.show import PICTURE_FILES
 
 INTERRUPTED = 130
 RUN_FILE = "run.nc"
@@ -86,7 +87,8 @@ def run(options: argparse.Namespace) -> int:
         try:
             dataset = simulate(scene, progress=interruption, comm=comm)
         except ComputationError as error:
-            if getattr(error, "partial", None) is None:
+            if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
+                # Nothing was done that an earlier result in the directory should give way to.
                 raise
             file = _save(error.partial, directory, interruption)
             raise ComputationError(f"{error}\n{_kept(error.partial, file)}") from error
@@ -183,6 +185,9 @@ def _save(dataset, directory: Path, interruption: Interruption) -> Path:
     written: list[Path] = []
     with written_aside(directory, written) as aside:
         results.save(dataset, aside / RUN_FILE)
+    for picture in PICTURE_FILES:
+        # Those of an earlier run would be taken for pictures of this one.
+        (directory / picture).unlink(missing_ok=True)
     return written[0]
 
 

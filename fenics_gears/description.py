@@ -36,6 +36,8 @@ def describe(scene: Scene) -> Description:
     if built.drivetrain.mass is not None:
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(built)))
     sections.append(("Expected cost (about)", _cost_rows(built)))
+    if built.warnings:
+        sections.append(("Warnings", [("", warning, "") for warning in built.warnings]))
     return Description(tuple(sections))
 
 
@@ -120,7 +122,7 @@ def _fast_cost(built: Model, unknowns: list[float], flank_dofs: list[float]) -> 
         SECONDS_PER_GEAR + SECONDS_PER_UNKNOWN * n + SECONDS_PER_FLANK_CUBE * dofs**3 for n, dofs in zip(unknowns, flank_dofs)
     )
     marching = positions * SECONDS_PER_CONTACT_SQUARE * rows**2 + built.steps * SECONDS_PER_STEP
-    memory = BYTES_OF_PROGRAM + 8.0 * (positions * operator_parts * rows**2 + 10.0 * sum(dofs**2 for dofs in flank_dofs))
+    memory = BYTES_OF_PROGRAM + built.stored_bytes + 8.0 * (positions * operator_parts * rows**2 + 10.0 * sum(dofs**2 for dofs in flank_dofs))
     return condensing, marching, memory
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Scene
 
@@ -23,6 +24,10 @@ FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
 # ISO 6336-1 puts the stiffness of a steel tooth pair near 14 N/(mm um); half of it bounds the deflection from above.
 LEAST_PAIR_STIFFNESS = 7e3 / 206e3
 HALF_WIDTHS_BESIDE = 2.0
+# Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
+LONGEST_WINDOW = 3.0
+# Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
+CLOSEST_NODES = 0.7
 # Peaks of the transmission error lie between steps: 200 steps miss 0.1 % of the peak-to-peak value of the paper's pair.
 STEPS_PER_MESH_CYCLE = 200
 STEPS_PER_PERIOD = 20
@@ -92,7 +97,8 @@ def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: 
     deflection = line_load / (LEAST_PAIR_STIFFNESS * scene.gears.material.youngs_modulus)
     middle = 0.5 * pair.line_of_action_length
     widest = max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end)))
-    return 2.0 * (sqrt(2.0 * widest * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
+    wanted = 2.0 * (sqrt(2.0 * widest * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
+    return min(wanted, LONGEST_WINDOW * scene.gears.module)
 
 
 def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
@@ -109,10 +115,19 @@ def mesh_stiffness(scene: Scene) -> float:
     return PAIR_STIFFNESS * scene.gears.material.youngs_modulus * scene.gears.face_width
 
 
-def natural_frequencies(drivetrain: Drivetrain, stiffness: float) -> np.ndarray:
-    """Natural frequencies (Hz, ascending) of the drivetrain with the mesh as a spring (N/mm) along the line of action."""
-    direction = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
-    normal = np.array([direction.get(name, 0.0) for name in drivetrain.coordinates])
-    scale = 1.0 / np.sqrt(np.diag(drivetrain.mass))
-    total = drivetrain.stiffness + stiffness * np.outer(normal, normal)
-    return np.sqrt(np.maximum(np.linalg.eigvalsh(total * np.outer(scale, scale)), 0.0)) / (2.0 * pi)
+def resolution_warnings(resolution: Resolution) -> list[str]:
+    """Sentences on settings too coarse to resolve the contact, or contact nodes too close for the elements."""
+    found, spacing = [], resolution.contact_grid.spacing
+    for name, size in (("accuracy.flank_element_size", resolution.flank_element_size), ("the spacing of accuracy.contact_nodes", spacing)):
+        if size > resolution.half_width > 0.0:
+            found.append(
+                f"{name} is {size:.3g} mm, more than the Hertz half-width of {resolution.half_width:.3g} mm at full load: contact is not "
+                "resolved, and neither pressure nor deflection is right"
+            )
+    node_distance = resolution.flank_element_size / (2 if resolution.element.endswith("2") else 1)
+    if spacing < CLOSEST_NODES * node_distance:
+        found.append(
+            f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure oscillates; lower "
+            "accuracy.contact_nodes or accuracy.flank_element_size"
+        )
+    return found

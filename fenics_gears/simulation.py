@@ -50,7 +50,8 @@ def simulate(
     gears, cycle = preparation(built, progress, cache if cache is not None else user_cache())
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, scene.friction.coefficient if scene.friction else 0.0)
+    friction = scene.friction.coefficient if scene.friction else 0.0
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.follows_statics)
     progress.stage("march")
     try:
         march = marcher.run(built.steps, built.stored_steps, progress.update)
@@ -123,6 +124,7 @@ def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, co
     resolution = built.resolution
     return result.assign_attrs(
         complete=int(complete),
+        warnings="\n".join([*built.warnings, *result.attrs["warnings"].splitlines()]),
         base_radius_wheel=built.pair.wheel.base_radius,
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,

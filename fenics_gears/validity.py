@@ -6,6 +6,7 @@ import numpy as np
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import over_nodes
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record
 
@@ -25,14 +26,10 @@ def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March) -> list[str]
 
 def _window(cycle: Cycle, records: list[Record]) -> list[str]:
     """Contact at an end of the window that is no edge of the flank: the window cuts pressure off."""
-    half, reached = 0.5 * cycle.grid.length, 0
+    end, reached = 0.5 * cycle.grid.length * (1.0 - 1e-9), 0
     for record in records:
-        status, start = record.solution.status, 0
-        for pair in record.position.operator.pairs:
-            closed = status[start : start + len(pair.offsets)] != OPEN
-            start += len(pair.offsets)
-            ends = (closed[0] and pair.offsets[0] <= -half * (1 - 1e-9)) or (closed[-1] and pair.offsets[-1] >= half * (1 - 1e-9))
-            reached += bool(ends)
+        offsets = over_nodes(record.position.operator.pairs, "offsets")
+        reached += bool(np.any((np.abs(offsets) >= end) & (record.solution.status != OPEN)))
     if not reached:
         return []
     return [
@@ -66,8 +63,8 @@ def _separation(cycle: Cycle, march: March) -> list[str]:
     )
     if widest <= backlash:
         return [lost]
-    beyond = next(step for step, opening in march.separations if opening > backlash) / cycle.steps
-    return [
-        f"{lost}. That is more than the backlash of {backlash * 1e3:.4g} um: from mesh cycle {beyond:.2f} on the coast flanks would "
-        "touch, which this scene does not have, and the result has no meaning"
-    ]
+    steps = [step for step, opening in march.separations if opening > backlash]
+    beyond = f"{lost}. That is more than the backlash of {backlash * 1e3:.4g} um: from mesh cycle {steps[0] / cycle.steps:.2f} on the coast "
+    if march.records and march.separations[-1][0] < march.records[0].step:
+        return [beyond + "flanks would touch, which this scene does not have. The stored cycles are in contact throughout"]
+    return [beyond + "flanks would touch, which this scene does not have, and the result has no meaning"]

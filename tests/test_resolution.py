@@ -7,13 +7,13 @@ import pytest
 
 from fenics_gears.description import describe
 from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.model import model
 from fenics_gears.resolution import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     MOST_STEPS_PER_MESH_CYCLE,
     hertz_half_width,
-    natural_frequencies,
     resolve,
 )
 from fenics_gears.scene.data import Accuracy

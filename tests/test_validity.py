@@ -7,7 +7,7 @@ import pytest
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation import simulate
 
-COARSE = Accuracy(element="P1", flank_element_size=0.3, contact_length=3.0, contact_nodes=21, steps_per_mesh_cycle=40)
+COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +25,15 @@ def test_contact_at_the_end_of_the_window_is_named(coarse):
     short = replace(COARSE, contact_length=0.2, contact_nodes=5, flank_element_size=0.1)
     warnings = simulate(replace(coarse, accuracy=short)).attrs["warnings"]
     assert "contact_length" in warnings and "end of the contact window" in warnings
+    assert "in 81 of 81 stored steps" in warnings
+
+
+def test_contact_that_is_not_resolved_is_named(coarse):
+    """Elements and contact nodes coarser than the Hertz half-width, or contact nodes closer than the elements' own."""
+    few = simulate(replace(coarse, accuracy=replace(COARSE, contact_nodes=4)))
+    assert "spacing of accuracy.contact_nodes is 1 mm, more than the Hertz half-width" in few.attrs["warnings"]
+    many = simulate(replace(coarse, accuracy=replace(COARSE, contact_nodes=51)))
+    assert "the pressure oscillates" in many.attrs["warnings"]
 
 
 def test_large_rotations_are_named(coarse):
@@ -35,7 +44,7 @@ def test_large_rotations_are_named(coarse):
 
 def test_separation_beyond_the_backlash_is_named(coarse):
     """Claim 10: undamped at its resonance the pair loses contact globally, which without coast flanks has no meaning."""
-    undamped = replace(coarse, damping=None, motion=Motion(225.0, 60, 20))
+    undamped = replace(coarse, damping=None, motion=Motion(213.0, 60, 20))
     warnings = simulate(undamped).attrs["warnings"]
     assert "more than the backlash" in warnings and "no meaning" in warnings
 

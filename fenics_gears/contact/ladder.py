@@ -15,6 +15,8 @@ from fenics_gears.contact.newton import (
     CYCLED,
     ONE_AT_A_TIME,
     SINGULAR,
+    STICK_SLIP,
+    TENSION,
     THROUGH_STICK,
     newton,
 )
@@ -139,6 +141,7 @@ def _reason(problem: StepProblem, attempts) -> str:
         return "no tooth pair can touch at this position, and nothing else holds the load"
     if attempts[-1][1] == OUTCOMES[CYCLED]:
         return "every rung of the ladder ended with alternating sets"
-    if problem.keep_one:
+    last = attempts[-1][2][-1]
+    if problem.keep_one and (last[TENSION] > problem.tolerance.force or last[STICK_SLIP] > problem.tolerance.length):
         return "no static equilibrium: the load pulls the flanks apart, or friction locks them"
     return "the sets settle, but the equations cannot be solved within the tolerance: the scene's stiffnesses or loads are too far apart"

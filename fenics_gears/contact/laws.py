@@ -24,8 +24,8 @@ class Tolerance:
 
     @classmethod
     def of_load(cls, transmitted_force: float) -> Tolerance:
-        """The tolerance for a transmitted force F = T/rb2 (N): 1e-4 um and 1e-6 F."""
-        return cls(length=1e-7, force=1e-6 * max(transmitted_force, 1e-6))
+        """The tolerance for a transmitted force F = T/rb2 (N): 1e-4 um and 1e-6 F, at least 1e-9 N."""
+        return cls(length=1e-7, force=1e-6 * max(transmitted_force, 1e-3))
 
 
 @njit(cache=True)

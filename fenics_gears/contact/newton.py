@@ -19,6 +19,7 @@ from numba import njit
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
+ROUND_OFF = 1e-12
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the first
 # node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a P-matrix
 # (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
@@ -122,9 +123,14 @@ def _update_status(status, forces, displacement, compliance, gap, slip_before, f
 
 @njit(cache=True)
 def measure(residual, stiffness, load, rigid, gap, slip_before, friction, status, forces, coordinates, displacement):
-    """Violation of the laws and of equilibrium by the present solution, into `residual` (5,)."""
+    """Violation of the laws and of equilibrium by the present solution, into `residual` (5,).
+
+    Equilibrium is solved, not iterated: what is left within the round-off of a row's terms is no violation. A slip against its
+    friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
+    """
     n, tangential = len(gap), len(slip_before) > 0
     residual[:] = 0.0
+    negligible = ROUND_OFF * np.max(np.abs(load)) + ROUND_OFF if len(load) else ROUND_OFF
     for j in range(n):
         residual[PENETRATION] = max(residual[PENETRATION], displacement[j] - gap[j])
         residual[TENSION] = max(residual[TENSION], -forces[j])
@@ -134,11 +140,12 @@ def measure(residual, stiffness, load, rigid, gap, slip_before, friction, status
             slip = displacement[n + j] + slip_before[j]
             if status[j] == STICK:
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
-            elif status[j] != OPEN and forces[n + j] * slip < 0.0:
+            elif status[j] != OPEN and forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible:
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
+    terms = np.dot(np.abs(stiffness), np.abs(coordinates)) + np.dot(np.abs(rigid.T), np.abs(forces)) + np.abs(load)
     balance = np.dot(stiffness, coordinates) + np.dot(rigid.T, forces) - load
     for c in range(len(load)):
-        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance[c]))
+        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance[c]) - ROUND_OFF * terms[c])
 
 
 @njit(cache=True)

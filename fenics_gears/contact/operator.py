@@ -14,9 +14,10 @@ from fenics_gears.contact.compliance_product import compliance_product, directio
 from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, ToothPair
 from fenics_gears.elasticity.compliance import FlankCompliance
 
-# The seven centre coordinates q of model.md section 4. Rotations are carried as arc lengths rb1 phi1, rb2 phi2, rb2 phi3
-# (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another.
-CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_end")
+# The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
+# coordinate is a length and every row a force, and no equation is scaled against another. The output shaft's end goes by its
+# twist rb2 (phi3 - phi2): as a difference of two rotations the twist of a stiff shaft would be lost in round-off.
+CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_twist")
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.scene.data import Scene
+from fenics_gears.scene.data import Inertia, Scene
 
 TRANSLATIONS = ("centre_x1", "centre_y1", "centre_x2", "centre_y2")
 
@@ -42,7 +42,9 @@ class Drivetrain:
         return np.linalg.matrix_rank(self.stiffness) < len(self.coordinates)
 
     def value(self, states: np.ndarray, name: str) -> np.ndarray:
-        """Coordinate `name` of states (..., k), in mm or rad; zero where the scene holds it fixed."""
+        """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it fixed."""
+        if name == "shaft_end":
+            return self.value(states, "rotation_2") + self.value(states, "shaft_twist")
         if name not in self.coordinates:
             return np.zeros(states.shape[:-1])
         position = self.coordinates.index(name)
@@ -52,7 +54,7 @@ class Drivetrain:
 def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     """The drivetrain that the scene's sections call for; what no section frees does not appear."""
     names = _moving_coordinates(scene)
-    radius = {"rotation_1": pair.pinion.base_radius, "rotation_2": pair.wheel.base_radius, "shaft_end": pair.wheel.base_radius}
+    radius = {"rotation_1": pair.pinion.base_radius, "rotation_2": pair.wheel.base_radius, "shaft_twist": pair.wheel.base_radius}
     radii = np.array([radius.get(name, 1.0) for name in names])
     stiffness, mass = np.zeros((len(names), len(names))), None
     if scene.bearings is not None:
@@ -61,9 +63,10 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     if scene.shafts is not None:
         _add_torsion(stiffness, names, scene.shafts.torsional_stiffness)
     if scene.inertia is not None:
-        mass = np.diag([scene.inertia.mass if name in TRANSLATIONS else scene.inertia.moment_of_inertia for name in names])
+        mass = _mass(names, scene.inertia)
     load = np.zeros(len(names))
-    load[names.index("shaft_end" if scene.shafts is not None else "rotation_2")] = scene.load.wheel_torque
+    # The couple turns the output shaft's end, which moves with the wheel and with the twist.
+    load[[names.index(name) for name in ("rotation_2", "shaft_twist") if name in names]] = scene.load.wheel_torque
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
     damping = None
@@ -77,15 +80,21 @@ def _moving_coordinates(scene: Scene) -> tuple[str, ...]:
     if scene.bearings is not None:
         moving.update(TRANSLATIONS)
     if scene.shafts is not None:
-        moving.update(("rotation_1", "shaft_end"))
+        moving.update(("rotation_1", "shaft_twist"))
     return tuple(name for name in CENTRE_COORDINATES if name in moving)
 
 
 def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], torsional_stiffness: float) -> None:
-    """Input shaft between the prescribed rotation and phi1; output shaft between phi2 and phi3 [4]-[6]."""
-    first, second, end = (names.index(name) for name in ("rotation_1", "rotation_2", "shaft_end"))
-    stiffness[first, first] += torsional_stiffness
-    stiffness[second, second] += torsional_stiffness
-    stiffness[end, end] += torsional_stiffness
-    stiffness[second, end] -= torsional_stiffness
-    stiffness[end, second] -= torsional_stiffness
+    """Input shaft between the prescribed rotation and phi1; output shaft, whose twist is phi3 - phi2 [4]-[6]."""
+    for name in ("rotation_1", "shaft_twist"):
+        stiffness[names.index(name), names.index(name)] += torsional_stiffness
+
+
+def _mass(names: tuple[str, ...], inertia: Inertia) -> np.ndarray:
+    """Lumped masses; J phi3'' with phi3 = phi2 + twist couples the wheel's rotation with the twist."""
+    mass = np.diag([inertia.mass if name in TRANSLATIONS else inertia.moment_of_inertia for name in names])
+    if "shaft_twist" in names:
+        second, twist = names.index("rotation_2"), names.index("shaft_twist")
+        mass[second, second] += inertia.moment_of_inertia
+        mass[second, twist] = mass[twist, second] = inertia.moment_of_inertia
+    return mass

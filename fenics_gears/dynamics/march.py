@@ -59,9 +59,15 @@ def smallest_opening(record: Record, flank: int = DRIVE) -> float:
 
 
 class Marcher:
-    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none."""
+    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
 
-    def __init__(self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float):
+    `follows_statics`: the gears start with the velocity at which static equilibrium moves. A mesh frequency above the drivetrain's
+    leaves them no time to follow it; they then start at rest in the frame of the nominal motion, and do not throw each other off.
+    """
+
+    def __init__(
+        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, follows_statics: bool = True
+    ):
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.dynamic = AverageAcceleration(drivetrain, time_step)
         static_drivetrain = Drivetrain(
@@ -70,6 +76,7 @@ class Marcher:
         self.static = AverageAcceleration(static_drivetrain, time_step)
         self.tolerance = Tolerance.of_load(float(np.abs(drivetrain.load).max()))
         self._needs_contact = drivetrain.needs_contact
+        self._follows_statics = follows_statics
 
     def run(self, steps: int, kept: int, report: Callable[[int, int], None] | None = None) -> March:
         """March `steps` steps from step 0 and keep the last `kept` of those done, wherever the march ends.
@@ -113,7 +120,9 @@ class Marcher:
         middle = neighbours[1]
         if not self.dynamic.inert:
             return middle
-        velocity = (neighbours[2].state.position - neighbours[0].state.position) / (2.0 * self.time_step)
+        velocity = np.zeros(len(self.drivetrain.coordinates))
+        if self._follows_statics:
+            velocity = (neighbours[2].state.position - neighbours[0].state.position) / (2.0 * self.time_step)
         # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
         damping = self.drivetrain.damping
         acceleration = np.zeros_like(velocity)

@@ -47,6 +47,11 @@ def linear_relief(relief: Relief, gear: Gear, hpstc_roll_angle: float, name: str
     lowest, tip = gear.form_roll_angle, gear.tip_roll_angle
     if not (isfinite(relief.depth) and relief.depth >= 0.0):
         raise GeometryError(f"{name}: tip_relief depth {relief.depth} mm; it must be zero or a positive length")
+    if relief.depth > 0.5 * gear.tip_thickness:
+        raise GeometryError(
+            f"{name}: tip_relief depth {relief.depth:.4g} mm is more than half the tooth's thickness at the tip, {gear.tip_thickness:.4g} mm: "
+            f"no tip would be left; lower tip_relief.{name}.depth"
+        )
     if not lowest <= start < tip:
         raise GeometryError(
             f"{name}: tip relief starts at roll angle {degrees(start):.4g} deg, but its involute runs from "

@@ -11,16 +11,14 @@ from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.output import written_aside
+from fenics_gears.show import PICTURE_FILES
 from fenics_gears.show.curves import load_sharing, mesh_forces, transmission_error
 from fenics_gears.show.panels import DOTS_PER_INCH, styled
 from fenics_gears.show.pressure_map import contact_pressure
 
-PICTURES: dict[str, Callable[[xr.Dataset], Figure | None]] = {
-    "transmission_error.png": transmission_error,
-    "mesh_forces.png": mesh_forces,
-    "load_sharing.png": load_sharing,
-    "contact_pressure.png": contact_pressure,
-}
+PICTURES: dict[str, Callable[[xr.Dataset], Figure | None]] = dict(
+    zip(PICTURE_FILES, (transmission_error, mesh_forces, load_sharing, contact_pressure))
+)
 
 
 def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:

@@ -9,13 +9,20 @@ from fenics_gears.dynamics.average_acceleration import AverageAcceleration, Stat
 from fenics_gears.dynamics.drivetrain import drivetrain
 
 
+def from_twist(coordinates):
+    """The program's coordinates per phi1, phi2, phi3 of the paper: its last one is the twist phi3 - phi2."""
+    change = np.eye(len(coordinates))
+    change[coordinates.index("shaft_twist"), coordinates.index("rotation_2")] = -1.0
+    return change
+
+
 def test_effective_stiffness_is_the_papers(paper_scene, paper_pair):
     """[17] and [20]: undamped, with phi3 eliminated, the effective stiffness of either gear."""
     scene = replace(paper_scene, damping=None)
     shafts, step = drivetrain(scene, paper_pair), 5e-5
     scheme = AverageAcceleration(shafts, step)
-    to_angles = np.diag(shafts.radii)
-    effective = to_angles @ scheme.stiffness @ to_angles
+    to_angles = np.diag(shafts.radii) @ from_twist(shafts.coordinates)
+    effective = to_angles.T @ scheme.stiffness @ to_angles
     condensed = effective[:6, :6] - np.outer(effective[:6, 6], effective[6, :6]) / effective[6, 6]
     m, j = scene.inertia.mass, scene.inertia.moment_of_inertia
     kb, ks = scene.bearings.stiffness, scene.shafts.torsional_stiffness
@@ -48,7 +55,8 @@ def test_load_history_is_the_papers(paper_scene, paper_pair):
 def test_rayleigh_damping_is_the_papers(paper_scene, paper_pair):
     """[26]-[28]: alpha k + beta m on the diagonal, -alpha k_s between phi2 and phi3."""
     shafts = drivetrain(paper_scene, paper_pair)
-    damping = np.diag(shafts.radii) @ shafts.damping @ np.diag(shafts.radii)
+    to_angles = np.diag(shafts.radii) @ from_twist(shafts.coordinates)
+    damping = to_angles.T @ shafts.damping @ to_angles
     alpha, beta = 0.4e-3, 0.5e-3
     ks, kb = paper_scene.shafts.torsional_stiffness, paper_scene.bearings.stiffness
     m, j = paper_scene.inertia.mass, paper_scene.inertia.moment_of_inertia
@@ -68,8 +76,9 @@ def test_absent_sections_have_no_coordinates_and_no_matrices(paper_scene, paper_
     with_bearings = drivetrain(replace(bare, bearings=paper_scene.bearings), paper_pair)
     assert with_bearings.coordinates == ("centre_x1", "centre_y1", "centre_x2", "centre_y2", "rotation_2")
     with_shafts = drivetrain(replace(bare, shafts=paper_scene.shafts), paper_pair)
-    assert with_shafts.coordinates == ("rotation_1", "rotation_2", "shaft_end")
-    assert with_shafts.load[:2] == pytest.approx([0.0, 0.0])
+    assert with_shafts.coordinates == ("rotation_1", "rotation_2", "shaft_twist")
+    in_angles = from_twist(with_shafts.coordinates).T @ (with_shafts.load * with_shafts.radii)
+    assert in_angles == pytest.approx([0.0, 0.0, 437e3], abs=1e-9)
 
 
 def test_velocity_and_acceleration_follow_the_average_acceleration_rule():

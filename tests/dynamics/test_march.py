@@ -97,7 +97,8 @@ def test_undamped_tied_motion_keeps_its_energy(paper_scene, paper_pair, stand_in
     for step in range(1, 2001):
         record = marcher.step(marcher.dynamic, record, step)
         energies.append(energy(record))
-    assert np.abs(np.array(energies) - first).max() <= 1e-9 * max(kinetic, abs(first))
+    # The loads' own work is 2e4 times the motion's energy; what is lost of it by round-off is not the method's.
+    assert np.abs(np.array(energies) - first).max() <= 1e-6 * kinetic
 
 
 def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks):
