@@ -94,6 +94,21 @@ EFFECTS: tuple[Effect, ...] = (
         absent="true involutes",
         terms=("initial gaps",),
     ),
+    Effect(
+        section="coast_flanks",
+        description="contact on the unloaded flanks, with the backlash of the geometry",
+        absent="drive flanks only",
+        unknowns=("normal force of each closed contact node on the coast flanks",),
+        terms=("contact along the coast flanks' own line of action",),
+        variables=(
+            ResultVariable("coast_normal_force", "N", "contact force of the coast flanks along their line of action"),
+            ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth"),
+            ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks"),
+            ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank"),
+            ResultVariable("drive_flank_opening", "mm", "smallest distance of the drive flanks"),
+            ResultVariable("coast_flank_opening", "mm", "smallest distance of the coast flanks"),
+        ),
+    ),
 )
 
 # What every run has, whatever its effects.
@@ -113,9 +128,6 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
     ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
 )
-
-# Announced sections of the scene format that this version refuses, with what each would be.
-NOT_YET_AVAILABLE: dict[str, str] = {"coast_flanks": "contact on the unloaded (coast) flanks"}
 
 
 def effect(section: str) -> Effect:

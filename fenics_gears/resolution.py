@@ -74,7 +74,7 @@ def plane_contact_modulus(scene: Scene) -> float:
 def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     """Decide every accuracy setting: the scene's where it has one, else the default."""
     asked, module = scene.accuracy, scene.gears.module
-    line_load = scene.load.wheel_torque / pair.wheel.base_radius / pair.face_width
+    line_load = abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
     half_width = hertz_half_width(line_load, smallest, plane_contact_modulus(scene))
     size = asked.flank_element_size or float(

@@ -92,7 +92,10 @@ def gear_compliances(built: Model, progress: Progress, cache: Cache | None) -> C
 
 def tooth_reach(built: Model) -> int:
     """Pitches between the outermost teeth that can be loaded together."""
-    return tooth_span(built.pair, built.resolution.contact_grid, built.resolution.steps_per_mesh_cycle)
+    resolution = built.resolution
+    return tooth_span(
+        built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None
+    )
 
 
 def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) -> FlankCompliance:
@@ -104,6 +107,7 @@ def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) ->
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         tooth_offsets=reach,
+        coast_flank=built.scene.coast_flanks is not None,
         cache=cache,
     )
 

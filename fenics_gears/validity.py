@@ -61,7 +61,7 @@ def _separation(cycle: Cycle, march: March) -> list[str]:
         f"the teeth lose contact in {len(march.separations)} of {march.steps} steps, between mesh cycles {first:.2f} and {last:.2f}, "
         f"by up to {widest * 1e3:.4g} um"
     )
-    if widest <= backlash:
+    if cycle.coast_flanks or widest <= backlash:
         return [lost]
     steps = [step for step, opening in march.separations if opening > backlash]
     beyond = f"{lost}. That is more than the backlash of {backlash * 1e3:.4g} um: from mesh cycle {steps[0] / cycle.steps:.2f} on the coast "

@@ -33,7 +33,7 @@ def compile_kernels(tangential: bool) -> float:
         gap=np.zeros(1),
         slip_before=np.ones(1) if tangential else np.empty(0),
         friction=0.1,
-        keep_one=False,
+        free_motion=np.empty(0),
         tolerance=Tolerance.of_load(1.0),
     )
     solve_step(problem, np.array([SLIP_FORWARD], dtype=np.int8))

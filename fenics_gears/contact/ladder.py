@@ -32,7 +32,8 @@ HOMOTOPY_STEPS = 8
 class StepProblem:
     """The mixed form at one position and time: arrays as in `contact.newton.newton`.
 
-    `slip_before` is empty without friction; `keep_one`: the drivetrain alone cannot hold the load.
+    `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain
+    where that alone cannot hold it, else empty.
     """
 
     stiffness: np.ndarray
@@ -42,7 +43,7 @@ class StepProblem:
     gap: np.ndarray
     slip_before: np.ndarray
     friction: float
-    keep_one: bool
+    free_motion: np.ndarray
     tolerance: Tolerance
 
 
@@ -114,7 +115,7 @@ def run_newton(
         result = newton(
             problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before,
             problem.friction if friction is None else friction, current,
-            problem.keep_one, r_scale, rule, problem.tolerance.length, problem.tolerance.force, history, sets,
+            problem.free_motion, r_scale, rule, problem.tolerance.length, problem.tolerance.force, history, sets,
         )  # fmt: skip
     except np.linalg.LinAlgError:
         done = int(np.sum(np.any(sets >= 0, axis=1)))
@@ -142,6 +143,6 @@ def _reason(problem: StepProblem, attempts) -> str:
     if attempts[-1][1] == OUTCOMES[CYCLED]:
         return "every rung of the ladder ended with alternating sets"
     last = attempts[-1][2][-1]
-    if problem.keep_one and (last[TENSION] > problem.tolerance.force or last[STICK_SLIP] > problem.tolerance.length):
+    if len(problem.free_motion) and (last[TENSION] > problem.tolerance.force or last[STICK_SLIP] > problem.tolerance.length):
         return "no static equilibrium: the load pulls the flanks apart, or friction locks them"
     return "the sets settle, but the equations cannot be solved within the tolerance: the scene's stiffnesses or loads are too far apart"

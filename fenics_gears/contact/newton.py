@@ -163,28 +163,36 @@ def _within(residual, length_tolerance, force_tolerance, load, coordinates):
 
 
 @njit(cache=True)
-def nearest_node(gap, displacement):
-    """The node nearest to contact."""
-    return np.argmax(displacement[: len(gap)] - gap)
+def first_node(gap, displacement, rigid, free_motion):
+    """The node that touches first when the load moves the drivetrain along `free_motion` (k,), or else the nearest to contact."""
+    first, distance = -1, np.inf
+    for j in range(len(gap)):
+        approach = 0.0
+        for c in range(len(free_motion)):
+            approach += rigid[j, c] * free_motion[c]
+        if approach > 0.0 and (gap[j] - displacement[j]) / approach < distance:
+            first, distance = j, (gap[j] - displacement[j]) / approach
+    return first if first >= 0 else np.argmax(displacement[: len(gap)] - gap)
 
 
 @njit(cache=True)
 def newton(
     stiffness, load, compliance, rigid, gap, slip_before, friction, status,
-    keep_one, r_scale, rule, length_tolerance, force_tolerance, history, sets,
+    free_motion, r_scale, rule, length_tolerance, force_tolerance, history, sets,
 ):  # fmt: skip
     """Active-set Newton from the sets `status` (n,) int8, changed in place to those of the solution.
 
     `stiffness` (k, k) and `load` (k,): effective drivetrain; `slip_before` (n,): w_old, empty without friction;
-    `keep_one`: without any contact nothing holds the load, so the set never empties; `history` (iterations, 5) and
+    `free_motion` (k,): where without any contact nothing holds the load, how it then moves the drivetrain; the set never empties
+    then. Empty where the drivetrain holds the load. `history` (iterations, 5) and
     `sets` (iterations, n) are filled with residuals and sets. Returns (outcome, iterations, forces, coordinates, u).
     """
     n, m, k = len(gap), len(compliance), len(load)
     forces, coordinates, displacement = np.zeros(m), np.zeros(k), np.zeros(m)
     limit = len(history)
     for iteration in range(limit):
-        if keep_one and n > 0 and not np.any(status != OPEN):
-            status[nearest_node(gap, displacement)] = SLIP_FORWARD
+        if len(free_motion) and n > 0 and not np.any(status != OPEN):
+            status[first_node(gap, displacement, rigid, free_motion)] = SLIP_FORWARD
         sets[iteration] = status
         solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates)
         displacement = relative_displacement(compliance, rigid, forces, coordinates)
@@ -195,8 +203,8 @@ def newton(
         changed, new = _update_status(
             status, forces, displacement, compliance, gap, slip_before, friction, r_scale, rule
         )
-        if keep_one and n > 0 and not np.any(new != OPEN):
-            new[nearest_node(gap, displacement)] = SLIP_FORWARD
+        if len(free_motion) and n > 0 and not np.any(new != OPEN):
+            new[first_node(gap, displacement, rigid, free_motion)] = SLIP_FORWARD
             changed = np.any(new != status)
         if not changed:
             if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates):

@@ -37,9 +37,14 @@ class Drivetrain:
         return [CENTRE_COORDINATES.index(name) for name in self.coordinates]
 
     @property
-    def needs_contact(self) -> bool:
-        """Whether, without mass, only contact holds the load: the stiffness alone is singular."""
-        return np.linalg.matrix_rank(self.stiffness) < len(self.coordinates)
+    def free_motion(self) -> np.ndarray:
+        """How the load moves the drivetrain where, without mass, only contact holds it (k,); empty where the stiffness does."""
+        values, vectors = np.linalg.eigh(self.stiffness)
+        if values[0] > 1e-14 * max(values[-1], 0.0) and values[-1] > 0.0:
+            return np.empty(0)
+        motion = vectors[:, 0]
+        along = motion @ self.load or -motion[self.coordinates.index("rotation_2")]
+        return motion * np.sign(along)
 
     def value(self, states: np.ndarray, name: str) -> np.ndarray:
         """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it fixed."""

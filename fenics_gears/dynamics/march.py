@@ -75,7 +75,7 @@ class Marcher:
         )
         self.static = AverageAcceleration(static_drivetrain, time_step)
         self.tolerance = Tolerance.of_load(float(np.abs(drivetrain.load).max()))
-        self._needs_contact = drivetrain.needs_contact
+        self._free_motion = drivetrain.free_motion
         self._follows_statics = follows_statics
 
     def run(self, steps: int, kept: int, report: Callable[[int, int], None] | None = None) -> March:
@@ -161,7 +161,7 @@ class Marcher:
         operator = position.operator
         problem = StepProblem(
             scheme.stiffness, load, operator.compliance, operator.rigid, operator.gap, slip_before,
-            self.friction, self._needs_contact and not scheme.inert, self.tolerance,
+            self.friction, np.empty(0) if scheme.inert else self._free_motion, self.tolerance,
         )  # fmt: skip
         try:
             return self.cycle.solve(position, problem, status, last)

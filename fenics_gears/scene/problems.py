@@ -9,7 +9,6 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from fenics_gears.effects import NOT_YET_AVAILABLE
 from fenics_gears.scene.fields import Allowed, allowed_in
 from fenics_gears.scene.names import did_you_mean, nearest
 from fenics_gears.scene.schema import SceneText
@@ -128,8 +127,6 @@ def _section_problem(kind: str, path: Path, tree: Mapping[str, Any]) -> Problem:
 
 def _why_unknown(path: Path, section: type[BaseModel]) -> str:
     name, home = path[-1], ".".join(path[:-1])
-    if not home and name in NOT_YET_AVAILABLE:
-        return f"is not available: this version does not have {NOT_YET_AVAILABLE[name]}. Leave the section out."
     known = list(section.model_fields)
     hint = did_you_mean(name, known) or _lives_elsewhere(name)
     kind = f"a known field of [{home}]" if home else "a known section or field of a scene"

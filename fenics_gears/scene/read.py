@@ -81,6 +81,7 @@ def _scene(checked, text: str, name: str) -> data.Scene:
         damping=_as(data.Damping, checked.damping),
         friction=_as(data.Friction, checked.friction),
         tip_relief=_tip_relief(checked.tip_relief),
+        coast_flanks=_as(data.CoastFlanks, checked.coast_flanks),
         accuracy=_as(data.Accuracy, checked.accuracy),
         text=text,
         name=name,

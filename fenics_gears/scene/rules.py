@@ -85,7 +85,21 @@ def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
             yield Problem(("accuracy", name), as_written(accuracy[name]), f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.")
 
 
-_RULES = (_effects_fit_together, _one_speed, _recorded_cycles_are_run, _damping_acts, _relief_is_complete, _resolution_fits_the_teeth)
+def _load_has_flanks(tree: Tree) -> Iterator[Problem]:
+    load = _table(tree, "load") or {}
+    torque = _quantity(load.get("wheel_torque"))
+    if torque is not None and torque < 0.0 and "coast_flanks" not in tree:
+        message = "is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section [coast_flanks] any sign, without it 0 N m and above."
+        yield Problem(("load", "wheel_torque"), as_written(load["wheel_torque"]), message)
+
+
+def _route_has_flanks(tree: Tree) -> Iterator[Problem]:
+    accuracy = _table(tree, "accuracy") or {}
+    if accuracy.get("condensation") == "every step" and "coast_flanks" in tree:
+        yield Problem(("accuracy", "condensation"), '"every step"', 'has no contact on the coast flanks. Take "once", or leave the section [coast_flanks] out.')
+
+
+_RULES = (_load_has_flanks, _route_has_flanks, _effects_fit_together, _one_speed, _recorded_cycles_are_run, _damping_acts, _relief_is_complete, _resolution_fits_the_teeth)
 
 
 def _table(tree: Tree, name: str) -> Tree | None:

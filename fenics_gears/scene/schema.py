@@ -12,7 +12,6 @@ from pydantic import create_model
 from fenics_gears.effects import EFFECTS
 from fenics_gears.scene.fields import Section, choice, number, quantity, text, whole_number
 
-_COAST_FLANKS = "A negative torque drives the pair from the wheel, on its coast flanks; this version does not have contact on the coast flanks."
 _NO_RELIEF = "For a gear without relief, leave its depth out."
 
 
@@ -53,7 +52,7 @@ class Gears(Section):
 class Load(Section):
     """``[load]``."""
 
-    wheel_torque: float = quantity("0 N m", "1e12 N m", "437 N m", below=_COAST_FLANKS)
+    wheel_torque: float = quantity("-1e12 N m", "1e12 N m", "437 N m")
 
 
 class Motion(Section):
@@ -111,6 +110,10 @@ class TipRelief(Relief):
     wheel: Optional[Relief] = None
 
 
+class CoastFlanks(Section):
+    """``[coast_flanks]``: has no fields; naming it is enough."""
+
+
 class Accuracy(Section):
     """``[accuracy]``: what is left out is derived from the scene."""
 
@@ -137,6 +140,7 @@ _EFFECT_SECTIONS = {
     "damping": Damping,
     "friction": Friction,
     "tip_relief": TipRelief,
+    "coast_flanks": CoastFlanks,
 }
 
 SceneText = create_model(

@@ -10,7 +10,6 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from fenics_gears.effects import NOT_YET_AVAILABLE
 from fenics_gears.scene.names import did_you_mean
 from fenics_gears.scene.schema import SceneText
 
@@ -43,8 +42,6 @@ def why_unknown(path: Path) -> str | None:
     """What is wrong with a path that no scene has, with the nearest known one; None for a known path."""
     if path in known_paths():
         return None
-    if path[0] in NOT_YET_AVAILABLE:
-        return f"is not available: this version does not have {NOT_YET_AVAILABLE[path[0]]}."
     dotted = [".".join(each) for each in known_paths()]
     hint = did_you_mean(".".join(path), dotted)
     if not hint:

@@ -38,7 +38,7 @@ def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4):
         gap=0.02 * rng.normal(size=nodes),
         slip_before=0.02 * rng.normal(size=nodes) if friction else np.empty(0),
         friction=friction,
-        keep_one=False,
+        free_motion=np.empty(0),
         tolerance=Tolerance.of_load(load_scale),
     )
 
@@ -134,7 +134,7 @@ def test_friction_tends_to_no_friction():
     """Row 10: the difference to mu = 0 is O(mu)."""
     plain = random_problem(7, friction=0.1)
     frictionless = StepProblem(
-        plain.stiffness, plain.load, plain.compliance[:8, :8], plain.rigid[:8], plain.gap, np.empty(0), 0.0, False, plain.tolerance
+        plain.stiffness, plain.load, plain.compliance[:8, :8], plain.rigid[:8], plain.gap, np.empty(0), 0.0, np.empty(0), plain.tolerance
     )
     reference = solve_step(frictionless, all_open(frictionless)).forces
     scale = np.abs(reference).max()
@@ -167,7 +167,7 @@ def reversing_problem():
         gap=np.zeros(n),
         slip_before=np.array([-2e-3, -1e-3, 1e-3, 2.2e-3]),
         friction=0.3,
-        keep_one=False,
+        free_motion=np.empty(0),
         tolerance=Tolerance.of_load(1e4),
     )
 
@@ -198,7 +198,7 @@ def test_no_equilibrium_is_a_typed_error_with_its_history():
         gap=np.zeros(2),
         slip_before=np.empty(0),
         friction=0.0,
-        keep_one=True,
+        free_motion=np.array([-1.0]),
         tolerance=Tolerance.of_load(100.0),
     )
     with pytest.raises(ContactNotConverged, match="no static equilibrium") as failure:
@@ -226,7 +226,7 @@ def test_one_contact_node_is_exact():
         gap=np.array([0.01]),
         slip_before=np.empty(0),
         friction=0.0,
-        keep_one=False,
+        free_motion=np.empty(0),
         tolerance=Tolerance.of_load(5e3),
     )
     solution = solve_step(problem, all_open(problem))
@@ -248,7 +248,7 @@ def test_frictionless_cycle_is_solved_one_change_at_a_time():
             gap=1e-3 * rng.random(n),
             slip_before=np.empty(0),
             friction=0.0,
-            keep_one=False,
+            free_motion=np.empty(0),
             tolerance=Tolerance.of_load(1e3),
         )
         start = rng.integers(0, 2, n).astype(np.int8)

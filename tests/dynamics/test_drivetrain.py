@@ -72,7 +72,7 @@ def test_absent_sections_have_no_coordinates_and_no_matrices(paper_scene, paper_
     assert shafts.coordinates == ("rotation_2",)
     assert shafts.mass is None and shafts.damping is None
     assert shafts.load == pytest.approx([437e3 / paper_pair.wheel.base_radius])
-    assert shafts.needs_contact
+    assert shafts.free_motion == pytest.approx([1.0])
     with_bearings = drivetrain(replace(bare, bearings=paper_scene.bearings), paper_pair)
     assert with_bearings.coordinates == ("centre_x1", "centre_y1", "centre_x2", "centre_y2", "rotation_2")
     with_shafts = drivetrain(replace(bare, shafts=paper_scene.shafts), paper_pair)

@@ -39,7 +39,7 @@ def random_problem(seed, tangential=True, friction=0.2):
         gap=generator.uniform(0.0, 0.02, NODES),
         slip_before=generator.normal(size=NODES) * 0.02 if tangential else np.empty(0),
         friction=friction if tangential else 0.0,
-        keep_one=False,
+        free_motion=np.empty(0),
         tolerance=Tolerance.of_load(3e3),
     )
     moved = np.linalg.solve(stiffness, np.column_stack([load, rigid.T]))
