@@ -37,7 +37,7 @@ def defaults(environment):
     ranks = max(_count(environment, name) for name in RANK_COUNTS)
     if ranks == max(1, _count(environment, "OMPI_COMM_WORLD_LOCAL_SIZE")):
         # On one machine ranks meet in shared memory; TCP only warns about interfaces it cannot pair.
-        values["OMPI_MCA_btl"] = "^tcp"
+        values["OMPI_MCA_btl"] = "^tcp,ofi"
     if ranks > 1 and "OMP_NUM_THREADS" not in environment:
         # OpenBLAS and MKL follow OMP_NUM_THREADS unless they are told apart.
         values["OMP_NUM_THREADS"] = "1"

@@ -29,8 +29,8 @@ def test_settings_of_the_user_are_kept():
 
 def test_tcp_is_left_out_on_one_machine_and_kept_across_machines():
     """Ranks on two machines reach each other by TCP; those on one machine do not need it."""
-    assert prepared()["OMPI_MCA_btl"] == "^tcp"
-    assert prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="4")["OMPI_MCA_btl"] == "^tcp"
+    assert prepared()["OMPI_MCA_btl"] == "^tcp,ofi"
+    assert prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="4")["OMPI_MCA_btl"] == "^tcp,ofi"
     assert "OMPI_MCA_btl" not in prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="2")
 
 
