@@ -126,3 +126,14 @@ def test_an_error_of_a_task_is_its_outcome():
     found = {}
     Alone().run(inverse, [1, 0, 2], found.__setitem__, lambda: None)
     assert found[0] == 1 and isinstance(found[1], ZeroDivisionError) and found[2] == 0.5
+
+
+def test_the_program_starts_mpirun_itself(folder):
+    """`gears study -n 2` is `mpirun -n 2 gears study`, as root too, where mpirun alone would refuse: the settings are the program's."""
+    study = write_study(folder, '[sweep]\nfriction = ["absent", "present"]\n')
+    plain = {name: value for name, value in environment().items() if not name.startswith(("OMPI_", "PRTE_"))}
+    call = [*command("study", study, "--output", "here"), "--processes", "2"]
+    ended = subprocess.run(call, cwd=folder, env=plain, capture_output=True, text=True, timeout=120)
+    assert ended.returncode == 0, ended.stderr
+    assert "by 2 processes" in ended.stderr
+    assert load("here").attrs["complete"] == 1
