@@ -31,14 +31,15 @@ def scene_file(tmp_path_factory):
 
 
 def test_two_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch):
-    """Exact identity: which process condenses a position changes nothing, and only rank 0 writes."""
+    """Which process condenses a position changes nothing but, with its number of threads, round-off; and only rank 0 writes."""
     monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))
     run = gears(tmp_path, "run", scene_file, "--output", tmp_path / "run", ranks=2)
     assert run.returncode == 0, run.stderr
     assert run.stdout.count("Files") == 1
     together, alone = results.load(tmp_path / "run" / "run.nc"), simulate(load_scene(scene_file), cache=Cache(tmp_path / "other"))
     for name in ("transmission_error", "contact_pressure", "friction_force"):
-        assert np.array_equal(together[name].values, alone[name].values, equal_nan=True)
+        scale = np.abs(alone[name].values).max()
+        assert together[name].values == pytest.approx(alone[name].values, rel=1e-8, abs=1e-9 * scale, nan_ok=True)
     assert together.attrs["condensation"] == "every step"
 
 
