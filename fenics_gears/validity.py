@@ -58,7 +58,7 @@ def _separation(cycle: Cycle, march: March) -> list[str]:
     backlash, widest = cycle.pair.backlash, max(opening for _, opening in march.separations)
     first, last = (march.separations[place][0] / cycle.steps for place in (0, -1))
     lost = (
-        f"the teeth lose contact in {len(march.separations)} of {march.steps} steps, between mesh cycles {first:.2f} and {last:.2f}, "
+        f"the {'drive flanks' if cycle.coast_flanks else 'teeth'} lose contact in {len(march.separations)} of {march.steps} steps, between mesh cycles {first:.2f} and {last:.2f}, "
         f"by up to {widest * 1e3:.4g} um"
     )
     if cycle.coast_flanks or widest <= backlash:
