@@ -81,6 +81,17 @@ def mesh_forces(dataset: xr.Dataset) -> Figure | None:
 
 
 def _draw_normal_force(axes: Axes, dataset: xr.Dataset) -> None:
+    if "coast_normal_force" in dataset:
+        drive, coast = in_unit(dataset["normal_force"], "N"), in_unit(dataset["coast_normal_force"], "N")
+        axes.axhline(0.0, color=GREY, linewidth=0.8)
+        axes.plot(dataset["mesh_phase"].values, drive, color=PALETTE[0], label="drive flanks")
+        axes.plot(dataset["mesh_phase"].values, -coast, color=PALETTE[1], label="coast flanks (drawn downwards)")
+        axes.set_title("Normal force of the mesh")
+        axes.set_ylabel("Normal force (N)")
+        both = np.concatenate([drive, -coast])
+        axes.set_ylim(*limits(both, _least(both)))
+        legend(axes, columns=2)
+        return
     _draw_force(axes, dataset, "normal_force", PALETTE[0])
     axes.set_title("Along the line of action: normal force of the mesh = reaction of either shaft")
     axes.set_ylabel("Normal force (N)")
@@ -89,7 +100,8 @@ def _draw_normal_force(axes: Axes, dataset: xr.Dataset) -> None:
 def _draw_friction_force(axes: Axes, dataset: xr.Dataset) -> None:
     axes.axhline(0.0, color=GREY, linewidth=0.8)
     _draw_force(axes, dataset, "friction_force", PALETTE[1])
-    axes.set_title("Off the line of action: friction force of the mesh = reaction of either shaft")
+    alone = "coast_normal_force" not in dataset
+    axes.set_title("Off the line of action: friction force of the mesh = reaction of either shaft" if alone else "Friction force of the drive flanks")
     axes.set_ylabel("Friction force (N)")
 
 
@@ -111,7 +123,7 @@ def _draw_couples(axes: Axes, dataset: xr.Dataset) -> None:
 
 @styled
 def load_sharing(dataset: xr.Dataset) -> Figure | None:
-    """Normal force of each tooth pair that carries, and their sum."""
+    """Normal force of each tooth pair that carries, and their sum; on the coast flanks downwards."""
     if "pair_normal_force" not in dataset:
         return None
     figure, (axes,) = panels(dataset, "Load sharing between tooth pairs", [4.6])
@@ -122,9 +134,20 @@ def load_sharing(dataset: xr.Dataset) -> Figure | None:
     for number, force in zip(dataset["pair"].values, forces.T):
         if np.any(force != 0.0):
             axes.plot(phase, _while_carrying(force), color=PALETTE[number % len(PALETTE)], label=f"pair {number}")
+    lowest = 0.0
+    if "pair_coast_normal_force" in dataset:
+        coast = in_unit(dataset["pair_coast_normal_force"].transpose("time", "pair"), "N")
+        lowest = -float(coast.sum(axis=1).max())
+        for number, force in zip(dataset["pair"].values, coast.T):
+            if np.any(force != 0.0):
+                axes.plot(phase, -_while_carrying(force), color=PALETTE[number % len(PALETTE)], linestyle=":", label=f"coast flank {number}")
+        axes.axhline(0.0, color=GREY, linewidth=0.8)
     axes.set_ylabel("Normal force (N)")
-    axes.set_ylim(0.0, 1.06 * max(float(total.max()), 1e-9))
-    legend(axes, columns=6, location="lower left")
+    if not total.any() and lowest == 0.0:
+        axes.set_title("No tooth pair carries")
+    highest = float(total.max())
+    axes.set_ylim(1.06 * lowest, max(1.06 * highest, -0.06 * lowest) or 1.0)
+    legend(axes, columns=6 if lowest == 0.0 else 5, location="lower left")
     return figure
 
 

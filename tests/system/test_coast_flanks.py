@@ -10,6 +10,7 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.scene.data import Accuracy, CoastFlanks, Motion
+from fenics_gears.show.curves import load_sharing
 from fenics_gears.simulation import simulate
 
 COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
@@ -75,6 +76,8 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent):
     assert crossed.max() == pytest.approx(forward.transmission_error.values.max(), rel=5e-3)
     assert backward.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
     assert backward.coast_flank_opening.values.max() <= 1e-12
+    lowest = min(np.nanmin(line.get_ydata()) for line in load_sharing(backward).axes[0].lines)
+    assert lowest == pytest.approx(-backward.pair_coast_normal_force.values.max())
 
 
 def test_reversed_torque_with_friction_balances(both_flanks, paper_scene):
