@@ -87,7 +87,11 @@ def test_rigid_motions_cost_nothing():
 
 @pytest.mark.parametrize("name", ["P1", "P2"])
 def test_prescribing_the_standard_vertices_changes_nothing(name):
-    """Exact identity (1e-9): with the fast route's own flank vertices the compliance is a part of the fast route's."""
+    """Identity: with the fast route's own flank vertices the compliance is a part of the fast route's.
+
+    1e-9 where gmsh makes the same mesh of both. The vertices' places differ by round-off, by which gmsh 4.13 turns an edge far from
+    the flank: 9e-7 then, while halving the elements makes 3e-2.
+    """
     element, size = ELEMENTS[name], 0.3
     sizes = element_sizes(PINION, element, size)
     rolls = flank_roll_angles(PINION, size)[6:15]
@@ -95,7 +99,7 @@ def test_prescribing_the_standard_vertices_changes_nothing(name):
     compliance = np.linalg.inv(stiffness[:-3, :-3])
     fast = flank_compliance(PINION, STEEL, element=name, flank_element_size=size, tooth_offsets=0).blocks[0]
     rows = 2 * 6 * element.order + np.arange(len(compliance))
-    assert relative(compliance - fast[np.ix_(rows, rows)], compliance) < 1e-9
+    assert relative(compliance - fast[np.ix_(rows, rows)], compliance) < 1e-5
 
 
 @pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
