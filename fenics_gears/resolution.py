@@ -21,8 +21,10 @@ from fenics_gears.scene.data import Scene
 ELEMENTS_PER_HALF_WIDTH = 4.0
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
 FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
-# ISO 6336-1 puts the stiffness of a steel tooth pair near 14 N/(mm um); half of it bounds the deflection from above.
-LEAST_PAIR_STIFFNESS = 7e3 / 206e3
+# ISO 6336-1 puts the stiffness of a steel tooth pair near 14 N/(mm um), in parts of Young's modulus; half of it bounds the
+# deflection from above.
+PAIR_STIFFNESS = 14e3 / 206e3
+LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
 HALF_WIDTHS_BESIDE = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
@@ -34,7 +36,6 @@ STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
 # How often gears are meshed and condensed: the fast route, and the paper's.
 ONCE, EVERY_STEP = "once", "every step"
-PAIR_STIFFNESS = 14e3 / 206e3
 
 
 @dataclass(frozen=True)

@@ -113,7 +113,7 @@ class CompliancePairing:
 
     def __init__(self, flanks: Flanks):
         width = flanks.pair.face_width
-        self._reach = [gear.offsets for gear in flanks.compliance]
+        self._gears = flanks.compliance
         self._blocks = [
             {
                 (offset, a, b): np.ascontiguousarray(gear.block(offset)[_flank_dofs(gear, a), _flank_dofs(gear, b)]) / width
@@ -127,9 +127,10 @@ class CompliancePairing:
     def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
         # A later pair index means a tooth ahead on the pinion (counter-clockwise), and behind on the wheel.
         offset = (responding.place.teeth[gear] - loaded.place.teeth[gear]) * (1 if gear == 0 else -1)
-        if abs(offset) > self._reach[gear]:
-            raise IndexError(f"teeth {abs(offset)} pitches apart, flank compliance reaches {self._reach[gear]}")
-        return self._blocks[gear][offset, responding.place.flank, loaded.place.flank]
+        key = offset, responding.place.flank, loaded.place.flank
+        if key not in self._blocks[gear]:
+            self._gears[gear].block(offset)  # says which teeth are known
+        return self._blocks[gear][key]
 
     def product(
         self,

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import nnls
+from tests.contact.laws_of_contact import law_residual, project
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.ladder import RUNGS, StepProblem, run_newton, solve_step
@@ -16,8 +17,6 @@ from fenics_gears.contact.laws import (
     SLIP_FORWARD,
     STICK,
     Tolerance,
-    law_residual,
-    project,
 )
 from fenics_gears.contact.newton import CONVERGED, ONE_AT_A_TIME, THROUGH_STICK, solve_sets
 

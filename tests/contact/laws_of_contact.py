@@ -1,0 +1,40 @@
+"""The laws [9], [11], [24], [25] written out, to judge solutions by something the solver does not use."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def project(normal, tangential, u_n, gap, slip, r_n, r_t, friction):
+    """The right-hand sides of [24] and [25] for one node: (p_n, p_t) that the laws ask for."""
+    pressed = max(normal + r_n * (u_n - gap), 0.0)
+    limit = friction * max(normal, 0.0)
+    return pressed, min(max(tangential + r_t * slip, -limit), limit)
+
+
+def law_residual(
+    forces: np.ndarray,
+    displacement: np.ndarray,
+    gap: np.ndarray,
+    slip_before: np.ndarray | None,
+    friction: float,
+) -> dict[str, float]:
+    """How far a solution misses the contact laws: penetration and stick slip (mm), tension and cone excess (N).
+
+    `forces`, `displacement` (m,): normals, then tangents with friction; `slip_before` (n,): w_old of [25], mm, or None.
+    """
+    n = len(gap)
+    normal, opening = forces[:n], gap - displacement[:n]
+    residual = {
+        "penetration": float(np.max(-opening, initial=0.0)),
+        "tension": float(np.max(-normal, initial=0.0)),
+        "force_across_gap": float(np.max(np.where(opening > 0.0, np.abs(normal) * opening, 0.0), initial=0.0)),
+    }
+    if slip_before is not None:
+        tangential, slip = forces[n:], displacement[n:] + slip_before
+        limit = friction * np.maximum(normal, 0.0)
+        inside = np.abs(tangential) < limit * (1.0 - 1e-9)
+        residual["cone_excess"] = float(np.max(np.abs(tangential) - limit, initial=0.0))
+        residual["stick_slip"] = float(np.max(np.where(inside, np.abs(slip), 0.0), initial=0.0))
+        residual["wrong_way"] = float(np.max(-tangential * slip, initial=0.0))
+    return residual
