@@ -1,0 +1,66 @@
+"""Run the hard cases and write what they measured into the documentation: `python -m tests.hard_cases.table`.
+
+Writes docs/hard_cases.md. Further arguments go to pytest, `-m ""` for one with the nightly cases too.
+"""
+
+from __future__ import annotations
+
+import platform
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+from tests.hard_cases.cases import CASES
+
+HERE = Path(__file__).parent
+PAGE = HERE.parents[1] / "docs" / "hard_cases.md"
+HEADING = """# Hard cases, and what was measured
+
+What must stay numerically stable. Each row is a file `tests/hard_cases/test_row_NN_*.py`, whose docstrings name the authority of every
+limit. This page is written by `python -m tests.hard_cases.table` from a run of those tests; the numbers are that run's.
+"""
+
+
+class Collector:
+    """A pytest plugin that gathers measurements and outcomes by row."""
+
+    def __init__(self):
+        self.measured = defaultdict(dict)
+        self.tests = defaultdict(lambda: defaultdict(int))
+
+    def pytest_runtest_logreport(self, report):
+        """Count the test for its row, and keep the lines that it recorded."""
+        name = Path(report.fspath).name
+        if not name.startswith("test_row_") or (report.when != "call" and report.outcome == "passed"):
+            return
+        self.tests[int(name[9:11])][report.outcome] += 1
+        for kind, line in report.user_properties:
+            if kind == "hard_case":
+                row, what, value, limit = line.split("|")
+                self.measured[int(row)][what] = (value, limit)
+
+
+def page(collector: Collector) -> str:
+    """The documentation's page: a row a case, its measurements below one another."""
+    lines = [HEADING, f"Python {platform.python_version()} on {platform.machine()}.", ""]
+    lines += ["| # | case | must hold | measured | limit | tests |", "|---|---|---|---|---|---|"]
+    for row, (name, must_hold) in CASES.items():
+        outcomes = ", ".join(f"{count} {outcome}" for outcome, count in sorted(collector.tests[row].items())) or "none"
+        entries = list(collector.measured[row].items()) or [("", ("", ""))]
+        for i, (what, (value, limit)) in enumerate(entries):
+            start = f"| {row} | {name} | {must_hold} " if i == 0 else "| | | "
+            lines.append(f"{start}| {what + ': ' if what else ''}{value} | {limit} | {outcomes if i == 0 else ''} |")
+    return "\n".join(lines) + "\n"
+
+
+def main(options: list[str]) -> int:
+    """Run, write, and return pytest's exit code."""
+    collector = Collector()
+    outcome = pytest.main(["-q", str(HERE), *options], plugins=[collector])
+    PAGE.write_text(page(collector), encoding="utf-8")
+    return int(outcome)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
