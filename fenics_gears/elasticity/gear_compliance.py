@@ -16,7 +16,7 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.scene.data import Material
 
 # To be raised by one whenever the same inputs give other numbers.
-ALGORITHM_VERSION = 2
+ALGORITHM_VERSION = 3
 
 # By element order, in modules (the flank's size is always given). Against a mesh several times finer everywhere, the mean compliance
 # under 1 mm of uniform pressure at tip, middle and form circle is then within 0.05 % (P2, Q2) and 0.3 % (P1, Q1) with 0.06 mm on the flank.
@@ -40,6 +40,9 @@ def flank_compliance(
 ) -> FlankCompliance:
     """Flank compliance of a gear in plane strain, from the cache or by meshing and condensing one tooth sector.
 
+    The sector is meshed in units of the module: in plane strain similar gears have the same displacement per line force, so that
+    they share an entry of the cache, and no unit of length can change the mesh.
+
     flank_element_size, body_element_size: mm, along the working flank and the largest anywhere (None: from the module).
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. coast_flank: know the coast flank too. comm: communicator of one rank, COMM_SELF when
     None. Raises SceneError for an unknown element or an impossible size, ComputationError when a stage fails.
@@ -47,10 +50,11 @@ def flank_compliance(
     chosen = element_named(element)
     sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
     _check(gear, material, tooth_offsets)
+    similar, sizes = gear.of_module_one, sizes_in_modules(sizes, gear)
     clock = perf_counter()
     key = content_key({
         "version": ALGORITHM_VERSION,
-        "gear": asdict(gear),
+        "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "element": chosen.name,
         "sizes": asdict(sizes),
@@ -60,7 +64,7 @@ def flank_compliance(
     if arrays is not None:
         timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
     else:
-        arrays, timings = _computed(gear, chosen, sizes, material.poissons_ratio, tooth_offsets, comm)
+        arrays, timings = _computed(similar, chosen, sizes, material.poissons_ratio, tooth_offsets, comm)
         if cache is not None:
             cache.store(key, arrays)
     return FlankCompliance(
@@ -90,6 +94,12 @@ def element_sizes(gear: Gear, element: Element, flank: float, body: float | None
         depth=default.depth,
         growth=default.growth,
     )
+
+
+def sizes_in_modules(sizes: ElementSizes, gear: Gear) -> ElementSizes:
+    """Element sizes (mm) as multiples of a gear's module."""
+    flank, fillet, coast, body = gear.in_modules(sizes.flank, sizes.fillet, sizes.coast, sizes.body)
+    return replace(sizes, flank=flank, fillet=fillet, coast=coast, body=body)
 
 
 def _check(gear: Gear, material: Material, tooth_offsets: int) -> None:

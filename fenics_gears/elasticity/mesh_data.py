@@ -13,7 +13,8 @@ from fenics_gears.errors import ComputationError
 class BodyMesh:
     """Straight-sided mesh of a gear body or of a sector of it.
 
-    points: (n, 2), mm, in the canonical frame of the tooth it belongs to (of tooth 0 for a whole gear).
+    points: (n, 2), mm (modules where a sector was meshed in them), in the canonical frame of the tooth it belongs to (of tooth 0
+        for a whole gear).
     cells: (m, 3) triangles or (m, 4) quadrilaterals, corners counter-clockwise.
     edges: named parts of the boundary, each (k, 2) point indices. A sector has "flank", "hub",
         "lower cut" and "upper cut" (clockwise and counter-clockwise side); a whole gear has "hub"
@@ -59,7 +60,7 @@ def oriented(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
         where = points[turned[folded[0]]].mean(axis=0)
         raise ComputationError(
             f"mesh: {folded.size} of {len(cells)} cells have a Jacobian determinant that is not positive, "
-            f"the first near x = {where[0]:.3f} mm, y = {where[1]:.3f} mm; "
+            f"the first near x = {where[0]:.3f}, y = {where[1]:.3f} in the mesh's unit of length; "
             "choose other element sizes or a triangular element"
         )
     return turned

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, pi, sin, tan
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.involute import inverse_involute, involute_function
+
+
+# Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits of a double.
+DECIMALS_IN_MODULES = 12
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,16 @@ class Gear:
     def base_radius(self) -> float:
         """Radius (mm) of the circle whose involute the flank is."""
         return self.reference_radius * cos(self.pressure_angle)
+
+    def in_modules(self, *lengths: float) -> tuple[float, ...]:
+        """Lengths (mm) as multiples of the module, rounded so that similar gears have the very same numbers."""
+        return tuple(round(length / self.module, DECIMALS_IN_MODULES) for length in lengths)
+
+    @property
+    def of_module_one(self) -> Gear:
+        """The similar gear whose module is the unit of length."""
+        tip, root, bore, rack_tip = self.in_modules(self.tip_radius, self.root_radius, self.bore_radius, self.rack_tip_radius)
+        return replace(self, module=1.0, tip_radius=tip, root_radius=root, bore_radius=bore, rack_tip_radius=rack_tip)
 
     @property
     def angular_pitch(self) -> float:

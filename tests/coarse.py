@@ -1,0 +1,27 @@
+"""The paper's pair on a coarse mesh, for tests of what does not depend on the mesh; each run takes a fraction of a second."""
+
+from dataclasses import replace
+
+from fenics_gears.scene.data import Accuracy, Motion
+
+COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
+
+
+def coarse_scene(paper_scene, cycles: int = 2):
+    """The paper's scene with the coarse settings, the last of `cycles` mesh cycles kept."""
+    return replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, cycles, 1))
+
+
+def quasi_static(scene):
+    """The same without inertia."""
+    return replace(scene, inertia=None, damping=None)
+
+
+def frictionless(scene):
+    """The same without friction."""
+    return replace(scene, friction=None)
+
+
+def teeth_alone(scene):
+    """The same on rigid shafts and bearings, without inertia: only the teeth give way."""
+    return replace(quasi_static(scene), shafts=None, bearings=None)

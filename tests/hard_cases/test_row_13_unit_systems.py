@@ -1,0 +1,95 @@
+"""Row 13: the numbers that a unit system or a similar pair gives a scene must not change what comes out."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static
+
+from fenics_gears.elasticity import gear_compliance
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.simulation import simulate
+
+
+def in_units(scene, length, force, time):
+    """The scene's numbers in other units, each given as the new number of one old unit: mm, N, s."""
+    gears, motion, accuracy = scene.gears, scene.motion, scene.accuracy
+
+    def gear(data):
+        diameters = ("tip_diameter", "root_diameter", "bore_diameter")
+        return replace(data, **{name: length * getattr(data, name) for name in diameters})
+
+    changes = {
+        "gears": replace(
+            gears,
+            module=length * gears.module,
+            centre_distance=length * gears.centre_distance,
+            face_width=length * gears.face_width,
+            pinion=gear(gears.pinion),
+            wheel=gear(gears.wheel),
+            material=replace(gears.material, youngs_modulus=force / length**2 * gears.material.youngs_modulus),
+        ),
+        "load": replace(scene.load, wheel_torque=force * length * scene.load.wheel_torque),
+        "motion": replace(motion, mesh_frequency=motion.mesh_frequency / time),
+        "shafts": replace(scene.shafts, torsional_stiffness=force * length * scene.shafts.torsional_stiffness),
+        "bearings": replace(scene.bearings, stiffness=force / length * scene.bearings.stiffness),
+        "accuracy": replace(
+            accuracy, flank_element_size=length * accuracy.flank_element_size, contact_length=length * accuracy.contact_length
+        ),
+    }
+    if scene.inertia is not None:
+        changes["inertia"] = replace(
+            scene.inertia,
+            mass=force * time**2 / length * scene.inertia.mass,
+            moment_of_inertia=force * length * time**2 * scene.inertia.moment_of_inertia,
+        )
+    if scene.damping is not None:
+        changes["damping"] = replace(
+            scene.damping,
+            stiffness_proportional=time * scene.damping.stiffness_proportional,
+            mass_proportional=scene.damping.mass_proportional / time,
+        )
+    return replace(scene, **changes)
+
+
+SYSTEMS = {
+    "SI (m, N, s)": (1e-3, 1.0, 1.0),
+    "E x 1e6, forces with it": (1.0, 1e6, 1.0),
+    "gears three times as large, steel": (3.0, 9.0, 3.0),
+    "inch, pound-force, minute": (1.0 / 25.4, 1.0 / 4.4482216152605, 1.0 / 60.0),
+}
+
+
+@pytest.mark.parametrize("make", [quasi_static, frictionless, lambda scene: scene], ids=["quasi-static", "frictionless", "all"])
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_units_scale_out(system, make, paper_scene, measured):
+    """Exact identity (dimensional analysis): angles and force ratios are the same in any units, and so is every iteration."""
+    scene = make(coarse_scene(paper_scene))
+    length, force, time = SYSTEMS[system]
+    here, there = simulate(scene), simulate(in_units(scene, length, force, time))
+    scale = np.abs(here.transmission_error).max().item()
+    angle = np.abs(there.transmission_error.values - here.transmission_error.values).max() / scale
+    forces = np.abs(there.normal_force.values / force - here.normal_force.values).max() / here.normal_force.max().item()
+    iterations = int(np.abs(there.newton_iterations.values - here.newton_iterations.values).max())
+    measured(f"{system}: largest change", max(angle, forces), "1e-9")
+    measured(f"{system}: iterations of a step that change", float(iterations), "0")
+    assert angle <= 1e-9
+    assert forces <= 1e-9
+    assert iterations == 0
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0 / 25.4, 1.0 / 3.0, 3.0, 7.0 / 3.0])
+def test_similar_gears_share_their_compliance(scale, paper_pair, paper_scene, tmp_path, monkeypatch, measured):
+    """Exact identity: in plane strain displacement per line force has no length in it; the similar gear is found in the cache."""
+    gear, material, cache = paper_pair.pinion, paper_scene.gears.material, Cache(tmp_path)
+    lengths = ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
+    similar = replace(gear, **{name: scale * getattr(gear, name) for name in lengths})
+    first = flank_compliance(gear, material, flank_element_size=0.5, tooth_offsets=1, cache=cache)
+    monkeypatch.setattr(gear_compliance, "_computed", None)
+    second = flank_compliance(similar, material, flank_element_size=scale * 0.5, tooth_offsets=1, cache=cache)
+    difference = np.abs(second.blocks - first.blocks).max()
+    measured("similar gears: difference of their compliance", difference, "0, from one cache entry", "mm per N/mm")
+    assert second.timings["from_cache"]
+    assert difference == 0.0
+    np.testing.assert_array_equal(first.roll_angle, second.roll_angle)

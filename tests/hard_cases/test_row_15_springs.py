@@ -1,0 +1,50 @@
+"""Row 15: shafts and bearings from far softer to far stiffer than the paper's."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static
+
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def coarse(paper_scene):
+    return coarse_scene(paper_scene)
+
+
+def stiffened(scene, factor):
+    return replace(
+        scene,
+        shafts=replace(scene.shafts, torsional_stiffness=factor * scene.shafts.torsional_stiffness),
+        bearings=replace(scene.bearings, stiffness=factor * scene.bearings.stiffness),
+    )
+
+
+@pytest.mark.parametrize("make", [quasi_static, lambda scene: frictionless(quasi_static(scene))], ids=["friction", "frictionless"])
+def test_stiff_springs_tend_to_the_rigid_drivetrain(make, coarse, measured):
+    """Exact limit: with shafts and bearings ever stiffer the transmission error tends to that of the scene without, as 1/k."""
+    rigid = simulate(replace(make(coarse), shafts=None, bearings=None)).transmission_error.values
+    distances = []
+    for factor in (1e-3, 1.0, 1e3, 1e6, 1e9, 1e12):
+        error = simulate(stiffened(make(coarse), factor)).transmission_error.values
+        distances.append(np.abs(error - rigid).max() / np.abs(rigid).max())
+    measured("distance from rigid springs, 1e-3 of nominal", distances[0], "falls with k")
+    measured("distance from rigid springs, nominal", distances[1], "falls with k")
+    measured("distance from rigid springs, 1e9 of nominal", distances[-2], "1e-9 of nominal's, within 30 %")
+    measured("distance from rigid springs, 1e12 of nominal", distances[-1], "1e-10")
+    assert np.all(np.diff(distances) <= 0.0)
+    assert distances[2:5] == pytest.approx([distances[1] / 1e3, distances[1] / 1e6, distances[1] / 1e9], rel=0.3)
+    assert distances[-1] <= 1e-10
+
+
+@pytest.mark.parametrize("factor", [1e-3, 1e3, 1e6, 1e9, 1e12])
+def test_springs_of_any_stiffness_march_in_time(factor, coarse, measured):
+    """From the task: with inertia every step converges, whatever the springs; the wheel's couple stays of the load's size."""
+    result = simulate(stiffened(coarse, factor))
+    torque = np.abs(result.reaction_couple.sel(gear="wheel").values).max() / coarse.load.wheel_torque
+    measured(f"largest couple over the load, springs {factor:g} of nominal", torque, "10")
+    assert result.attrs["complete"]
+    assert np.all(np.isfinite(result.transmission_error.values))
+    assert torque < 10.0

@@ -1,0 +1,56 @@
+"""Row 16: loads from nothing to ten times nominal, and a contact too narrow for the contact nodes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
+
+from fenics_gears.model import model
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def coarse(paper_scene):
+    return coarse_scene(paper_scene)
+
+
+@pytest.mark.parametrize("torque", [0.0, 1e-12, 1.0, 4370e3])
+@pytest.mark.parametrize("make", [lambda scene: scene, frictionless], ids=["friction", "frictionless"])
+@pytest.mark.parametrize("absent", [(), ("bearings",), ("shafts",), ("shafts", "bearings")])
+def test_any_torque_is_carried(absent, make, torque, coarse, measured):
+    """Exact identity (equilibrium): the wheel's couple is the load, nothing is added, no step fails."""
+    scene = make(replace(quasi_static(coarse), load=replace(coarse.load, wheel_torque=torque), **dict.fromkeys(absent)))
+    result = simulate(scene)
+    difference = np.abs(result.reaction_couple.sel(gear="wheel").values + torque).max()
+    measured(f"torque {torque:g} N mm: largest spurious couple", difference, "1e-9 of the torque, at least 1e-9 N mm", "N mm")
+    assert result.attrs["complete"]
+    assert np.all(np.isfinite(result.transmission_error.values))
+    # Without load the touching node's force is the round-off of zero, of either sign.
+    assert result.contact_pressure.fillna(0.0).values.min() >= -1e-9
+    assert difference <= 1e-9 * max(torque, 1.0)
+
+
+def test_no_load_no_force(coarse, measured):
+    """Exact: without torque the teeth touch and nothing is transmitted, at no node."""
+    result = simulate(frictionless(replace(teeth_alone(coarse), load=replace(coarse.load, wheel_torque=0.0))))
+    largest = np.abs(result.contact_pressure.fillna(0.0).values).max()
+    measured("torque 0: largest pressure anywhere", largest, "1e-9", "MPa")
+    assert largest <= 1e-9
+
+
+def test_contact_narrower_than_a_node_spacing_carries_the_load(coarse, measured):
+    """Exact identity: T = rb2 sum p with one closed node a pair or two; and the scene is told that it does not resolve contact."""
+    scene = frictionless(teeth_alone(replace(coarse, load=replace(coarse.load, wheel_torque=10.0))))
+    resolution, result = model(scene).resolution, simulate(scene)
+    force = 10.0 / result.attrs["base_radius_wheel"]
+    difference = np.abs(result.normal_force.values / force - 1.0).max()
+    closed = int(result.closed_nodes.max())
+    ratio = resolution.half_width / resolution.contact_grid.spacing
+    measured("narrow contact: half-width over node spacing", ratio, "below 0.5")
+    measured("narrow contact: error of the force carried", difference, "1e-11")
+    measured("narrow contact: most closed nodes", float(closed), "1 or 2 a pair")
+    assert ratio < 0.5
+    assert 1 <= closed <= 4
+    assert difference <= 1e-11
+    assert "contact is not resolved" in result.attrs["warnings"]
