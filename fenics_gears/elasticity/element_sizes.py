@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
+
+from fenics_gears.geometry.gear import Gear
 
 
 @dataclass(frozen=True)
@@ -25,6 +27,11 @@ class ElementSizes:
     depth: float = 2.5
     growth: float = 0.35
     both_flanks: bool = False
+
+    def in_modules_of(self, gear: Gear) -> ElementSizes:
+        """The sizes as multiples of a gear's module."""
+        flank, fillet, coast, body = gear.in_modules(self.flank, self.fillet, self.coast, self.body)
+        return replace(self, flank=flank, fillet=fillet, coast=coast, body=body)
 
 
 @dataclass(frozen=True)

@@ -40,8 +40,8 @@ def flank_compliance(
 ) -> FlankCompliance:
     """Flank compliance of a gear in plane strain, from the cache or by meshing and condensing one tooth sector.
 
-    The sector is meshed in units of the module: in plane strain similar gears have the same displacement per line force, so that
-    they share an entry of the cache, and no unit of length can change the mesh.
+    In plane strain similar gears have the same displacement per line force: the gear of module one stands for all of them, and
+    they share an entry of the cache.
 
     flank_element_size, body_element_size: mm, along the working flank and the largest anywhere (None: from the module).
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. coast_flank: know the coast flank too. comm: communicator of one rank, COMM_SELF when
@@ -50,7 +50,7 @@ def flank_compliance(
     chosen = element_named(element)
     sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
     _check(gear, material, tooth_offsets)
-    similar, sizes = gear.of_module_one, sizes_in_modules(sizes, gear)
+    similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
     clock = perf_counter()
     key = content_key({
         "version": ALGORITHM_VERSION,
@@ -94,12 +94,6 @@ def element_sizes(gear: Gear, element: Element, flank: float, body: float | None
         depth=default.depth,
         growth=default.growth,
     )
-
-
-def sizes_in_modules(sizes: ElementSizes, gear: Gear) -> ElementSizes:
-    """Element sizes (mm) as multiples of a gear's module."""
-    flank, fillet, coast, body = gear.in_modules(sizes.flank, sizes.fillet, sizes.coast, sizes.body)
-    return replace(sizes, flank=flank, fillet=fillet, coast=coast, body=body)
 
 
 def _check(gear: Gear, material: Material, tooth_offsets: int) -> None:

@@ -23,12 +23,20 @@ def sector_mesh(
 
     Flank vertices stand on the exact involute, even in arc length or at `flank_rolls` (rad, see sector_boundary).
     Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any version
-    of gmsh. Raises ComputationError when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank elements.
+    of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises ComputationError when gmsh fails,
+    a cell is folded, or quadrilaterals meet an odd number of flank elements.
     """
-    boundary, field = sector_boundary(gear, sizes, flank_rolls)
-    if not quadrilaterals:
-        points, cells = filled(boundary.points, field, 1.0, recombine=False)
-        return BodyMesh(points, oriented(points, cells[0]), _edges(boundary, np.arange(len(boundary.points))))
+    boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
+    mesh = _filled_with_quadrilaterals(boundary, field) if quadrilaterals else _filled_with_triangles(boundary, field)
+    return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges)
+
+
+def _filled_with_triangles(boundary: SectorBoundary, field: SizeField) -> BodyMesh:
+    points, cells = filled(boundary.points, field, 1.0, recombine=False)
+    return BodyMesh(points, oriented(points, cells[0]), _edges(boundary, np.arange(len(boundary.points))))
+
+
+def _filled_with_quadrilaterals(boundary: SectorBoundary, field: SizeField) -> BodyMesh:
     if len(boundary.part("flank")) % 2 == 0:
         raise ComputationError("quadrilaterals need an even number of elements on the flank; choose other contact_nodes")
     coarse = boundary.points[::2]
