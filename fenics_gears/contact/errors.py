@@ -29,6 +29,18 @@ class ContactNotConverged(ComputationError):
         return "\n".join(lines)
 
 
+class NoStaticEquilibrium(ContactNotConverged):
+    """Nothing holds the load: it moves the drivetrain freely, and contact pulls the other way or not at all."""
+
+
+class SelfLocking(ContactNotConverged):
+    """Friction undoes what the normal forces hold: however hard the teeth press, the load is not met."""
+
+
+class MoreThanOneSolution(ContactNotConverged):
+    """Friction couples the contact nodes so strongly that a step may have several solutions or none."""
+
+
 def _last_residual(history: np.ndarray) -> str:
     if not len(history):
         return ""

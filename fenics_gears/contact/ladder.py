@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.existence import explained
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
 from fenics_gears.contact.newton import (
     ALL_AT_ONCE,
@@ -15,16 +15,19 @@ from fenics_gears.contact.newton import (
     CYCLED,
     ONE_AT_A_TIME,
     SINGULAR,
-    STICK_SLIP,
-    TENSION,
     THROUGH_STICK,
     newton,
 )
+from fenics_gears.contact.tresca import tresca
 
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
-LADDER = ("newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time")
+LADDER = (
+    "newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time", "Tresca fixed point",
+)  # fmt: skip
 PUBLISHED = "Newton with line search"
-RUNGS = (*LADDER, PUBLISHED)
+# The march's own rung: it divides the step in two where the ladder ends without a solution.
+HALVED = "step halved"
+RUNGS = (*LADDER, PUBLISHED, HALVED)
 HOMOTOPY_STEPS = 8
 
 
@@ -33,7 +36,7 @@ class StepProblem:
     """The mixed form at one position and time: arrays as in `contact.newton.newton`.
 
     `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain
-    where that alone cannot hold it, else empty.
+    where that alone cannot hold it, else empty; `free_words` say so of the scene, "the wheel turns freely under ...".
     """
 
     stiffness: np.ndarray
@@ -45,6 +48,7 @@ class StepProblem:
     friction: float
     free_motion: np.ndarray
     tolerance: Tolerance
+    free_words: str = ""
 
 
 @dataclass(frozen=True)
@@ -74,7 +78,7 @@ def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
 def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 40, before: tuple = ()) -> StepSolution:
     """Solve one step from the sets `status` (n,) int8; `before`: attempts of other methods that failed.
 
-    Raises ContactNotConverged with the history of every rung when none converges.
+    Raises ContactNotConverged, of the kind that says why, with the history of every rung when none converges.
     """
     attempts, spent = list(before), sum(len(history) for _, _, history, _ in before)
     for rung, attempt in _rungs(problem, status, max_iterations):
@@ -84,11 +88,11 @@ def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 4
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result
             return StepSolution(forces, coordinates, displacement, sets, spent, rung)
-    raise ContactNotConverged(attempts, _reason(problem, attempts))
+    raise explained(problem, attempts)
 
 
 def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[int, Callable]]:
-    """The rungs that apply, each with its place in LADDER; those between the first and the last are about friction."""
+    """The rungs that apply, each with its place in LADDER; without friction the first and the sixth."""
     yield 0, lambda: run_newton(problem, status, max_iterations)
     if len(problem.slip_before):
         yield 1, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
@@ -96,6 +100,8 @@ def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Ite
         yield 3, lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
         yield 4, lambda: _friction_from_zero(problem, status, max_iterations)
     yield 5, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
+    if len(problem.slip_before):
+        yield 6, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
 
 
 def run_newton(
@@ -135,14 +141,3 @@ def _friction_from_zero(problem: StepProblem, status: np.ndarray, max_iterations
             break
         current = result[5]
     return (result[0], spent, *result[2:]), record
-
-
-def _reason(problem: StepProblem, attempts) -> str:
-    if not len(problem.gap):
-        return "no tooth pair can touch at this position, and nothing else holds the load"
-    if attempts[-1][1] == OUTCOMES[CYCLED]:
-        return "every rung of the ladder ended with alternating sets"
-    last = attempts[-1][2][-1]
-    if len(problem.free_motion) and (last[TENSION] > problem.tolerance.force or last[STICK_SLIP] > problem.tolerance.length):
-        return "no static equilibrium: the load pulls the flanks apart, or friction locks them"
-    return "the sets settle, but the equations cannot be solved within the tolerance: the scene's stiffnesses or loads are too far apart"

@@ -1,0 +1,129 @@
+"""Why a contact step has no solution: what the load, the friction and the flexibility of the contact nodes say about it.
+
+Where only contact holds the load, forces must balance it along the motion f that nothing else holds: with a normal force p_n at a
+node, and friction that opposes its slip (sign sigma), the load along f is met by (a_n + sigma mu a_t) p_n, a = G f.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
+from fenics_gears.contact.uniqueness import flexibility, is_only_solution
+
+
+# A cycle of sets is rarely longer.
+LAST_SETS = 6
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What a unit normal force at each node does against the load along the free motion, (n,).
+
+    `normal`: by itself; `sliding`: with the friction that opposes the node's slip; `most`: with the friction that helps most.
+    """
+
+    normal: np.ndarray
+    sliding: np.ndarray
+    most: np.ndarray
+
+
+def balance(rigid: np.ndarray, motion: np.ndarray, friction: float, slip_sign: np.ndarray) -> Balance:
+    """Normal and friction forces against a load along `motion` (k,); `rigid` (m, k); `slip_sign` (n,), empty without friction."""
+    along = rigid @ motion
+    n = len(along) - len(slip_sign)
+    normal = along[:n]
+    if not len(slip_sign):
+        return Balance(normal, normal, normal)
+    return Balance(normal, normal + friction * slip_sign * along[n:], normal + friction * np.abs(along[n:]))
+
+
+def locked_nodes(weights: Balance) -> np.ndarray:
+    """Nodes (n,) whose normal force holds the load, but whose friction undoes it or more."""
+    return (weights.normal > 0.0) & (weights.sliding <= 0.0)
+
+
+def explained(problem, attempts) -> ContactNotConverged:
+    """The error of a step that no rung solved, of the kind that says why."""
+    words = problem.free_words or f"a load of {np.abs(problem.load).max(initial=0.0):.4g} N moves the drivetrain freely"
+    if not len(problem.gap):
+        return NoStaticEquilibrium(
+            attempts, f"no static equilibrium: no tooth pair can touch at this position, and nothing else holds the load: {words}"
+        )
+    weights = None
+    if len(problem.free_motion):
+        weights = balance(problem.rigid, problem.free_motion, problem.friction, np.sign(problem.slip_before))
+        if problem.load @ problem.free_motion != 0.0 and weights.most.max() <= 0.0:
+            return NoStaticEquilibrium(
+                attempts, f"no static equilibrium: the load pulls the flanks apart, all gaps open and {words}"
+            )
+    if len(problem.slip_before):
+        visited = _visited(attempts)
+        locking = _locking(problem, visited, weights)
+        if locking:
+            return SelfLocking(attempts, locking)
+        several = _several(problem, visited)
+        if several:
+            return MoreThanOneSolution(attempts, several)
+    return ContactNotConverged(attempts, _reason(problem, attempts))
+
+
+def _visited(attempts) -> np.ndarray:
+    """The different sets (rows, n) that the attempts ended with."""
+    rows = np.concatenate([sets[-LAST_SETS:] for _, _, _, sets in attempts])
+    return np.unique(rows[np.any(rows >= 0, axis=1)], axis=0)
+
+
+def _signs(problem, sets: np.ndarray) -> np.ndarray:
+    """Direction of slip (n,) in given sets; where they leave it open, that of the slip so far."""
+    return np.where(sets == SLIP_FORWARD, 1.0, np.where(sets == SLIP_BACKWARD, -1.0, np.sign(problem.slip_before)))
+
+
+def _locking(problem, visited: np.ndarray, weights: Balance | None) -> str:
+    start = f"self-locking: with a friction coefficient of {problem.friction:g} "
+    if weights is not None and weights.sliding.max() <= 0.0:
+        return start + "no contact forces whose friction opposes the slip can balance the load"
+    worst = ""
+    for sets in visited:
+        closed, signs = sets != OPEN, _signs(problem, sets)
+        if weights is not None:
+            sliding = balance(problem.rigid, problem.free_motion, problem.friction, signs)
+            locked = locked_nodes(sliding) & closed
+            ratio = np.max(1.0 - sliding.sliding[locked] / sliding.normal[locked], initial=0.0)
+            words = f"the friction undoes {ratio:.3g} times what the normal forces hold"
+        else:
+            locked = closed & (_own_response(problem, signs) <= 0.0)
+            words = "the friction moves the flanks together by more than the normal force moves them apart"
+        if locked.any():
+            worst = f"{words} at {locked.sum()} of {closed.sum()} closed nodes"
+    return start + worst if worst else ""
+
+
+def _own_response(problem, signs: np.ndarray) -> np.ndarray:
+    """By how much a sliding node (n,) gives way under its own normal force, mm/N."""
+    n, matrix = len(signs), flexibility(problem.stiffness, problem.compliance, problem.rigid)
+    return np.diag(matrix)[:n] + problem.friction * signs * np.diag(matrix[:n, n:])
+
+
+def _several(problem, visited: np.ndarray) -> str:
+    for sets in visited:
+        certified = is_only_solution(
+            problem.stiffness, problem.compliance, problem.rigid, problem.friction, sets != OPEN, _signs(problem, sets)
+        )
+        if not certified:
+            return (
+                f"with a friction coefficient of {problem.friction:g} there may be more than one solution, or none: friction couples "
+                "the closed nodes so strongly that the certificate, sym(W_nn + W_nt diag(sigma mu)) positive definite, fails"
+            )
+    return ""
+
+
+def _reason(problem, attempts) -> str:
+    if attempts[-1][1] == "the sets repeat":
+        return "every rung of the ladder ended with alternating sets"
+    return (
+        "the sets settle, but the equations cannot be solved within the tolerance: the scene's stiffnesses or loads are too far apart"
+    )

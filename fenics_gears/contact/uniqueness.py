@@ -1,0 +1,69 @@
+"""Whether a frictional solution is the only one with its slip directions: a certificate from the flexibility of the closed nodes.
+
+With normal forces p at the closed nodes and friction sigma mu p the gaps respond by M p, M = W_nn + W_nt diag(sigma mu),
+W = C + G K^-1 G^T. Two solutions would differ by d with d_j (M d)_j <= 0 at every node. That is impossible where sym(D M) is positive
+definite for some positive diagonal D; D = 1 is the certificate of the hard cases.
+
+Where contact alone holds the load, K is singular along a motion f, a = G_n f, b = a + diag(sigma mu) G_t f. Forces then differ
+by d with b . d = 0, and gaps may shift by any multiple of a besides. With D = diag(b/a) the shift does no work, (D a) . d = 0: what
+remains is sym(D M) positive definite on b . d = 0, with the regular part of K in M. b/a > 0 says that nothing locks. The same D
+serves where inertia makes K regular but little: its part of D M is then b b^T/lambda, which is positive too.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+# Below this part of the largest eigenvalue a stiffness holds nothing.
+SINGULAR = 1e-14
+
+
+def flexibility(stiffness: np.ndarray, compliance: np.ndarray, rigid: np.ndarray) -> np.ndarray:
+    """W = C + G K^+ G^T (m, m), mm/N, without the motions that the stiffness does not hold."""
+    values, vectors = np.linalg.eigh(stiffness)
+    held = values > SINGULAR * max(values[-1], 0.0)
+    moved = rigid @ vectors[:, held]
+    return compliance + (moved / values[held]) @ moved.T
+
+
+def is_only_solution(
+    stiffness: np.ndarray, compliance: np.ndarray, rigid: np.ndarray, friction: float, closed: np.ndarray, sigma: np.ndarray
+) -> bool:
+    """Whether no second solution slips in the same directions; `closed` (n,) bool, `sigma` (n,): friction p_t/(mu p_n) of a node."""
+    nodes = np.flatnonzero(closed)
+    if not len(nodes):
+        return True
+    n = len(closed)
+    share = friction * sigma[nodes]
+    values, vectors = np.linalg.eigh(stiffness)
+    held = values > SINGULAR * max(values[-1], 0.0)
+    normal, tangential = rigid[nodes] @ vectors, rigid[n + nodes] @ vectors
+    matrix = compliance[np.ix_(nodes, nodes)] + compliance[np.ix_(nodes, n + nodes)] * share
+    sliding = normal + share[:, None] * tangential
+    matrix = matrix + (normal[:, held] / values[held]) @ sliding[:, held].T
+    if held.all() and _positive(matrix):
+        return True
+    softest, with_friction = normal[:, 0], sliding[:, 0]
+    if not np.all(softest * with_friction > 0.0):
+        return False
+    weighted = (with_friction / softest)[:, None] * matrix
+    if held.all():
+        return _positive(weighted)
+    if len(held) - held.sum() > 1:
+        return False
+    across = _across(with_friction)
+    return _positive(across.T @ weighted @ across)
+
+
+def _across(direction: np.ndarray) -> np.ndarray:
+    """Orthonormal columns (n, n - 1) perpendicular to `direction` (n,)."""
+    return np.linalg.qr(direction[:, None], mode="complete")[0][:, 1:]
+
+
+def _positive(matrix: np.ndarray) -> bool:
+    """Whether the symmetric part is positive definite."""
+    try:
+        np.linalg.cholesky(matrix + matrix.T)
+    except np.linalg.LinAlgError:
+        return False
+    return True
