@@ -1,0 +1,40 @@
+"""The gear and its coarse sector meshes that tests of elasticity share, small enough for dense brute force."""
+
+from functools import lru_cache
+from math import radians
+
+import numpy as np
+
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.ring import centre_motion, condensed_sector
+from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.scene.data import Material
+
+# Pinion of Lundvall, Stroemberg, Klarbring (2004), Table 2.
+PINION = Gear(16, 4.5, radians(20.0), 0.196, 41.32, 31.25, 15.0, 0.38 * 4.5)
+STEEL = Material(206e3, 0.3)
+COARSE = ElementSizes(flank=0.8, fillet=0.4, coast=1.0, body=3.0)
+
+
+@lru_cache
+def coarse_sector_mesh(name: str):
+    """Coarse sector mesh of the pinion for an element's name."""
+    return sector_mesh(PINION, COARSE, ELEMENTS[name].quadrilateral)
+
+
+@lru_cache
+def coarse_condensed_sector(name: str, poissons_ratio: float = 0.3):
+    """The same, condensed."""
+    return condensed_sector(coarse_sector_mesh(name), ELEMENTS[name], poissons_ratio)
+
+
+def flank_motion(sector, gear: Gear, teeth: tuple[int, ...]) -> np.ndarray:
+    """Displacement of the flanks of some teeth per unit rigid motion of the gear."""
+    return np.vstack([centre_motion(sector.points["flank"], tooth * gear.angular_pitch) for tooth in teeth])
+
+
+def relative(difference, reference) -> float:
+    """Largest entry of a difference over the largest of what it is compared with."""
+    return float(np.abs(difference).max() / np.abs(reference).max())

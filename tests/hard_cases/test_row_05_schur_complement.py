@@ -1,0 +1,56 @@
+"""Row 5: the Schur complement of a gear has the rigid motions for its kernel, and nothing else."""
+
+import numpy as np
+import pytest
+from tests.coarse_sector import PINION, coarse_condensed_sector, coarse_sector_mesh, flank_motion
+
+from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.ring import centre_motion, ring_stiffness
+
+TEETH = (0, 1, 5)
+
+
+def check_kernel(stiffness, rigid, what, measured):
+    """Exact identities: `norm(S R) / norm(S)` with R orthonormal, symmetry, and the fourth eigenvalue."""
+    basis = np.linalg.qr(rigid)[0]
+    in_kernel = np.linalg.norm(stiffness @ basis) / np.linalg.norm(stiffness)
+    asymmetry = np.abs(stiffness - stiffness.T).max() / np.abs(stiffness).max()
+    # The centre's rotation is in rad, all else in mm: lengths make the eigenvalues comparable.
+    eigenvalues = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.T)) / np.linalg.norm(stiffness, 2)
+    measured(f"{what}: norm(S R)/norm(S)", in_kernel, "1e-10")
+    measured(f"{what}: asymmetry", asymmetry, "1e-12")
+    measured(f"{what}: third and fourth eigenvalue over the largest", f"{np.abs(eigenvalues[:3]).max():.1g}, {eigenvalues[3]:.2g}",
+             "1e-10, above 1e-6")  # fmt: skip
+    assert in_kernel <= 1e-10
+    assert asymmetry <= 1e-12
+    assert np.abs(eigenvalues[:3]).max() <= 1e-10
+    assert eigenvalues[3] > 1e-6
+
+
+@pytest.mark.parametrize("poissons_ratio", [0.0, 0.3, 0.499])
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_kernel_of_a_sector(name, poissons_ratio, measured):
+    """A sector condensed by PETSc onto flank, cuts and hub: it floats."""
+    sector = coarse_condensed_sector(name, poissons_ratio)
+    points = np.vstack(list(sector.points.values()))
+    check_kernel(sector.stiffness, centre_motion(points), f"sector, {name}, nu = {poissons_ratio:g}", measured)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_kernel_of_the_gear(name, measured):
+    """The ring of sectors over the flanks of three teeth and the centre (dx, dy, phi), the couple taken at the tip radius."""
+    sector = coarse_condensed_sector(name)
+    stiffness = ring_stiffness(sector, PINION.teeth, TEETH)
+    rigid = np.vstack([flank_motion(sector, PINION, TEETH), np.eye(3)])
+    as_lengths = np.ones(len(stiffness))
+    as_lengths[-1] = PINION.tip_radius
+    check_kernel(stiffness / np.outer(as_lengths, as_lengths), as_lengths[:, None] * rigid, f"gear, {name}", measured)
+
+
+def test_kernel_of_any_part_of_the_boundary(measured):
+    """Condensed onto a handful of nodes only, which no cut or hub supports."""
+    mesh = coarse_sector_mesh("P2")
+    points = {"flank": mesh.edge_nodes("flank", 2)[:4]}
+    body = condense(mesh, ELEMENTS["P2"], 0.3, points)
+    check_kernel(body.stiffness, centre_motion(points["flank"]), "four nodes, P2", measured)

@@ -1,0 +1,76 @@
+"""Row 6: condensing a sector and joining a ring of them is only another way to solve the whole gear."""
+
+from functools import lru_cache
+from math import radians
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import splu
+from tests.coarse_sector import PINION, STEEL, coarse_condensed_sector, coarse_sector_mesh, relative
+
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.condensation import by_radius
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.ring import condensed_sector, ring_compliance, rotation
+from fenics_gears.elasticity.sector_mesh import sector_mesh, whole_gear_mesh
+from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_form
+from fenics_gears.elasticity.whole_gear import whole_gear_compliance
+from fenics_gears.geometry.gear import Gear
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_ring_equals_fully_meshed_gear(name, measured):
+    """Exact identity: the ring of sectors is the whole gear, both condensed."""
+    ring = ring_compliance(coarse_condensed_sector(name), PINION.teeth, 3) / STEEL.youngs_modulus
+    mesh = whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)
+    whole = whole_gear_compliance(mesh, PINION, STEEL, element=name, tooth_offsets=3)
+    difference = max(relative(ring[offset] - whole.blocks[offset], whole.blocks[offset]) for offset in range(4))
+    measured(f"ring against whole gear, {name}", difference, "1e-9")
+    assert difference <= 1e-9
+
+
+def test_ring_of_an_odd_number_of_teeth(measured):
+    """Exact identity as above; with an odd number no harmonic but the mean is its own conjugate."""
+    gear = Gear(13, 2.0, radians(20.0), 0.3, 15.6, 11.1, 5.0, 0.76)
+    mesh = sector_mesh(gear, ElementSizes(flank=0.5, fillet=0.3, coast=0.6, body=1.5))
+    ring = ring_compliance(condensed_sector(mesh, ELEMENTS["P2"], 0.3), 13, 12) / STEEL.youngs_modulus
+    whole = whole_gear_compliance(whole_gear_mesh(mesh, 13), gear, STEEL, tooth_offsets=12)
+    difference = relative(ring - whole.blocks, whole.blocks)
+    measured("ring against whole gear, 13 teeth, P2, all offsets", difference, "1e-9")
+    assert difference <= 1e-9
+
+
+@lru_cache
+def held_gear(name: str):
+    """The whole gear's own system, hub held, factorised by SuperLU: its displacement space, free dofs, factors."""
+    element, mesh = ELEMENTS[name], whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)
+    space = displacement_space(mesh, element)
+    matrix = adapter.assemble_matrix(stiffness_form(space, element, 0.3))
+    rows, columns, values = matrix.getValuesCSR()
+    stiffness = csr_matrix((values, columns, rows), shape=matrix.getSize())
+    hub = nodes_at(space, mesh.edge_nodes("hub", element.order))
+    free = np.setdiff1d(np.arange(stiffness.shape[0]), (2 * hub[:, None] + [0, 1]).ravel())
+    return mesh, space, free, splu(stiffness[free][:, free].tocsc())
+
+
+@pytest.mark.parametrize("name", ["P1", "P2", "Q2"])
+def test_condensed_equals_uncondensed(name, measured):
+    """Exact identity: the full system of the whole gear, solved for random forces on a flank by another solver than PETSc."""
+    element = ELEMENTS[name]
+    mesh, space, free, factors = held_gear(name)
+    flank, ahead = (nodes_at(space, by_radius(mesh.edge_nodes(f"flank {tooth}", element.order))) for tooth in (0, 1))
+    forces = np.random.default_rng(6).normal(size=(2 * len(flank), 3))
+    right = np.zeros((2 * len(adapter.node_coordinates(space)), 3))
+    right[(2 * flank[:, None] + [0, 1]).ravel()] = forces
+    displacement = np.zeros_like(right)
+    displacement[free] = factors.solve(right[free])
+    blocks = ring_compliance(coarse_condensed_sector(name), PINION.teeth, 1)
+    differences = []
+    for offset, nodes in enumerate((flank, ahead)):
+        into_frame = np.kron(np.eye(len(nodes)), rotation(offset * PINION.angular_pitch)).T
+        found, expected = blocks[offset] @ forces, into_frame @ displacement[(2 * nodes[:, None] + [0, 1]).ravel()]
+        differences.append(relative(found - expected, expected))
+    measured(f"condensed against uncondensed, {name}", max(differences), "1e-9")
+    assert max(differences) <= 1e-9
