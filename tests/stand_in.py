@@ -5,10 +5,11 @@ import numpy as np
 from fenics_gears.elasticity.compliance import FlankCompliance
 
 
-def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=6e-6, tooth=1.5e-5) -> FlankCompliance:
+def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=6e-6, tooth=1.5e-5, coast_flank=False) -> FlankCompliance:
     """Symmetric positive definite compliance: a tooth that bends (more at its tip) and yields locally, coupled to its neighbours.
 
-    `local`, `tooth`: mm per N/mm, of the size that steel teeth of module 4.5 mm have.
+    `local`, `tooth`: mm per N/mm, of the size that steel teeth have. With `coast_flank` the tooth carries that flank along as it
+    bends: away from it, as the mirrored frame sees it.
     """
     arc = np.linspace(
         0.5 * gear.base_radius * gear.form_roll_angle**2,
@@ -16,13 +17,16 @@ def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=
         element_order * elements + 1,
     )
     height = (arc - arc[0]) / (arc[-1] - arc[0])
-    kernel = np.exp(-np.abs(arc[:, None] - arc[None, :]) / 0.3)
+    kernel = np.exp(-np.abs(arc[:, None] - arc[None, :]) / (gear.module / 15.0))
     bending = np.outer(0.2 + height, 0.2 + height)
+    if coast_flank:
+        nothing, sides = np.zeros_like(kernel), np.array([[1.0, -1.0], [-1.0, 1.0]])
+        kernel, bending = np.block([[kernel, nothing], [nothing, kernel]]), np.kron(sides, bending)
     blocks = []
     for offset in range(offsets + 1):
         share = 0.1**offset
         normal = share * tooth * bending + (local * kernel if offset == 0 else 0.0)
-        block = np.zeros((2 * len(arc), 2 * len(arc)))
+        block = np.zeros((2 * len(normal), 2 * len(normal)))
         block[0::2, 0::2], block[1::2, 1::2] = normal, 0.5 * normal
         blocks.append(block)
-    return FlankCompliance(np.sqrt(2.0 * arc / gear.base_radius), element_order, np.array(blocks))
+    return FlankCompliance(np.sqrt(2.0 * arc / gear.base_radius), element_order, np.array(blocks), flanks=2 if coast_flank else 1)

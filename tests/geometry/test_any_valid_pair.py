@@ -1,45 +1,15 @@
 """What holds for every pair that the checks let pass."""
 
 from dataclasses import replace
-from math import radians
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.random_pairs import valid_pairs
 
-from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.gear_checks import check_gear
 from fenics_gears.geometry.involute import involute_function
 from fenics_gears.geometry.outline import fillet_end, fillet_speed, tooth_outline
-from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.pair_checks import check_pair
-
-PROPORTIONS = st.tuples(
-    st.integers(6, 90), st.floats(-0.5, 1.0), st.floats(0.6, 1.3), st.floats(1.0, 1.5), st.floats(0.0, 0.45)
-)
-
-
-@st.composite
-def valid_pairs(draw):
-    module, alpha = draw(st.floats(0.5, 20.0)), radians(draw(st.floats(17.0, 27.0)))
-    gears = []
-    for _ in range(2):
-        teeth, shift, addendum, dedendum, rounding = draw(PROPORTIONS)
-        pitch = 0.5 * teeth + shift
-        tip, root = module * (pitch + addendum), module * (pitch - dedendum)
-        gears.append(Gear(teeth, module, alpha, shift, tip, root, bore_radius=module, rack_tip_radius=module * rounding))
-    bases = gears[0].base_radius + gears[1].base_radius
-    touching = GearPair(*gears, centre_distance=bases, face_width=1.0).centre_distance_without_backlash
-    pair = GearPair(*gears, centre_distance=touching + module * draw(st.floats(0.0, 0.1)), face_width=1.0)
-    try:
-        check_gear(pair.pinion, "pinion")
-        check_gear(pair.wheel, "wheel")
-        check_pair(pair)
-    except GeometryError:
-        assume(False)
-    return pair
 
 
 @settings(max_examples=60, deadline=None)

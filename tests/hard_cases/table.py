@@ -30,15 +30,18 @@ class Collector:
         self.tests = defaultdict(lambda: defaultdict(int))
 
     def pytest_runtest_logreport(self, report):
-        """Count the test for its row, and keep the lines that it recorded."""
+        """Count the test for its file's row, or else for the rows that it recorded for, and keep the lines that it recorded."""
         name = Path(report.fspath).name
-        if not name.startswith("test_row_") or (report.when != "call" and report.outcome == "passed"):
+        if report.when != "call" and report.outcome == "passed":
             return
-        self.tests[int(name[9:11])][report.outcome] += 1
+        rows = {int(name[9:11])} if name.startswith("test_row_") else set()
         for kind, line in report.user_properties:
             if kind == "hard_case":
                 row, what, value, limit = line.split("|")
                 self.measured[int(row)][what] = (value, limit)
+                rows.add(int(row))
+        for row in rows:
+            self.tests[row][report.outcome] += 1
 
 
 def page(collector: Collector) -> str:

@@ -1,0 +1,128 @@
+"""What must hold at every step of every run (rows 1 to 3), computed from the equations and not from what the solver says of itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from tests.contact.laws_of_contact import law_residual
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.operator import rigid_rows
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.model import Model
+from fenics_gears.results import dataset
+from fenics_gears.simulation import Compliances, mesh_cycle
+
+
+@dataclass(frozen=True)
+class Run:
+    """A march with all of its steps, and the contact that they were solved on; `failure` where a step did not converge."""
+
+    built: Model
+    marcher: Marcher
+    records: list
+    failure: ContactNotConverged | None = None
+
+    @property
+    def friction(self) -> float:
+        """Coefficient of friction, 0 without."""
+        return self.built.scene.friction.coefficient if self.built.scene.friction else 0.0
+
+
+def run_of(built: Model, compliances: Compliances) -> Run:
+    """March a scene on given gears and keep every step; its result is made too, and must hold no NaN where nodes stand."""
+    cycle = mesh_cycle(built, compliances)
+    friction = built.scene.friction.coefficient if built.scene.friction else 0.0
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.follows_statics)
+    try:
+        march = marcher.run(built.steps, built.steps + 1)
+    except ContactNotConverged as failure:
+        return Run(built, marcher, list(failure.partial.records), failure)
+    result = dataset(built.scene, cycle, built.drivetrain, march, built.time_step)
+    for name, variable in result.data_vars.items():
+        assert np.all(np.isfinite(variable)) or name.endswith(("contact_offset", "contact_roll_angle", "_opening")), name
+    return Run(built, marcher, list(march.records))
+
+
+def worst_of(run: Run) -> dict[str, float]:
+    """The worst of all steps, each in parts of what it is measured by (the keys' docstring is `step_residuals`)."""
+    worst: dict[str, float] = {}
+    for before, record in zip([None, *run.records], run.records):
+        for name, value in step_residuals(run, before, record).items():
+            worst[name] = max(worst.get(name, 0.0), value)
+    return worst
+
+
+def step_residuals(run: Run, before, record) -> dict[str, float]:
+    """How far one step misses rows 1 to 3; `before` is the step before it, None at the start.
+
+    penetration: um. tension, cone, equilibrium: of the largest force of the step. complementarity: p_n gap of that force
+    times the largest length that a gap is the difference of (centre coordinates, deflections, gaps). wrong_way: -p_t slip
+    likewise; dissipation: the same of the sum. sum_of_forces, sum_of_moments, couples_by_base_radii: of the sum of all nodal
+    forces (times the centre distance).
+    """
+    operator, forces = record.position.operator, record.solution.forces
+    n = operator.nodes
+    displacement = operator.rigid @ record.state.position - operator.compliance @ forces
+    slip_before = None if before is None else _slip_before(operator, before)
+    laws = law_residual(forces, displacement, operator.gap, slip_before, run.friction)
+    load = float(np.abs(run.built.drivetrain.load).max())
+    force = max(float(np.abs(forces).max(initial=0.0)), load, 1e-3)
+    terms = (operator.gap, record.state.position, operator.compliance @ forces)
+    length = max(float(np.abs(each).max(initial=0.0)) for each in terms)
+    found = {
+        "penetration": 1e3 * laws["penetration"],
+        "tension": laws["tension"] / force,
+        "complementarity": float(np.max(np.abs(forces[:n] * (operator.gap - displacement[:n])), initial=0.0)) / (force * length),
+    }
+    if len(forces) > n and slip_before is not None:
+        slip = displacement[n:] + slip_before
+        path = max(length, float(np.abs(slip).max(initial=0.0)))
+        found["cone"] = laws["cone_excess"] / force
+        found["wrong_way"] = laws["wrong_way"] / (force * path)
+        found["dissipation"] = max(-float(forces[n:] @ slip), 0.0) / (force * path)
+    return found | _action_and_reaction(run, operator, forces) | _equilibrium(run, record, force)
+
+
+def _slip_before(operator, before) -> np.ndarray | None:
+    if operator.sliding is None:
+        return None
+    return operator.sliding - (operator.previous_rigid @ before.state.position - operator.previous_compliance @ before.solution.forces)
+
+
+def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, float]:
+    """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero, whatever the forces are."""
+    pair = run.built.pair
+    (radius_1, radius_2), frictional = operator.base_radii, len(forces) > operator.nodes
+    rows = rigid_rows(operator.pairs, operator.base_radii, operator.normal_arms, tangential=frictional)
+    on_pinion, on_wheel = -(rows.T @ forces)[:3], -(rows.T @ forces)[3:6]
+    total = float(np.abs(forces).sum()) or 1.0
+    # In the frame of the drive flanks' line of action, the wheel's centre seen from the pinion's.
+    across, along = -(radius_1 + radius_2), pair.line_of_action_length
+    couple = radius_1 * on_pinion[2] + radius_2 * on_wheel[2] + (along * on_wheel[1] - across * on_wheel[0])
+    if frictional:
+        # Friction acts on either flank where that stands undeformed: the flanks' distance there is its arm (small displacements).
+        distance = pair.line_of_action_length - sum(operator.arms)
+        turn = np.concatenate([np.full(len(each.offsets), each.place.turn) for each in operator.pairs])
+        couple -= float(forces[operator.nodes :] @ (turn * distance))
+    found = {
+        "sum_of_forces": float(np.abs(on_pinion[:2] + on_wheel[:2]).max()) / total,
+        "sum_of_moments": abs(couple) / (total * pair.centre_distance),
+    }
+    if not frictional:
+        found["couples_by_base_radii"] = abs(on_pinion[2] - on_wheel[2]) / total
+    return found
+
+
+def _equilibrium(run: Run, record, force: float) -> dict[str, float]:
+    """Without masses springs, load and contact balance at every step."""
+    train = run.built.drivetrain
+    if train.mass is not None:
+        return {}
+    operator = record.position.operator
+    springs = train.stiffness @ record.state.position
+    left = springs + operator.rigid.T @ record.solution.forces - train.load
+    # Round-off of stiff springs' forces is part of what they carry.
+    scale = max(force, float(np.abs(train.stiffness).max() * np.abs(record.state.position).max()))
+    return {"equilibrium": float(np.abs(left).max()) / scale}

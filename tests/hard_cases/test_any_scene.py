@@ -1,0 +1,102 @@
+"""Rows 1 to 3 at every step of scenes drawn at random: any valid gears, loads over six decades, springs over nine, any set of effects.
+
+A step converges, or the run ends with a typed error; without friction the step is a convex problem, whose solution exists wherever the
+load closes the contact, and no error is accepted. Each law's limit is that of hard_cases.md; the exact ones are round-off of what a
+residual is the difference of.
+"""
+
+import pytest
+from hypothesis import event, given, settings
+from tests.hard_cases.invariants import run_of, worst_of
+from tests.hard_cases.random_scenes import valid_scenes
+from tests.stand_in import stand_in_compliance
+
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.simulation import gear_compliances, tooth_reach
+
+# Row, words, limit and unit of each residual of `invariants.step_residuals`.
+LAWS = {
+    "penetration": (1, "largest penetration", 1e-4, "um"),
+    "tension": (1, "largest tension, of the load", 1e-6, ""),
+    "complementarity": (1, "p_n gap, of load times length", 1e-10, ""),
+    "cone": (2, "friction beyond the cone, of the load", 1e-6, ""),
+    "wrong_way": (2, "friction along the slip, of load times length", 1e-10, ""),
+    "dissipation": (2, "energy gained by friction, of load times length", 1e-10, ""),
+    "sum_of_forces": (3, "sum of forces on the two gears", 1e-12, ""),
+    "sum_of_moments": (3, "sum of their moments", 1e-12, ""),
+    "couples_by_base_radii": (3, "T1/rb1 - T2/rb2 without friction", 1e-12, ""),
+    "equilibrium": (3, "springs, load and contact out of balance, quasi-static", 1e-6, ""),
+}
+REASONS = ("no equilibrium", "self-locking", "more than one solution")
+
+
+class Tally:
+    """The worst of each law over all scenes, and how the scenes ended."""
+
+    def __init__(self):
+        self.worst, self.scenes, self.steps, self.failed = {}, 0, 0, 0
+
+    def judge(self, scene, compliances_of):
+        """Run a scene and hold every step against the laws."""
+        built = model(scene)
+        run = run_of(built, compliances_of(built))
+        self.scenes, self.steps, self.failed = self.scenes + 1, self.steps + len(run.records), self.failed + (run.failure is not None)
+        event("converged" if run.failure is None else run.failure.reason)
+        residuals = worst_of(run)
+        for name, value in residuals.items():
+            self.worst[name] = max(self.worst.get(name, 0.0), value)
+        for name, value in residuals.items():
+            assert value <= LAWS[name][2], f"{name}: {value}\n{scene.text}"
+        if run.failure is not None:
+            assert scene.friction is not None and run.failure.reason.startswith(REASONS), f"{run.failure}\n{scene.text}"
+
+    def tell(self, measured, gears):
+        """A line of the table for each law."""
+        for name, value in self.worst.items():
+            row, words, limit, unit = LAWS[name]
+            measured(f"{words}, {gears}", value, f"{limit:g} {unit}".rstrip(), unit, row=row)
+        ended = f"{self.scenes} scenes, {self.steps} steps, {self.failed} typed errors"
+        measured(f"scenes drawn at random, {gears}", ended, "every step converges or the error is typed", row=1)
+
+
+def on_stand_ins(built):
+    """Teeth without finite elements."""
+    reach, coast = tooth_reach(built), built.scene.coast_flanks is not None
+    return tuple(stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (built.pair.pinion, built.pair.wheel))
+
+
+def on_elements(cache):
+    """The real teeth, coarse."""
+    return lambda built: gear_compliances(built, SilentProgress(), cache)
+
+
+def judged(tally, measured, gears, compliances_of, examples):
+    """Draw scenes, judge each, and tell the worst also where one fails."""
+
+    @settings(max_examples=examples)
+    @given(valid_scenes())
+    def every_scene(scene):
+        tally.judge(scene, compliances_of)
+
+    try:
+        every_scene()
+    finally:
+        tally.tell(measured, gears)
+
+
+def test_every_step_of_any_scene_on_stand_in_teeth(measured):
+    """Authority: the contact laws and Newton's third law, from the equations; teeth without finite elements, so that many can be drawn."""
+    judged(Tally(), measured, "stand-in teeth", on_stand_ins, 60)
+
+
+def test_every_step_of_any_scene(measured, tmp_path):
+    """Authority: as above, on finite elements of the drawn gears."""
+    judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 12)
+
+
+@pytest.mark.nightly
+def test_every_step_of_hundreds_of_scenes(measured, tmp_path):
+    """Authority: as above, by the hundred."""
+    judged(Tally(), measured, "finite elements, by night", on_elements(Cache(tmp_path)), 400)
