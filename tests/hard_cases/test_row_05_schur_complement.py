@@ -18,23 +18,24 @@ def check_kernel(stiffness, rigid, what, measured):
     asymmetry = np.abs(stiffness - stiffness.T).max() / np.abs(stiffness).max()
     # The centre's rotation is in rad, all else in mm: lengths make the eigenvalues comparable.
     eigenvalues = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.T)) / np.linalg.norm(stiffness, 2)
-    measured(f"{what}: norm(S R)/norm(S)", in_kernel, "1e-10")
-    measured(f"{what}: asymmetry", asymmetry, "1e-12")
-    measured(f"{what}: third and fourth eigenvalue over the largest", f"{np.abs(eigenvalues[:3]).max():.1g}, {eigenvalues[3]:.2g}",
-             "1e-10, above 1e-6")  # fmt: skip
+    measured(
+        f"{what}: norm(S R)/norm(S), asymmetry, third and fourth eigenvalue",
+        f"{in_kernel:.1g}, {asymmetry:.1g}, {np.abs(eigenvalues[:3]).max():.1g}, {eigenvalues[3]:.1g}",
+        "1e-10, 1e-12, 1e-10, above 1e-6",
+    )
     assert in_kernel <= 1e-10
     assert asymmetry <= 1e-12
     assert np.abs(eigenvalues[:3]).max() <= 1e-10
     assert eigenvalues[3] > 1e-6
 
 
-@pytest.mark.parametrize("poissons_ratio", [0.0, 0.3, 0.499])
+@pytest.mark.parametrize("poissons_ratio", [0.3, 0.499])
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_kernel_of_a_sector(name, poissons_ratio, measured):
     """A sector condensed by PETSc onto flank, cuts and hub: it floats."""
     sector = coarse_condensed_sector(name, poissons_ratio)
     points = np.vstack(list(sector.points.values()))
-    check_kernel(sector.stiffness, centre_motion(points), f"sector, {name}, nu = {poissons_ratio:g}", measured)
+    check_kernel(sector.stiffness, centre_motion(points), f"sector, {name}, nu {poissons_ratio:g}", measured)
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
