@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+from fenics_gears.contact.ladder import LADDER, PUBLISHED
+from fenics_gears.resolution import EVERY_STEP
+
 MICROMETRES = 1e3
 
 # The stages of a run whose wall time the result carries, and what they are called.
@@ -27,6 +30,18 @@ def summary_rows(dataset) -> list[tuple[str, str, str]]:
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
+    rows += _rungs(dataset.attrs)
     rows += [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
     rows += [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
     return rows
+
+
+def _rungs(attributes) -> list[tuple[str, str, str]]:
+    """How often a step needed a rung of the fallback ladder beyond its route's own method; nothing where none did."""
+    own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else LADDER[0]
+    start = "steps_by_rung: "
+    used = {name.removeprefix(start): int(count) for name, count in attributes.items() if name.startswith(start)}
+    used.pop(own, None)
+    if not used:
+        return []
+    return [("steps solved by the fallback ladder", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]

@@ -7,6 +7,7 @@ import numpy as np
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import over_nodes
+from fenics_gears.contact.uniqueness import uncertified
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record
 
@@ -18,10 +19,10 @@ ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March) -> list[str]:
     """Sentences on where a march leaves what the model assumes; empty where it does not.
 
-    Window and rotations are judged by the stored steps, loss of contact by every step done.
+    Window, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
     """
     records = list(march.records)
-    return [*_window(cycle, records), *_rotation(drivetrain, records), *_separation(cycle, march)]
+    return [*_window(cycle, records), *_rotation(drivetrain, records), *_separation(cycle, march), *_locking(cycle, march), *_uniqueness(march)]
 
 
 def _window(cycle: Cycle, records: list[Record]) -> list[str]:
@@ -68,3 +69,28 @@ def _separation(cycle: Cycle, march: March) -> list[str]:
     if march.records and march.separations[-1][0] < march.records[0].step:
         return [beyond + "flanks would touch, which this scene does not have. The stored cycles are in contact throughout"]
     return [beyond + "flanks would touch, which this scene does not have, and the result has no meaning"]
+
+
+def _locking(cycle: Cycle, march: March) -> list[str]:
+    """Friction that turns the wheel back by more than the normal force drives it: forces grow beyond what the load asks for."""
+    if not march.locked:
+        return []
+    return [
+        f"friction locks the teeth (self-locking) in {len(march.locked)} of {march.steps} steps, first in mesh cycle "
+        f"{march.locked[0] / cycle.steps:.2f}: at contact nodes on approach it turns the wheel back by more than the normal force drives "
+        f"it, and the forces grow beyond what the load asks for: lower friction.coefficient (here {march.friction:g})"
+    ]
+
+
+def _uniqueness(march: March) -> list[str]:
+    """Steps at which nothing certifies that the solution is the only one."""
+    if not march.friction:
+        return []
+    solved = ((record.position.operator, record.solution.status, record.solution.forces) for record in march.records)
+    count = uncertified(march.stiffness, march.friction, solved)
+    if not count:
+        return []
+    return [
+        f"in {count} of {len(march.records)} stored steps there may be more than one solution: friction couples the contact nodes so "
+        f"strongly that the one found cannot be certified as the only one (friction.coefficient is {march.friction:g})"
+    ]

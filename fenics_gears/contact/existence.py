@@ -41,6 +41,15 @@ def balance(rigid: np.ndarray, motion: np.ndarray, friction: float, slip_sign: n
     return Balance(normal, normal + friction * slip_sign * along[n:], normal + friction * np.abs(along[n:]))
 
 
+def working(rigid: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Balance:
+    """The same of the nodes that a solution with friction, `forces` (m,), presses, by the friction that acts there; zero elsewhere."""
+    along, n = rigid @ motion, len(forces) // 2
+    pressed = forces[:n] > 0.0
+    normal = np.where(pressed, along[:n], 0.0)
+    share = np.divide(forces[n:], forces[:n], out=np.zeros(n), where=pressed)
+    return Balance(normal, normal + share * along[n:], normal)
+
+
 def locked_nodes(weights: Balance) -> np.ndarray:
     """Nodes (n,) whose normal force holds the load, but whose friction undoes it or more."""
     return (weights.normal > 0.0) & (weights.sliding <= 0.0)

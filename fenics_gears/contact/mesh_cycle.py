@@ -57,8 +57,10 @@ class Cycle:
     """Contact equations over one mesh cycle of `steps` positions of a gear pair, each built when it is first asked for.
 
     A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond; `solve` is how a
-    step at a position is solved.
+    step at a position is solved; `divisible`: whether there are positions between the steps.
     """
+
+    divisible = False
 
     def __init__(self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False):
         self.pair, self.grid, self.steps, self.coast_flanks = pair, grid, steps, coast_flanks
@@ -69,8 +71,15 @@ class Cycle:
         """The contact equations at `step` (any integer)."""
         index = step % self.steps
         if index not in self._positions:
-            self._positions[index] = self._build(index)
+            self._positions[index] = self._build(index, index - 1)
         return self._positions[index]
+
+    def between(self, step: float, before: float) -> Position:
+        """The contact equations at `step`, counted on from those at `before`, where both may lie between whole steps; not kept.
+
+        Only of a route that is `divisible`. Whole halves, quarters and so on: `step` decides exactly which pairs touch.
+        """
+        return self._build(step, before)
 
     def pair_number(self, step: int, index: int | np.ndarray):
         """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle `c`."""
@@ -88,17 +97,26 @@ class Cycle:
     def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
         """The tooth pairs that can touch at position `index` (0 to steps - 1)."""
         if index not in self._pairs:
-            built = (self._pair(place) for place in pair_places(self.pair, self.grid, index / self.steps, self.coast_flanks))
-            self._pairs[index] = tuple(pair for pair in built if pair is not None)
+            self._pairs[index] = self._pairs_of(index)
         return self._pairs[index]
 
-    def _build(self, index: int) -> Position:
-        pairs, previous = self.pairs_at(index), self.pairs_at((index - 1) % self.steps)
-        if index == 0:
+    def _build(self, step: float, before: float) -> Position:
+        (cycle, index), (earlier, previous_index) = divmod(step, self.steps), divmod(before, self.steps)
+        pairs, previous = self._pairs_near(index), self._pairs_near(previous_index)
+        if cycle != earlier:
             # Passing the end of a cycle every pair's index rises by one.
-            previous = tuple(replace(pair, place=replace(pair.place, index=pair.place.index + 1)) for pair in previous)
+            passed = int(cycle - earlier)
+            previous = tuple(replace(pair, place=replace(pair.place, index=pair.place.index + passed)) for pair in previous)
         carried = carried_nodes(pairs, previous, self.grid.spacing)
-        return self._position(index, pairs, previous, self.pair.pinion.angular_pitch / self.steps, carried)
+        return self._position(index, pairs, previous, self.pair.pinion.angular_pitch * (step - before) / self.steps, carried)
+
+    def _pairs_near(self, index: float) -> tuple[PairNodes, ...]:
+        """The tooth pairs at a position that may lie between two steps; only those of whole steps are kept."""
+        return self.pairs_at(int(index)) if index == int(index) else self._pairs_of(index)
+
+    def _pairs_of(self, index: float) -> tuple[PairNodes, ...]:
+        built = (self._pair(place) for place in pair_places(self.pair, self.grid, index / self.steps, self.coast_flanks))
+        return tuple(pair for pair in built if pair is not None)
 
     def _pair(self, place: Place) -> PairNodes | None:
         raise NotImplementedError
@@ -113,6 +131,8 @@ class MeshCycle(Cycle):
 
     `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.
     """
+
+    divisible = True
 
     def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, coordinates: list[int], tangential: bool):
         super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2)

@@ -12,7 +12,11 @@ serves where inertia makes K regular but little: its part of D M is then b b^T/l
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
+
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, STICK
 
 # Below this part of the largest eigenvalue a stiffness holds nothing.
 SINGULAR = 1e-14
@@ -53,6 +57,25 @@ def is_only_solution(
         return False
     across = _across(with_friction)
     return _positive(across.T @ weighted @ across)
+
+
+def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int:
+    """How many solutions have no certificate; `solved`: contact operator, status (n,) and forces (m,), N, of each.
+
+    Cycles repeat the same operators and sets: each of them is judged once, where no node sticks.
+    """
+    known: dict[tuple, bool] = {}
+    count = 0
+    for operator, status, forces in solved:
+        n = len(status)
+        sigma = np.where(status == SLIP_BACKWARD, -1.0, 1.0)
+        stick = np.flatnonzero(status == STICK)
+        sigma[stick] = forces[n + stick] / (friction * np.maximum(forces[stick], np.finfo(float).tiny))
+        key = id(operator), sigma.tobytes(), status.tobytes()
+        if key not in known:
+            known[key] = is_only_solution(stiffness, operator.compliance, operator.rigid, friction, status != OPEN, sigma)
+        count += not known[key]
+    return count
 
 
 def _across(direction: np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Inertia, Scene
 
+FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 TRANSLATIONS = ("centre_x1", "centre_y1", "centre_x2", "centre_y2")
 
 
@@ -45,6 +46,16 @@ class Drivetrain:
         motion = vectors[:, 0]
         along = motion @ self.load or -motion[self.coordinates.index("rotation_2")]
         return motion * np.sign(along)
+
+    @property
+    def free_words(self) -> str:
+        """The free motion and the load that works on it, in words; empty where there is none."""
+        motion = self.free_motion
+        if not len(motion):
+            return ""
+        turning = int(np.argmax(np.abs(motion)))
+        couple = 1e-3 * self.load[turning] * self.radii[turning]
+        return f"{FREE.get(self.coordinates[turning], 'the drivetrain')} turns freely under its couple of {couple:.4g} N m"
 
     def value(self, states: np.ndarray, name: str) -> np.ndarray:
         """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it fixed."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, cold_start
+from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
+from fenics_gears.contact.existence import locked_nodes, working
+from fenics_gears.contact.ladder import HALVED, RUNGS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.mesh_cycle import Cycle, Position
@@ -22,13 +23,15 @@ SECONDS_BETWEEN_REPORTS = 0.1
 NO_SLIP = np.empty(0)
 # The start assumes long sliding before it: as much slip as this many steps bring.
 STEPS_SLID_BEFORE_START = 1e6
+# A step is divided in two this often: the shortest is 1/64 of a step.
+MOST_HALVINGS = 6
 
 
 @dataclass(frozen=True)
 class Record:
-    """What one stored step holds: the step's number, the state and the contact solution there."""
+    """What one step holds: its number (between whole numbers where a step was divided), the state and the contact solution there."""
 
-    step: int
+    step: float
     state: State
     position: Position
     solution: StepSolution
@@ -39,14 +42,20 @@ class March:
     """What a march has produced so far.
 
     `records`: the last steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
-    `separations`: step and smallest opening (mm) of every step at which no drive flank touched; `interrupted`: stopped by the user.
+    `separations`: step and smallest opening (mm) of every step at which no drive flank touched; `locked`: steps at which friction
+    locks a closed node (`contact.existence`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
+    (k, k), N/mm: of every step.
     """
+
+    friction: float
+    stiffness: np.ndarray
 
     records: deque[Record] = field(default_factory=deque)
     newton_iterations: int = 0
     steps: int = 0
     rungs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RUNGS, 0))
     separations: list[tuple[int, float]] = field(default_factory=list)
+    locked: list[int] = field(default_factory=list)
     interrupted: bool = False
     seconds: float = 0.0
 
@@ -75,7 +84,9 @@ class Marcher:
         )
         self.static = AverageAcceleration(static_drivetrain, time_step)
         self.tolerance = Tolerance.of_load(float(np.abs(drivetrain.load).max()))
-        self._free_motion = drivetrain.free_motion
+        self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
+        # Friction's arm is longest at the wheel's tip; below this coefficient it never outweighs the normal force there.
+        self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
         self._follows_statics = follows_statics
 
     def run(self, steps: int, kept: int, report: Callable[[int, int], None] | None = None) -> March:
@@ -88,7 +99,8 @@ class Marcher:
             return self._run(steps, kept, report)
 
     def _run(self, steps: int, kept: int, report: Callable[[int, int], None] | None) -> March:
-        march, begun, reported = March(deque(maxlen=kept)), time.perf_counter(), 0.0
+        march = March(self.friction, self.dynamic.stiffness, deque(maxlen=kept))
+        begun, reported = time.perf_counter(), 0.0
         try:
             record = self.start()
             march.records.append(record)
@@ -99,6 +111,8 @@ class Marcher:
                 march.records.append(record)
                 if not record.solution.status[record.position.operator.on_drive_flanks].any():
                     march.separations.append((step, smallest_opening(record)))
+                if self._may_lock and self._locks(record):
+                    march.locked.append(step)
                 now = time.perf_counter()
                 if report is not None and now - reported > SECONDS_BETWEEN_REPORTS:
                     report(step, steps)
@@ -131,8 +145,37 @@ class Marcher:
         return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
 
     def step(self, scheme: AverageAcceleration, last: Record, step: int) -> Record:
-        """One step of `scheme` from `last`."""
-        position = self.cycle.position(step)
+        """One step of `scheme` from `last`; divided where it has no solution as a whole."""
+        try:
+            return self._part(scheme, last, step, self.cycle.position(step))
+        except ContactNotConverged as failure:
+            # Without friction a static solution does not depend on the way to it.
+            depends_on_way = scheme.inert or self.friction > 0.0
+            if not (depends_on_way and self.cycle.divisible) or isinstance(failure, NoStaticEquilibrium):
+                raise
+            try:
+                return self._divided(scheme, last, step, failure, 1)
+            except ContactNotConverged as last_failure:
+                _, _, history, sets = last_failure.attempts[-1]
+                words = f"no solution at {last_failure.step:.6g} with a step {2**MOST_HALVINGS} times as short"
+                failure.attempts.append((HALVED, words, history, sets))
+                raise failure
+
+    def _divided(self, scheme: AverageAcceleration, last: Record, step: float, failure, halvings: int) -> Record:
+        """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the shortest."""
+        if halvings > MOST_HALVINGS:
+            raise failure
+        record, iterations, finer = last, 0, scheme.halved()
+        for end in (0.5 * (last.step + step), step):
+            try:
+                record = self._part(finer, record, end, self.cycle.between(end, record.step))
+            except ContactNotConverged as failed:
+                record = self._divided(finer, record, end, failed, halvings + 1)
+            iterations += record.solution.iterations
+        return replace(record, solution=replace(record.solution, iterations=iterations, rung=RUNGS.index(HALVED)))
+
+    def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
+        """From `last` to `position` in one go."""
         operator = position.operator
         slip_before = NO_SLIP
         if operator.sliding is not None:
@@ -147,6 +190,13 @@ class Marcher:
         solution = self._solve(scheme, scheme.load(last.state), position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 
+    def _locks(self, record: Record) -> bool:
+        """Whether friction at a closed node works against the load by more than its normal force holds."""
+        motion = np.zeros(len(self.drivetrain.coordinates))
+        wheel = self.drivetrain.coordinates.index("rotation_2")
+        motion[wheel] = np.sign(self.drivetrain.load[wheel])
+        return bool(locked_nodes(working(record.position.operator.rigid, motion, record.solution.forces)).any())
+
     def _static_start(self, step: int) -> Record:
         position = self.cycle.position(step)
         operator = position.operator
@@ -157,11 +207,11 @@ class Marcher:
         solution = self._solve(self.static, self.static.load(state), position, slip_before, status, step)
         return Record(step, State(solution.coordinates, rest, rest), position, solution)
 
-    def _solve(self, scheme, load, position: Position, slip_before, status, step: int, last=None) -> StepSolution:
+    def _solve(self, scheme, load, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
         operator = position.operator
         problem = StepProblem(
             scheme.stiffness, load, operator.compliance, operator.rigid, operator.gap, slip_before,
-            self.friction, np.empty(0) if scheme.inert else self._free_motion, self.tolerance,
+            self.friction, np.empty(0) if scheme.inert else self._free_motion, self.tolerance, self._free_words,
         )  # fmt: skip
         try:
             return self.cycle.solve(position, problem, status, last)
