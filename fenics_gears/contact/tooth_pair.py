@@ -73,8 +73,8 @@ class PairNodes:
     """Contact nodes (n,) of the flanks at `place`.
 
     `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open), `pinion_arm` and `wheel_arm` (mm: distance from the tangent points T1 and T2 along the line of action),
-    `pinion_roll` (rad).
+    open), `pinion_arm` and `wheel_arm` (mm: distance of the point of contact from the tangent points T1 and T2 along the line of
+    action), `pinion_roll` (rad).
     """
 
     place: Place
@@ -128,6 +128,9 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
     removal = flanks.removal if place.flank == DRIVE else (None, None)
     _, (x_1, x_2), gap = facing_points(flanks.pair, removal, place.contact_rolls, quadrature_offsets(offsets))
     node_rolls = rolls_at(flanks.pair, place.contact_rolls, offsets)
+    # Flanks that deform to touch meet midway between where they stand undeformed. Both forces of friction act there, so that
+    # action and reaction leave no couple.
+    meeting = 0.5 * (hat_average(offsets, x_1 - x_2) + flanks.pair.line_of_action_length)
     interpolation = tuple(
         flank_interpolation(
             offsets, rolls, gear.base_radius, contact_roll, sense, flank.roll_angle, flank.element_order
@@ -141,8 +144,8 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
         offsets=offsets,
         lengths=hat_integrals(offsets),
         gap=hat_average(offsets, gap),
-        pinion_arm=hat_average(offsets, x_1),
-        wheel_arm=hat_average(offsets, x_2),
+        pinion_arm=meeting,
+        wheel_arm=flanks.pair.line_of_action_length - meeting,
         pinion_roll=node_rolls[0],
         interpolation=interpolation,
     )
