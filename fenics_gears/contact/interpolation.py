@@ -73,8 +73,9 @@ def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, vertex_
                 arc = start + point * (end - start)
                 turn = contact_roll - math.sqrt(2.0 * arc / base_radius)
                 roll = contact_roll - turn
-                height = base_radius * (math.cos(turn) - roll * math.sin(turn))
-                right = (sense * (height - base_radius) - offsets[cell]) / width
+                # Height above the line of action: rb cos(v_c - v) - rb v sin(v_c - v) - rb, without cancelling.
+                rise = -base_radius * (2.0 * math.sin(0.5 * turn) ** 2 + roll * math.sin(turn))
+                right = (sense * rise - offsets[cell]) / width
                 measure = share * (end - start) * math.cos(turn)  # dy = cos(v_c - v) ds on an involute
                 local = (arc - vertex_arc[element]) / size
                 for side in range(2):

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product, directions
+from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, ToothPair
 from fenics_gears.elasticity.compliance import FlankCompliance
 
@@ -31,6 +32,8 @@ class ContactOperator:
     here; `previous_compliance` E (n, m of the step before) and `previous_rigid` (n, k): the tangential displacement that
     the material points touching now had at the end of the step before is `previous_rigid q - E p`. The last three are
     None without friction.
+
+    `dependent_rows`: how many rows of the compliance elasticity gave as combinations of others, see `contact.rank`.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -42,6 +45,7 @@ class ContactOperator:
     sliding: np.ndarray | None
     previous_compliance: np.ndarray | None
     previous_rigid: np.ndarray | None
+    dependent_rows: int = 0
 
     @property
     def nodes(self) -> int:
@@ -207,7 +211,7 @@ def contact_operator(
     tangential = previous is not None
     radii = (flanks.pair.pinion.base_radius, flanks.pair.wheel.base_radius)
     arms, own = involute_arms(pairs, radii), own_directions(tangential)
-    compliance = pairing.product(pairs, pairs, own, own, symmetric=True)
+    compliance, dependent = of_full_rank(pairing.product(pairs, pairs, own, own, symmetric=True))
     sliding = previous_compliance = previous_rigid = None
     if tangential:
         # The wheel's roll angle falls as the pinion's rises.
@@ -225,6 +229,7 @@ def contact_operator(
         sliding=sliding,
         previous_compliance=previous_compliance,
         previous_rigid=previous_rigid,
+        dependent_rows=dependent,
     )
 
 
