@@ -60,14 +60,14 @@ def explained(problem, attempts) -> ContactNotConverged:
     words = problem.free_words or f"a load of {np.abs(problem.load).max(initial=0.0):.4g} N moves the drivetrain freely"
     if not len(problem.gap):
         return NoStaticEquilibrium(
-            attempts, f"no static equilibrium: no tooth pair can touch at this position, and nothing else holds the load: {words}"
+            attempts, f"no equilibrium: no tooth pair can touch at this position, and nothing else holds the static load: {words}"
         )
     weights = None
     if len(problem.free_motion):
         weights = balance(problem.rigid, problem.free_motion, problem.friction, np.sign(problem.slip_before))
         if problem.load @ problem.free_motion != 0.0 and weights.most.max() <= 0.0:
             return NoStaticEquilibrium(
-                attempts, f"no static equilibrium: the load pulls the flanks apart, all gaps open and {words}"
+                attempts, f"no equilibrium: the static load pulls the flanks apart, all gaps open and {words}"
             )
     if len(problem.slip_before):
         visited = _visited(attempts)
@@ -124,7 +124,7 @@ def _several(problem, visited: np.ndarray) -> str:
         )
         if not certified:
             return (
-                f"with a friction coefficient of {problem.friction:g} there may be more than one solution, or none: friction couples "
+                f"more than one solution, or none: with a friction coefficient of {problem.friction:g} friction couples "
                 "the closed nodes so strongly that the certificate, sym(W_nn + W_nt diag(sigma mu)) positive definite, fails"
             )
     return ""

@@ -33,7 +33,7 @@ class AverageAcceleration:
     """Effective stiffness and load of one step of length `step` (s); `inert` where the scene has inertia."""
 
     def __init__(self, drivetrain: Drivetrain, step: float):
-        self.step, self._drivetrain = step, drivetrain
+        self.step = step
         self.inert = drivetrain.mass is not None
         self.stiffness = drivetrain.stiffness
         self._load = drivetrain.load
@@ -46,10 +46,6 @@ class AverageAcceleration:
         self._history = np.hstack(
             [4.0 / step**2 * mass + 2.0 / step * damping, 4.0 / step * mass + damping, mass]
         )
-
-    def halved(self) -> AverageAcceleration:
-        """The same with steps half as long."""
-        return AverageAcceleration(self._drivetrain, 0.5 * self.step)
 
     def load(self, state: State) -> np.ndarray:
         """Right-hand side (k,), N, of the step that starts from `state`."""

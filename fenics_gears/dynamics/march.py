@@ -29,12 +29,16 @@ MOST_HALVINGS = 6
 
 @dataclass(frozen=True)
 class Record:
-    """What one step holds: its number (between whole numbers where a step was divided), the state and the contact solution there."""
+    """What one step holds: its number, the state and the contact solution there.
+
+    `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is the step itself.
+    """
 
     step: float
     state: State
     position: Position
     solution: StepSolution
+    parts: tuple[Record, ...] = ()
 
 
 @dataclass
@@ -79,10 +83,10 @@ class Marcher:
     ):
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.dynamic = AverageAcceleration(drivetrain, time_step)
-        static_drivetrain = Drivetrain(
+        self._static_drivetrain = Drivetrain(
             drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
         )
-        self.static = AverageAcceleration(static_drivetrain, time_step)
+        self.static = AverageAcceleration(self._static_drivetrain, time_step)
         self.tolerance = Tolerance.of_load(float(np.abs(drivetrain.load).max()))
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
         # Friction's arm is longest at the wheel's tip; below this coefficient it never outweighs the normal force there.
@@ -165,14 +169,17 @@ class Marcher:
         """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the shortest."""
         if halvings > MOST_HALVINGS:
             raise failure
-        record, iterations, finer = last, 0, scheme.halved()
+        record, parts = last, ()
+        drivetrain = self.drivetrain if scheme.inert else self._static_drivetrain
+        finer = type(scheme)(drivetrain, 0.5 * scheme.step)
         for end in (0.5 * (last.step + step), step):
             try:
                 record = self._part(finer, record, end, self.cycle.between(end, record.step))
             except ContactNotConverged as failed:
                 record = self._divided(finer, record, end, failed, halvings + 1)
-            iterations += record.solution.iterations
-        return replace(record, solution=replace(record.solution, iterations=iterations, rung=RUNGS.index(HALVED)))
+            parts += record.parts or (record,)
+        iterations = sum(part.solution.iterations for part in parts)
+        return replace(record, solution=replace(record.solution, iterations=iterations, rung=RUNGS.index(HALVED)), parts=parts)
 
     def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
         """From `last` to `position` in one go."""

@@ -1,4 +1,4 @@
-"""The contact step against other methods, the laws themselves, and inputs that need the fallback ladder."""
+"""The contact step against other methods and the laws themselves."""
 
 import itertools
 
@@ -8,42 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import nnls
 from tests.contact.laws_of_contact import law_residual, project
+from tests.contact.problems import all_open, random_problem
 
-from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.ladder import RUNGS, StepProblem, run_newton, solve_step
-from fenics_gears.contact.laws import (
-    OPEN,
-    SLIP_BACKWARD,
-    SLIP_FORWARD,
-    STICK,
-    Tolerance,
-)
-from fenics_gears.contact.newton import CONVERGED, ONE_AT_A_TIME, THROUGH_STICK, solve_sets
-
-
-def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4):
-    """Random positive definite compliance and stiffness, of the size that gears have; gaps and loads of any sign."""
-    rng = np.random.default_rng(seed)
-    size = 2 * nodes if friction else nodes
-    root = rng.normal(size=(size, size)) / np.sqrt(size)
-    compliance = 1e-6 * (root @ root.T + 0.2 * np.eye(size))
-    bend = rng.normal(size=(coordinates, coordinates))
-    rigid = rng.normal(size=(size, coordinates))
-    return StepProblem(
-        stiffness=1e5 * (bend @ bend.T + np.eye(coordinates)),
-        load=load_scale * rng.normal(size=coordinates),
-        compliance=compliance,
-        rigid=rigid,
-        gap=0.02 * rng.normal(size=nodes),
-        slip_before=0.02 * rng.normal(size=nodes) if friction else np.empty(0),
-        friction=friction,
-        free_motion=np.empty(0),
-        tolerance=Tolerance.of_load(load_scale),
-    )
-
-
-def all_open(problem):
-    return np.full(len(problem.gap), OPEN, dtype=np.int8)
+from fenics_gears.contact.ladder import RUNGS, StepProblem, solve_step
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
+from fenics_gears.contact.newton import solve_sets
 
 
 @given(st.integers(0, 10**9), st.integers(1, 12))
@@ -57,30 +26,6 @@ def test_frictionless_step_is_the_minimum_of_the_energy(seed, nodes):
     expected, _ = nnls(root.T, np.linalg.solve(root, drive))
     solution = solve_step(problem, all_open(problem))
     assert solution.forces == pytest.approx(expected, rel=1e-7, abs=1e-7 * (1.0 + np.abs(expected).max()))
-
-
-@given(st.integers(0, 10**9), st.floats(0.01, 0.3))
-@settings(max_examples=80, deadline=None)
-def test_a_solution_obeys_signorini_and_coulomb(seed, friction):
-    """Row 1 and 2 of the hard cases: p_n >= 0, no penetration, p_n gap = 0, inside the cone, slip against friction."""
-    problem = random_problem(seed, friction=friction)
-    try:
-        solution = solve_step(problem, all_open(problem))
-    except ContactNotConverged as failure:
-        # Random couplings of normals and tangents may have no solution; then every rung must have been tried.
-        assert [attempt[0] for attempt in failure.attempts] == list(RUNGS)
-        return
-    scale = np.abs(problem.load).max()
-    residual = law_residual(solution.forces, solution.displacement, problem.gap, problem.slip_before, friction)
-    assert residual["penetration"] <= 1e-7
-    assert residual["tension"] == 0.0
-    assert residual["force_across_gap"] <= 1e-10 * scale
-    assert residual["cone_excess"] <= 1e-10 * scale
-    assert residual["stick_slip"] <= 1e-10
-    n = len(problem.gap)
-    slip = solution.displacement[n:] + problem.slip_before
-    slipping = (solution.status == SLIP_FORWARD) | (solution.status == SLIP_BACKWARD)
-    assert np.all(solution.forces[n:][slipping] * slip[slipping] >= -1e-10 * scale)
 
 
 def test_frictional_step_against_enumeration_of_all_sets():
@@ -141,78 +86,6 @@ def test_friction_tends_to_no_friction():
         problem = StepProblem(**{**plain.__dict__, "friction": friction})
         difference = np.abs(solve_step(problem, all_open(problem)).forces[:8] - reference).max()
         assert difference <= 20.0 * friction * scale + 1e-12 * scale
-
-
-@pytest.mark.parametrize("scale", [1e-6, 1e-3, 1e3, 1e6])
-def test_result_does_not_depend_on_r(scale):
-    """Row 11: r scaled by 1e-6 ... 1e6 gives the same solution, or another rung takes over."""
-    problem = random_problem(11, friction=0.1)
-    expected = solve_step(problem, all_open(problem))
-    (outcome, _, forces, *_), _ = run_newton(problem, all_open(problem), 40, r_scale=scale)
-    if outcome == CONVERGED:
-        assert forces == pytest.approx(expected.forces, rel=1e-9, abs=1e-9)
-    else:
-        assert solve_step(problem, all_open(problem)).forces == pytest.approx(expected.forces)
-
-
-def reversing_problem():
-    """Four equal nodes on one soft sideways spring, rigid slip reversing between them: the pitch point's situation."""
-    n = 4
-    return StepProblem(
-        stiffness=np.diag([1e5, 1e5]),
-        load=np.array([1e4, 0.0]),
-        compliance=np.diag([4e-6] * n + [3e-6] * n),
-        rigid=np.array([[1.0, 0.0]] * n + [[0.0, 1.0]] * n),
-        gap=np.zeros(n),
-        slip_before=np.array([-2e-3, -1e-3, 1e-3, 2.2e-3]),
-        friction=0.3,
-        free_motion=np.empty(0),
-        tolerance=Tolerance.of_load(1e4),
-    )
-
-
-def test_slip_that_reverses_all_at_once_needs_the_ladder():
-    """The usual cycle (hard cases, known from measurements): plain Newton repeats its sets, a rung of the ladder solves it."""
-    problem = reversing_problem()
-    start = np.full(4, SLIP_FORWARD, dtype=np.int8)
-    (outcome, *_), _ = run_newton(problem, start, 40)
-    assert outcome != CONVERGED
-    solution = solve_step(problem, start)
-    assert solution.rung > 0
-    residual = law_residual(solution.forces, solution.displacement, problem.gap, problem.slip_before, 0.3)
-    assert max(residual.values()) <= 1e-9
-    for rule in (THROUGH_STICK, ONE_AT_A_TIME):
-        (outcome, _, forces, *_), _ = run_newton(problem, start, 400, rule=rule)
-        if outcome == CONVERGED:
-            assert forces == pytest.approx(solution.forces, abs=1e-8)
-
-
-def test_no_equilibrium_is_a_typed_error_with_its_history():
-    """A load that pulls the flanks apart, held by nothing else: named, with residuals and sets of every rung."""
-    problem = StepProblem(
-        stiffness=np.zeros((1, 1)),
-        load=np.array([-100.0]),
-        compliance=1e-6 * np.eye(2),
-        rigid=np.ones((2, 1)),
-        gap=np.zeros(2),
-        slip_before=np.empty(0),
-        friction=0.0,
-        free_motion=np.array([-1.0]),
-        tolerance=Tolerance.of_load(100.0),
-    )
-    with pytest.raises(ContactNotConverged, match="no static equilibrium") as failure:
-        solve_step(problem, np.array([SLIP_FORWARD, OPEN], dtype=np.int8))
-    assert "tension 1e+02 N" in str(failure.value)
-    assert failure.value.attempts[0][2].shape[1] == 5
-
-
-def test_all_gaps_open_is_free_motion():
-    """Row 18: without contact p = 0 and q = K^-1 F exactly."""
-    problem = random_problem(2)
-    problem = StepProblem(**{**problem.__dict__, "gap": np.full(8, 10.0)})
-    solution = solve_step(problem, all_open(problem))
-    assert np.all(solution.forces == 0.0)
-    assert solution.coordinates == pytest.approx(np.linalg.solve(problem.stiffness, problem.load), rel=1e-13)
 
 
 def test_one_contact_node_is_exact():

@@ -116,7 +116,7 @@ def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, refere
     built = model(replace(paper_cases["static frictionless"], accuracy=accuracy))
     cycle = remeshed(built, SilentProgress(), reference_cache)[1]
     pulled = replace(built.drivetrain, load=-built.drivetrain.load)
-    with pytest.raises(ContactNotConverged, match="no static equilibrium") as caught:
+    with pytest.raises(ContactNotConverged, match="no equilibrium") as caught:
         Marcher(cycle, pulled, built.time_step, 0.0).run(2, 2)
     attempts = caught.value.attempts
     assert [name for name, *_ in attempts][:2] == [PUBLISHED, "newton"]

@@ -1,0 +1,57 @@
+"""Contact steps without gears: random ones of the size that gears have, and small ones whose behaviour is known."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.contact.ladder import StepProblem
+from fenics_gears.contact.laws import OPEN, Tolerance
+
+
+def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, free=False) -> StepProblem:
+    """Random positive definite compliance and stiffness; gaps and loads of any sign.
+
+    `free`: nothing but contact holds the load along the first coordinate, which presses all nodes alike.
+    """
+    rng = np.random.default_rng(seed)
+    size = 2 * nodes if friction else nodes
+    root = rng.normal(size=(size, size)) / np.sqrt(size)
+    compliance = 1e-6 * (root @ root.T + 0.2 * np.eye(size))
+    bend = rng.normal(size=(coordinates, coordinates))
+    rigid = rng.normal(size=(size, coordinates))
+    stiffness = 1e5 * (bend @ bend.T + np.eye(coordinates))
+    load = load_scale * rng.normal(size=coordinates)
+    if free:
+        stiffness[0], stiffness[:, 0], rigid[:nodes, 0], load[0] = 0.0, 0.0, 1.0, abs(load[0])
+    return StepProblem(
+        stiffness=stiffness,
+        load=load,
+        compliance=compliance,
+        rigid=rigid,
+        gap=0.02 * rng.normal(size=nodes),
+        slip_before=0.02 * rng.normal(size=nodes) if friction else np.empty(0),
+        friction=friction,
+        free_motion=np.eye(coordinates)[0] if free else np.empty(0),
+        tolerance=Tolerance.of_load(load_scale),
+    )
+
+
+def all_open(problem: StepProblem) -> np.ndarray:
+    """Sets to start from (n,): nothing touches."""
+    return np.full(len(problem.gap), OPEN, dtype=np.int8)
+
+
+def reversing_problem() -> StepProblem:
+    """Four equal nodes on one soft sideways spring, rigid slip reversing between them: the pitch point's situation."""
+    n = 4
+    return StepProblem(
+        stiffness=np.diag([1e5, 1e5]),
+        load=np.array([1e4, 0.0]),
+        compliance=np.diag([4e-6] * n + [3e-6] * n),
+        rigid=np.array([[1.0, 0.0]] * n + [[0.0, 1.0]] * n),
+        gap=np.zeros(n),
+        slip_before=np.array([-2e-3, -1e-3, 1e-3, 2.2e-3]),
+        friction=0.3,
+        free_motion=np.empty(0),
+        tolerance=Tolerance.of_load(1e4),
+    )

@@ -1,0 +1,54 @@
+"""A march without gears: contact nodes that keep their place while the flanks slide over one another at constant speed."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
+from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.dynamics.average_acceleration import State
+from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.march import Marcher, Record
+
+
+class SlidingBlock:
+    """The contact of a step problem at any time; a whole step slides by its `slip_before`. `solved`: length of every step tried."""
+
+    divisible = True
+
+    def __init__(self, problem: StepProblem):
+        self.problem, self.steps, self.solved = problem, 100, []
+        self.pair = SimpleNamespace(wheel=SimpleNamespace(tip_roll_angle=0.0))
+
+    def position(self, step):
+        """A whole step."""
+        return self.between(step, step - 1)
+
+    def between(self, step, before):
+        """Part of a step."""
+        problem, n = self.problem, len(self.problem.gap)
+        operator = SimpleNamespace(
+            nodes=n, compliance=problem.compliance, rigid=problem.rigid, gap=problem.gap,
+            sliding=(step - before) * problem.slip_before,
+            previous_compliance=problem.compliance[n:], previous_rigid=problem.rigid[n:],
+        )  # fmt: skip
+        self.solved.append(step - before)
+        return Position(operator, np.arange(n))
+
+    def solve(self, position, problem, status, last):
+        """By the ladder."""
+        return solve_step(problem, status)
+
+
+def block_at_rest(problem: StepProblem, status: np.ndarray) -> tuple[Marcher, Record]:
+    """A block of such mass that its first step of 1 ms is the problem, and its state before: at rest, unloaded, sets `status` (n,)."""
+    step, k = 1e-3, len(problem.load)
+    mass = 0.25 * step**2 * problem.stiffness
+    names = ("rotation_2", "centre_x1", "centre_y1")[:k]
+    block = Drivetrain(names, np.ones(k), np.zeros((k, k)), problem.load, mass, None)
+    marcher = Marcher(SlidingBlock(problem), block, step, problem.friction)
+    rest, nothing = np.zeros(k), np.zeros(len(problem.compliance))
+    solution = StepSolution(nothing, rest, nothing, status, 0, 0)
+    return marcher, Record(0, State(rest, rest, rest), marcher.cycle.position(0), solution)

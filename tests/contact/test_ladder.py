@@ -1,0 +1,199 @@
+"""The fallback ladder: every rung tested by an input on which all the rungs before it end without a solution.
+
+The seeds are the smallest of 100 000 random problems (1 to 8 nodes, friction 0.1 to 2, with and without a free motion). The rungs
+solved, in order of the ladder: 78 697, 13 816, 170, 74, 5733, 123, 1369; nothing solved 18, whose error says self-locking.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import lsq_linear
+from tests.contact.laws_of_contact import law_residual
+from tests.contact.problems import all_open, random_problem, reversing_problem
+from tests.contact.sliding_block import block_at_rest
+
+from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
+from fenics_gears.contact.ladder import HALVED, LADDER, RUNGS, _rungs, cold_start, run_newton, solve_step
+from fenics_gears.contact.laws import SLIP_FORWARD
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.newton import CONVERGED
+from fenics_gears.contact.tresca import frozen_friction
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.average_acceleration import AverageAcceleration
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.march import MOST_HALVINGS, Marcher
+
+# rung: (seed, nodes, friction, free)
+NEEDED = [
+    ("slip through stick", (6561, 1, 0.1, False)),
+    ("slip through stick", (2305, 1, 0.1, True)),
+    ("r x 10", (66111, 2, 0.6, False)),
+    ("r x 10", (92521, 1, 0.6, True)),
+    ("r x 0.1", (22492, 2, 2.0, False)),
+    ("r x 0.1", (28180, 2, 0.3, True)),
+    ("friction from zero", (4570, 1, 0.6, False)),
+    ("friction from zero", (62202, 1, 0.3, True)),
+    ("one change at a time", (21300, 2, 2.0, False)),
+    ("one change at a time", (85755, 2, 0.6, True)),
+    ("Tresca fixed point", (64113, 1, 0.6, False)),
+    ("Tresca fixed point", (5013, 1, 0.6, True)),
+]
+
+
+def problem_of(seed, nodes, friction, free):
+    return random_problem(seed, nodes, friction, coordinates=2, free=free)
+
+
+def check_laws(problem, solution):
+    """Equilibrium and the laws of contact, from the solution's forces and coordinates alone."""
+    displacement = problem.rigid @ solution.coordinates - problem.compliance @ solution.forces
+    residual = law_residual(solution.forces, displacement, problem.gap, problem.slip_before, problem.friction)
+    imbalance = problem.stiffness @ solution.coordinates + problem.rigid.T @ solution.forces - problem.load
+    assert max(residual.values()) <= 1e-9
+    assert np.abs(imbalance).max() <= 1e-9 * np.abs(problem.load).max()
+
+
+@pytest.mark.parametrize("rung, problem", NEEDED, ids=[f"{rung}, {'free' if data[3] else 'held'}" for rung, data in NEEDED])
+def test_every_rung_is_needed_by_some_step(rung, problem):
+    """Each rung solves, to the laws written out, a step on which every rung before it was tried and failed."""
+    problem = problem_of(*problem)
+    outcomes = [attempt()[0][0] for index, attempt in _rungs(problem, all_open(problem), 40) if index < LADDER.index(rung)]
+    assert len(outcomes) == LADDER.index(rung) and CONVERGED not in outcomes
+    solution = solve_step(problem, all_open(problem))
+    assert RUNGS[solution.rung] == rung
+    check_laws(problem, solution)
+
+
+def test_slip_that_reverses_all_at_once_goes_through_stick():
+    """The usual cycle (hard cases, known from measurements): plain Newton repeats its sets, the second rung ends."""
+    problem, start = reversing_problem(), np.full(4, SLIP_FORWARD, dtype=np.int8)
+    (outcome, *_), _ = run_newton(problem, start, 40)
+    assert outcome != CONVERGED
+    solution = solve_step(problem, start)
+    assert RUNGS[solution.rung] == "slip through stick"
+    check_laws(problem, solution)
+
+
+@given(st.integers(0, 10**9), st.integers(1, 8))
+@settings(max_examples=30)
+def test_frozen_friction_is_the_bounded_minimum_of_the_energy(seed, nodes):
+    """Other method: with q eliminated the programme is bounded least squares; SciPy's active-set method solves that."""
+    problem = random_problem(seed, nodes, friction=0.5)
+    bounds = 3e3 * np.random.default_rng(seed).random(nodes)
+    flexibility = problem.rigid @ np.linalg.solve(problem.stiffness, problem.rigid.T) + problem.compliance
+    drive = problem.rigid @ np.linalg.solve(problem.stiffness, problem.load)
+    drive += np.concatenate((-problem.gap, problem.slip_before))
+    root = np.linalg.cholesky(flexibility)
+    limits = np.concatenate((np.zeros(nodes), -bounds)), np.concatenate((np.full(nodes, np.inf), bounds))
+    expected = lsq_linear(root.T, np.linalg.solve(root, drive), limits, method="bvls", tol=1e-14).x
+    frozen = frozen_friction(problem, bounds)
+    assert frozen.forces == pytest.approx(expected, rel=1e-6, abs=1e-6 * np.abs(expected).max())
+    coordinates = np.linalg.solve(problem.stiffness, problem.load - problem.rigid.T @ frozen.forces)
+    assert frozen.coordinates == pytest.approx(coordinates, rel=1e-6, abs=1e-6 * np.abs(coordinates).max())
+
+
+def test_a_step_without_a_solution_is_divided():
+    """The one held problem of the search that no rung solves: as the step of a block with mass it has a solution in two halves."""
+    problem = problem_of(11490, 6, 1.0, False)
+    with pytest.raises(SelfLocking):
+        solve_step(problem, all_open(problem))
+    marcher, rest = block_at_rest(problem, all_open(problem))
+    record = marcher.step(marcher.dynamic, rest, 1)
+    assert RUNGS[record.solution.rung] == HALVED
+    assert marcher.cycle.solved == [1, 1, 0.5, 0.5]  # the state before is a position too
+    # The last half: its own slip, from the tangents that its first half left.
+    half, (middle, last) = AverageAcceleration(marcher.drivetrain, 0.5 * marcher.time_step), record.parts
+    assert (middle.step, last.step) == (0.5, 1)
+    tangential = problem.rigid[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
+    second = replace(
+        problem, stiffness=half.stiffness, load=half.load(middle.state), slip_before=0.5 * problem.slip_before - tangential
+    )
+    check_laws(second, record.solution)
+
+
+class Refusing(MeshCycle):
+    """A cycle that has no solution in steps longer than `longest` (in steps)."""
+
+    longest = 0.5
+
+    def between(self, step, before):
+        position = super().between(step, before)
+        self.length = step - before
+        return position
+
+    def position(self, step):
+        self.length = 1.0
+        return super().position(step)
+
+    def solve(self, position, problem, status, last):
+        if last is not None and self.length > self.longest:
+            raise ContactNotConverged([("newton", "refused by the test", np.zeros((1, 5)), status[None])], "refused by the test")
+        return super().solve(position, problem, status, last)
+
+
+def cycle_of(kind, scene, pair, flanks, steps):
+    shafts = drivetrain(scene, pair)
+    return kind(flanks, ContactGrid(2.0, 9), steps, shafts.indices, tangential=scene.friction is not None), shafts
+
+
+@pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
+@pytest.mark.parametrize("longest, parts", [(0.5, 2), (0.25, 4)])
+def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper_scene, paper_pair, stand_in_flanks):
+    """Exact identity: a march whose every step is divided in 2 (4) passes the states of the march with 2 (4) times the steps."""
+    scene, steps = replace(paper_scene, **changes), 10
+    coarse, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, steps)
+    coarse.longest = longest
+    fine, _ = cycle_of(MeshCycle, scene, paper_pair, stand_in_flanks, parts * steps)
+    divided = Marcher(coarse, shafts, 1e-3 / steps, 0.1)
+    whole = Marcher(fine, shafts, 1e-3 / steps / parts, 0.1)
+    start = whole.start()
+    a = b = replace(start, position=coarse.position(0))
+    b = replace(b, position=fine.position(0))
+    for step in range(1, 2 * steps + 1):
+        a = divided.step(divided.dynamic, a, step)
+        for part in range(parts):
+            b = whole.step(whole.dynamic, b, parts * (step - 1) + part + 1)
+        assert RUNGS[a.solution.rung] == HALVED
+        assert a.state.position == pytest.approx(b.state.position, rel=1e-10, abs=1e-12)
+        assert a.solution.forces == pytest.approx(b.solution.forces, rel=1e-7, abs=1e-6)
+
+
+def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):
+    """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the whole step's."""
+    cycle, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
+    marcher = Marcher(cycle, shafts, 1e-4, 0.1)
+    cycle.longest = 1.0
+    start = marcher.start()
+    cycle.longest = 0.0
+    with pytest.raises(ContactNotConverged) as failure:
+        marcher.step(marcher.dynamic, start, 1)
+    assert failure.value.step == 1 and failure.value.time == pytest.approx(1e-4)
+    assert [attempt[0] for attempt in failure.value.attempts] == ["newton", HALVED]
+    assert f"a step {2**MOST_HALVINGS} times as short" in str(failure.value)
+
+
+def test_a_static_step_without_friction_is_not_divided(paper_scene, paper_pair, stand_in_flanks):
+    """Its solution does not depend on the way to it: dividing the step cannot help."""
+    scene = replace(paper_scene, friction=None, inertia=None, damping=None)
+    cycle, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, 10)
+    marcher = Marcher(cycle, shafts, 1e-4, 0.0)
+    start = marcher._static_start(0)
+    with pytest.raises(ContactNotConverged) as failure:
+        marcher.step(marcher.dynamic, start, 1)
+    assert [attempt[0] for attempt in failure.value.attempts] == ["newton"]
+
+
+def test_no_equilibrium_is_a_typed_error_with_its_history():
+    """A load that pulls the flanks apart, held by nothing else: named, with residuals and sets of every rung."""
+    problem = random_problem(0, 3, friction=0.3, coordinates=1, free=True)
+    rigid = np.array([[1.0]] * 3 + [[0.1]] * 3)
+    problem = replace(problem, load=np.array([-100.0]), free_motion=np.array([-1.0]), rigid=rigid)
+    with pytest.raises(NoStaticEquilibrium, match="no equilibrium") as failure:
+        solve_step(problem, cold_start(problem.gap, np.zeros(3, dtype=int)))
+    assert "a load of 100 N moves the drivetrain freely" in str(failure.value)
+    assert "tension 1e+02 N" in str(failure.value)
+    assert [attempt[0] for attempt in failure.value.attempts] == list(LADDER)
+    assert failure.value.attempts[0][2].shape[1] == 5
