@@ -19,10 +19,10 @@ ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March) -> list[str]:
     """Sentences on where a march leaves what the model assumes; empty where it does not.
 
-    Window, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
+    Window, rank, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
     """
     records = list(march.records)
-    return [*_window(cycle, records), *_rotation(drivetrain, records), *_separation(cycle, march), *_locking(cycle, march), *_uniqueness(march)]
+    return [*_window(cycle, records), *_rank(records), *_rotation(drivetrain, records), *_separation(cycle, march), *_locking(cycle, march), *_uniqueness(march)]
 
 
 def _window(cycle: Cycle, records: list[Record]) -> list[str]:
@@ -36,6 +36,20 @@ def _window(cycle: Cycle, records: list[Record]) -> list[str]:
     return [
         f"contact reached the end of the contact window in {reached} of {len(records)} stored steps: "
         f"raise accuracy.contact_length above {cycle.grid.length:.3g} mm"
+    ]
+
+
+def _rank(records: list[Record]) -> list[str]:
+    """Contact nodes that the elements cannot tell apart, so that how they share a force is not elasticity's answer."""
+    lacking = [record.position.operator for record in records if record.position.operator.dependent_rows]
+    if not lacking:
+        return []
+    worst = max(lacking, key=lambda operator: operator.dependent_rows)
+    rows = len(worst.compliance)
+    return [
+        f"the contact compliance is singular in {len(lacking)} of {len(records)} stored steps (rank {rows - worst.dependent_rows} of {rows} "
+        "at worst): contact nodes stand closer than the elements can tell apart and were given a thin layer each; forces hold, the "
+        "pressure does not: lower accuracy.contact_nodes or accuracy.flank_element_size"
     ]
 
 
