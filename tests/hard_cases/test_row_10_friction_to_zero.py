@@ -1,0 +1,50 @@
+"""Row 10: as friction goes to zero its effect does, in proportion; without it nothing tangential exists."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static
+
+from fenics_gears.scene.data import Friction
+from fenics_gears.simulation import prepared, simulate
+
+SCENES = {"quasi-static": quasi_static, "200 Hz": lambda scene: scene}
+COEFFICIENTS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
+    """Known order: the laws are piecewise linear in mu, so the difference over mu tends to a constant, until round-off."""
+    scene = SCENES[name](coarse_scene(paper_scene))
+    plain = simulate(frictionless(scene)).transmission_error.values
+    scale, rates = np.abs(plain).max(), []
+    for coefficient in COEFFICIENTS:
+        error = simulate(replace(scene, friction=Friction(coefficient))).transmission_error.values
+        rates.append(np.abs(error - plain).max() / scale / coefficient)
+    measured(f"{name}: relative difference over mu, mu = 1e-2 ... 1e-6", ", ".join(f"{rate:.3g}" for rate in rates[:4]), "constant, 30 %")
+    measured(f"{name}: relative difference at mu = 1e-12", rates[-1] * COEFFICIENTS[-1], "2e-12")
+    assert rates[:5] == pytest.approx([rates[2]] * 5, rel=0.3)
+    for rate, coefficient in zip(rates, COEFFICIENTS):
+        # Beside the effect itself, only the round-off of the transmission error.
+        assert rate * coefficient <= 1.3 * rates[2] * coefficient + 1e-12
+
+
+def test_frictionless_scene_has_nothing_tangential(paper_scene, measured):
+    """From the task: no unknowns, no arrays, no result variables, no off-line-of-action motion at all."""
+    from fenics_gears.model import model
+    from fenics_gears.progress import SilentProgress
+
+    scene = frictionless(coarse_scene(paper_scene))
+    _, cycle = prepared(model(scene), SilentProgress(), None)
+    operators = [cycle.position(step).operator for step in range(cycle.steps)]
+    result = simulate(scene)
+    surplus = max(len(operator.compliance) - operator.nodes for operator in operators)
+    motion = np.abs(result.centre_y.values).max()
+    tangential = [name for name in result.data_vars if "friction" in name or "traction" in name]
+    measured("frictionless: tangential unknowns, motion off the line of action", f"{surplus}, {motion:.1g} mm", "0, 0")
+    assert surplus == 0
+    assert all(operator.sliding is None and operator.previous_compliance is None for operator in operators)
+    assert all(len(operator.rigid) == operator.nodes for operator in operators)
+    assert motion == 0.0
+    assert tangential == []

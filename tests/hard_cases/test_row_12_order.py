@@ -1,0 +1,70 @@
+"""Row 12: in what order nodes, cells, contact nodes and gears are numbered must not matter."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.coarse_sector import PINION, coarse_condensed_sector, coarse_sector_mesh, relative
+from tests.permuted_cycle import solved_in_other_order
+
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+from fenics_gears.simulation import simulate
+
+SCENES = {
+    "quasi-static, friction": quasi_static,
+    "quasi-static, frictionless": lambda scene: frictionless(quasi_static(scene)),
+    "200 Hz, friction": lambda scene: scene,
+}
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("name", SCENES)
+def test_order_of_contact_nodes_and_gears(name, seed, paper_scene, measured):
+    """Exact identity: a step's equations with contact nodes and both gears' coordinates shuffled have the same solution."""
+    scene = SCENES[name](coarse_scene(paper_scene))
+    plain, shuffled = simulate(scene), solved_in_other_order(scene, seed)
+    change = relative(shuffled.transmission_error.values - plain.transmission_error.values, plain.transmission_error.values)
+    pressures = [result.contact_pressure.fillna(0.0).values for result in (shuffled, plain)]
+    pressure = relative(pressures[0] - pressures[1], pressures[1])
+    measured(f"contact nodes and gears shuffled, {name}: transmission error, pressure", f"{change:.1g}, {pressure:.1g}", "1e-11")
+    assert change <= 1e-11
+    assert pressure <= 1e-11
+
+
+def renumbered(mesh: BodyMesh, seed: int) -> BodyMesh:
+    """The same mesh with nodes and cells shuffled, and every cell's corners begun at another one."""
+    random = np.random.default_rng(seed)
+    order = random.permutation(len(mesh.points))
+    index = np.argsort(order)
+    cells = index[random.permutation(mesh.cells)]
+    first = random.integers(cells.shape[1], size=len(cells))
+    cells = np.take_along_axis(cells, (first[:, None] + np.arange(cells.shape[1])) % cells.shape[1], axis=1)
+    edges = {name: index[random.permutation(edge)] for name, edge in mesh.edges.items()}
+    return BodyMesh(mesh.points[order], cells, edges)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_order_of_mesh_nodes_and_cells(name, measured):
+    """Exact identity: the stiffness is a sum over cells, and nodes are found by their place."""
+    shuffled = condensed_sector(renumbered(coarse_sector_mesh(name), 5), ELEMENTS[name], 0.3)
+    blocks = [ring_compliance(sector, PINION.teeth, 2) for sector in (shuffled, coarse_condensed_sector(name))]
+    change = relative(blocks[0] - blocks[1], blocks[1])
+    measured(f"mesh nodes and cells shuffled, {name}: compliance", change, "1e-11")
+    assert change <= 1e-11
+
+
+def test_pinion_and_wheel_alike_respond_alike(paper_scene, measured):
+    """Exact identity: of two equal gears either is the pinion; both have the same compliance, bit for bit."""
+    from fenics_gears.model import model
+    from fenics_gears.progress import SilentProgress
+    from fenics_gears.simulation import gear_compliances
+
+    scene = coarse_scene(paper_scene)
+    gears = replace(scene.gears, wheel=scene.gears.pinion, centre_distance=74.5)
+    first, second = gear_compliances(model(replace(scene, gears=gears)), SilentProgress(), None)
+    difference = np.abs(first.blocks - second.blocks).max()
+    measured("equal gears: difference of their compliance", difference, "0", "mm per N/mm")
+    assert difference == 0.0

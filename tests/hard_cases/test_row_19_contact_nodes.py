@@ -1,0 +1,130 @@
+"""Row 19: contact nodes too few, in the same place, or closer than the elements can tell apart."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, teeth_alone
+
+from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.operator import CompliancePairing, contact_operator
+from fenics_gears.contact.rank import dependent_rows
+from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.simulation import prepared, simulate
+
+ROTATION_2 = [5]
+
+
+@pytest.fixture(scope="module")
+def scene(paper_scene):
+    return frictionless(teeth_alone(coarse_scene(paper_scene)))
+
+
+@pytest.fixture(scope="module")
+def built(scene):
+    return model(scene)
+
+
+@pytest.fixture(scope="module")
+def flanks(built):
+    return prepared(built, SilentProgress(), None)[1].flanks
+
+
+def pressed(operator, force):
+    """Only the wheel turns, under `force` (N)."""
+    problem = StepProblem(
+        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, np.ones(1),
+        Tolerance.of_load(force),
+    )  # fmt: skip
+    return solve_step(problem, cold_start(operator.gap, operator.node_pair))
+
+
+def only(operator, node):
+    """The operator with one contact node left."""
+    kept = slice(node, node + 1)
+    return replace(
+        operator,
+        pairs=(replace(operator.pairs[0], offsets=operator.pairs[0].offsets[kept]),),
+        compliance=np.ascontiguousarray(operator.compliance[kept, kept]),
+        rigid=np.ascontiguousarray(operator.rigid[kept]),
+        gap=operator.gap[kept],
+    )
+
+
+def test_one_contact_node(built, flanks, measured):
+    """Exact: it carries T/rb2, and the wheel gives way by its gap and C_11 T/rb2."""
+    pair, force = flanks.pair, built.drivetrain.load[-1]
+    place = drive_place(pair, 0, pair.pitch_point)
+    operator = contact_operator(
+        flanks, CompliancePairing(flanks), (tooth_pair(flanks, built.resolution.contact_grid, place),), coordinates=ROTATION_2
+    )
+    errors = []
+    for node in (0, operator.nodes // 2, operator.nodes - 1):
+        alone = only(operator, node)
+        solution = pressed(alone, force)
+        approach = alone.gap[0] + alone.compliance[0, 0] * force
+        errors += [abs(solution.forces[0] / force - 1.0), abs(solution.coordinates[0] / approach - 1.0)]
+    measured("one contact node: force and approach", max(errors), "1e-14")
+    assert max(errors) <= 1e-14
+
+
+def test_coincident_contact_nodes_share_alike(built, flanks, measured):
+    """Exact by symmetry: the same nodes twice carry half each, together what they carry once; the lost rank is counted."""
+    pair, force = flanks.pair, built.drivetrain.load[-1]
+    nodes = tooth_pair(flanks, built.resolution.contact_grid, drive_place(pair, 0, pair.pitch_point))
+    once, twice = (
+        contact_operator(flanks, CompliancePairing(flanks), pairs, coordinates=ROTATION_2) for pairs in ((nodes,), (nodes, nodes))
+    )
+    first, second = pressed(once, force), pressed(twice, force)
+    half = second.forces.reshape(2, -1)
+    split = np.abs(half[0] - half[1]).max() / half.max()
+    together = np.abs(half.sum(axis=0) - first.forces).max() / first.forces.max()
+    approach = abs(second.coordinates[0] / first.coordinates[0] - 1.0)
+    measured("coincident nodes: difference of the halves", split, "1e-10")
+    measured("coincident nodes: sum against nodes once; approach", f"{together:.1g}, {approach:.1g}", "1e-3, 1e-4 (the layer)")
+    measured("coincident nodes: dependent rows counted", float(twice.dependent_rows), f"{once.nodes}, and none once")
+    assert (once.dependent_rows, twice.dependent_rows) == (0, once.nodes)
+    assert split <= 1e-10
+    assert together <= 1e-3
+    assert approach <= 1e-4
+
+
+@pytest.mark.parametrize(("element", "nodes"), [("P1", 101), ("P1", 201), ("P2", 101), ("P2", 201)])
+def test_nodes_closer_than_elements_are_reported(element, nodes, scene, built, measured):
+    """From the task: rank checked, never silent. The force is carried to round-off; what becomes of the transmission error is on record."""
+    dense = replace(scene, accuracy=replace(scene.accuracy, element=element, contact_nodes=nodes))
+    usual, result = simulate(replace(scene, accuracy=replace(scene.accuracy, element=element))), simulate(dense)
+    force = scene.load.wheel_torque / result.attrs["base_radius_wheel"]
+    carried = np.abs(result.normal_force.values / force - 1.0).max()
+    change = np.abs(result.transmission_error.values / usual.transmission_error.values - 1.0).max()
+    spacing = dense.accuracy.contact_length / (nodes - 1) / dense.accuracy.flank_element_size
+    measured(f"{element}, node spacing {spacing:.3g} of an element: force carried, transmission error", f"{carried:.1g}, {change:.1g}",
+             "1e-11, recorded; warnings on rank and spacing")  # fmt: skip
+    assert carried <= 1e-11
+    assert "contact compliance is singular" in result.attrs["warnings"]
+    assert "the pressure oscillates" in result.attrs["warnings"]
+    assert "contact compliance is singular" not in usual.attrs["warnings"]
+
+
+def test_rank_is_that_of_the_elements(flanks, measured):
+    """Brute force: the rank by Cholesky is the number of singular values above round-off, for grids from coarse to far too fine."""
+    pair, differing = flanks.pair, 0
+    for nodes in (26, 51, 101, 151, 201):
+        contact_nodes = tooth_pair(flanks, ContactGrid(3.0, nodes), drive_place(pair, 0, pair.pitch_point))
+        own = CompliancePairing(flanks)
+        compliance = own.product((contact_nodes,), (contact_nodes,), *[_normals] * 2, symmetric=True)
+        values = np.linalg.eigvalsh(compliance)
+        missing = int(np.count_nonzero(values < 1e-13 * values[-1]))
+        differing = max(differing, abs(dependent_rows(compliance) - missing))
+    measured("rank by Cholesky against eigenvalues: largest difference", float(differing), "0")
+    assert differing == 0
+
+
+def _normals(gear, pair):
+    from fenics_gears.contact.operator import own_directions
+
+    return own_directions(False)(gear, pair)
