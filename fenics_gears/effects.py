@@ -74,6 +74,7 @@ EFFECTS: tuple[Effect, ...] = (
         description="Rayleigh damping of each shaft",
         absent="undamped",
         terms=("damping forces, stiffness- and mass-proportional",),
+        variables=(ResultVariable("work_damping", "N mm", "work that damping takes"),),
         needs=("inertia",),
     ),
     Effect(
@@ -86,6 +87,7 @@ EFFECTS: tuple[Effect, ...] = (
             ResultVariable("friction_force", "N", "friction force of the mesh"),
             ResultVariable("pair_friction_force", "N", "friction force of the tooth pair"),
             ResultVariable("contact_traction", "MPa", "friction traction on the flank"),
+            ResultVariable("work_friction", "N mm", "work that friction takes"),
         ),
     ),
     Effect(
@@ -127,6 +129,10 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
     ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
+    ResultVariable("work_input", "N mm", "work of the drive"),
+    ResultVariable("work_output", "N mm", "work done on the load"),
+    ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
+    ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
 )
 
 

@@ -11,10 +11,11 @@ import xarray as xr
 
 import fenics_gears
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
+from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record
 from fenics_gears.effects import result_variables
 from fenics_gears.results.contact_variables import mesh_variables, pair_variables
+from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.scene.data import Scene
 from fenics_gears.validity import warnings_of
 
@@ -28,7 +29,8 @@ def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, ti
     values |= mesh_variables(scene, records)
     pairs = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
     values |= pair_variables(scene, cycle, records, pairs)
-    values |= _energy_variables(scene, drivetrain, records)
+    values |= energy_variables(scene, drivetrain, records)
+    values |= work_variables(scene, drivetrain, records, time_step, values["energy"][1])
     steps = np.array([record.step for record in records], dtype=float)
     described = {variable.name: variable for variable in result_variables(scene)}
     result = xr.Dataset(
@@ -69,27 +71,6 @@ def _centre_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record
     return values
 
 
-def _energy_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]) -> dict:
-    """Elastic energy of the teeth, and of shafts, bearings and motion where the scene has them (N mm)."""
-    teeth = [0.5 * r.solution.forces @ r.position.operator.compliance @ r.solution.forces for r in records]
-    parts = {"energy_teeth": np.array(teeth)}
-    translations = np.array([name in TRANSLATIONS for name in drivetrain.coordinates])
-    states = np.array([record.state.position for record in records]).reshape(len(records), len(translations))
-    if scene.bearings is not None:
-        parts["energy_bearings"] = _quadratic(states * translations, drivetrain.stiffness)
-    if scene.shafts is not None:
-        parts["energy_shafts"] = _quadratic(states * ~translations, drivetrain.stiffness)
-    if scene.inertia is not None:
-        velocities = np.array([record.state.velocity for record in records]).reshape(states.shape)
-        parts["energy_kinetic"] = _quadratic(velocities, drivetrain.mass)
-    parts["energy"] = sum(parts.values())
-    return {name: (("time",), energy) for name, energy in parts.items()}
-
-
-def _quadratic(states: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    return 0.5 * np.einsum("ti,ij,tj->t", states, matrix, states)
-
-
 def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
     error = result["transmission_error"].values
     attributes = {
@@ -106,4 +87,6 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
     if len(error):
         attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
         attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
+    if len(error) > 1 and scene.friction is not None and result["work_input"].values[-1]:
+        attributes["friction_loss"] = float(result["work_friction"].values[-1] / abs(result["work_input"].values[-1]))
     return attributes

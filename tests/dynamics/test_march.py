@@ -5,33 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import expm
+from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.laws import SLIP_FORWARD
 from fenics_gears.contact.mesh_cycle import MeshCycle
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher, Record
-
-GRID = ContactGrid(length=1.5, nodes=20)
-
-
-class Frozen:
-    """Gears that do not roll: the same position at every step."""
-
-    def __init__(self, cycle, step):
-        self._position = cycle.position(step)
-        self.steps, self.solve = cycle.steps, cycle.solve
-
-    def position(self, step):
-        return replace(self._position, carried_from=np.arange(self._position.operator.nodes))
-
-
-def frozen_marcher(scene, pair, flanks, step, phase_step=60):
-    shafts = drivetrain(scene, pair)
-    cycle = MeshCycle(flanks, GRID, 100, shafts.indices, tangential=False)
-    return Marcher(Frozen(cycle, phase_step), shafts, step, 0.0), shafts
-
 
 def frictionless(scene, **changes):
     return replace(scene, friction=None, **changes)

@@ -1,0 +1,43 @@
+"""Gears that do not roll: the contact equations stand still, and what the march does to energy and order can be seen alone."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.march import Marcher
+
+GRID = ContactGrid(length=1.5, nodes=20)
+
+
+class Frozen:
+    """The same position of a cycle at every step; nothing slides."""
+
+    def __init__(self, cycle, step):
+        position = cycle.position(step)
+        operator = position.operator
+        if operator.sliding is not None:
+            # What touches now touched before: no rigid slip, and the tangential displacement is that of the same nodes.
+            n = operator.nodes
+            operator = replace(
+                operator,
+                sliding=np.zeros(n),
+                previous_compliance=operator.compliance[n:].copy(),
+                previous_rigid=operator.rigid[n:].copy(),
+            )
+        self._position = replace(position, operator=operator, carried_from=np.arange(operator.nodes))
+        self.steps, self.solve, self.pair, self.divisible = cycle.steps, cycle.solve, cycle.pair, False
+
+    def position(self, step):
+        """The one position."""
+        return self._position
+
+
+def frozen_marcher(scene, pair, flanks, step, phase_step=60):
+    """A marcher with time step `step` (s) at one position of 100 in the mesh cycle, and its drivetrain."""
+    shafts = drivetrain(scene, pair)
+    cycle = MeshCycle(flanks, GRID, 100, shafts.indices, tangential=scene.friction is not None)
+    friction = 0.0 if scene.friction is None else scene.friction.coefficient
+    return Marcher(Frozen(cycle, phase_step), shafts, step, friction), shafts

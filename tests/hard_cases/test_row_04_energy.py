@@ -1,0 +1,148 @@
+"""Row 4: energy over a step, and the account of where it goes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import COARSE
+from tests.frozen_gears import frozen_marcher
+
+from fenics_gears.dynamics.average_acceleration import State
+from fenics_gears.dynamics.energy_account import account, contact_work
+from fenics_gears.dynamics.march import Record
+from fenics_gears.results.energy_variables import energy_variables
+from fenics_gears.scene.data import Friction, Motion
+from fenics_gears.simulation import simulate
+
+
+def march(marcher, record, steps):
+    records = [record]
+    for step in range(1, steps + 1):
+        records.append(marcher.step(marcher.dynamic, records[-1], step))
+    return records
+
+
+def pushed(marcher, shafts, **speeds):
+    """The start, with speeds (mm/s) of some coordinates and the accelerations that the equations of motion then ask for."""
+    rest = marcher.start()
+    velocity = np.array([speeds.get(name, 0.0) for name in shafts.coordinates])
+    acceleration = np.zeros_like(velocity) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ velocity)
+    return Record(0, State(rest.state.position, velocity, acceleration), rest.position, rest.solution)
+
+
+@pytest.mark.parametrize("damped", [True, False])
+@pytest.mark.parametrize("speed", [200.0, 2000.0])
+def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_flanks, measured, damped, speed):
+    """Exact identity of average acceleration with Signorini contact: change of energy = work of the loads + 1/2 sum(p0 g1 - p1 g0) - damping."""
+    scene = replace(paper_scene, friction=None, damping=paper_scene.damping if damped else None)
+    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
+    records = march(marcher, pushed(marcher, shafts, rotation_1=speed), 400)
+    energy = energy_variables(scene, shafts, records)["energy"][1]
+    changes, defect, work = [], [], []
+    for (last, record), gained in zip(zip(records[:-1], records[1:]), np.diff(energy)):
+        n = record.position.operator.nodes
+        opening = [each.position.operator.gap - each.solution.displacement[:n] for each in (last, record)]
+        moved = record.state.position - last.state.position
+        lost = 0.0 if shafts.damping is None else moved @ shafts.damping @ moved / marcher.time_step
+        changes.append(0.5 * (last.solution.forces @ opening[1] - record.solution.forces @ opening[0]))
+        defect.append(gained - (shafts.load @ moved + changes[-1] - lost))
+        work.append(abs(shafts.load @ moved) + abs(gained) + lost)
+        assert contact_work(last, record).changes == pytest.approx(changes[-1], abs=1e-9 * max(work))
+    closed = [np.count_nonzero(record.solution.status) for record in records]
+    assert len(set(closed)) > 1
+    worst = np.abs(defect).max() / max(work)
+    measured(f"{'damped' if damped else 'undamped'}, pushed with {speed:g} mm/s: defect of a step / work of the step", worst, "1e-11")
+    assert worst <= 1e-11
+
+
+def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_flanks, measured):
+    """Exact identity: with friction (no rolling) the account closes to 1e-9 of the work done, and nothing comes from the rotation."""
+    scene = replace(paper_scene, friction=Friction(0.3))
+    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
+    records = march(marcher, pushed(marcher, shafts, centre_y1=80.0, rotation_1=40.0), 400)
+    work = account(shafts, marcher.time_step, records, energy_variables(scene, shafts, records)["energy"][1])
+    done = np.abs(np.diff(work.load)).sum() + work.damping[-1] + work.friction[-1]
+    measured("with friction: defect / work done over 400 steps", np.abs(work.defect).max() / done, "1e-9")
+    assert np.abs(work.defect).max() <= 1e-9 * done
+    assert np.abs(work.rotation).max() <= 1e-9 * done
+    assert np.diff(work.friction).min() >= -1e-12 * done
+    assert work.friction[-1] > 1e-3 * done
+
+
+def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, measured):
+    """Dropped on the flanks by the load, undamped, 400 flights long: what the algorithm takes at impacts it gives back at releases."""
+    scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
+    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
+    rest = marcher.start()
+    lifted = State(rest.state.position - 0.1, np.zeros(1), shafts.load / shafts.mass[0])
+    nothing = replace(rest.solution, forces=0.0 * rest.solution.forces, status=np.zeros_like(rest.solution.status))
+    record = Record(0, lifted, rest.position, nothing)
+    energies, flights, flying, dropped = [], 0, True, 0.1 * shafts.load[0]
+    for _ in range(100_000):
+        record = marcher.step(marcher.dynamic, record, 1)
+        energies.append(total_energy(record, shafts) - total_energy(rest, shafts))
+        loaded = bool(np.any(record.solution.forces))
+        flights += flying and loaded
+        flying = not loaded
+        if flights == 400:
+            break
+    largest, smallest = max(energies) / dropped, min(energies) / dropped
+    measured("undamped bounce, 400 flights: energy / energy of the drop, largest", largest, "bounded (1.1)")
+    measured("undamped bounce, 400 flights: energy / energy of the drop, smallest", smallest, "not lost (0.9)")
+    assert flights == 400
+    assert 0.9 <= smallest <= largest <= 1.1
+
+
+def total_energy(record, shafts):
+    """Kinetic energy, that of the teeth and of the load (N mm) of a drivetrain without springs."""
+    x, v, forces = record.state.position, record.state.velocity, record.solution.forces
+    loaded = np.flatnonzero(forces)
+    teeth = 0.5 * forces[loaded] @ record.position.operator.compliance[np.ix_(loaded, loaded)] @ forces[loaded]
+    return 0.5 * v @ shafts.mass @ v + teeth - shafts.load @ x
+
+
+@pytest.mark.parametrize("absent", [(), ("friction",), ("damping",), ("inertia", "damping"), ("shafts", "bearings", "friction")])
+def test_account_of_a_run_closes(paper_scene, measured, absent):
+    """Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of contact, to round-off."""
+    result = simulate(replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **dict.fromkeys(absent)))
+    gained = result.energy - result.energy[0]
+    taken = result.work_output + result.get("work_damping", 0.0) + result.get("work_friction", 0.0)
+    defect = gained - (result.work_input - taken + result.work_contact_changes)
+    done = float(result.work_input[-1])
+    name = "without " + ", ".join(absent) if absent else "all effects"
+    measured(f"rolling, {name}: defect / work of the drive", float(np.abs(defect).max()) / done, "1e-9")
+    assert float(np.abs(defect).max()) <= 1e-9 * done
+    assert result.energy_defect.values == pytest.approx(defect.values, abs=1e-9 * done)
+
+
+def test_term_at_changes_of_contact_vanishes_with_the_step(paper_scene, measured):
+    """Known limit: without friction the algorithm's own term falls faster than the step, and what damping takes the drive gives."""
+    scene = replace(paper_scene, friction=None, motion=Motion(200.0, 2, 2))
+    terms = []
+    for steps in (160, 640):
+        result = simulate(replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))
+        terms.append(abs(float(result.work_contact_changes[-1])) / float(result.work_damping[-1]))
+    measured("term at changes of contact / damping, 160 steps a cycle", terms[0], "recorded")
+    measured("the same, 640 steps a cycle", terms[1], "a quarter of it or less")
+    assert terms[1] <= 0.25 * terms[0]
+
+
+def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
+    """Niemann/Winter, Maschinenelemente 2, mesh loss factor: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 + e2^2), for
+    a load that stands whole on a single pair and half on each of two; elastic teeth share it more smoothly, by some per cent."""
+    scene = replace(paper_scene, inertia=None, damping=None, accuracy=COARSE, motion=Motion(200.0, 2, 2))
+    result = simulate(scene)
+    loss = result.attrs["friction_loss"]
+    factor = loss_factor(scene)
+    measured("friction loss of the paper's pair at mu = 0.1 (quasi-static)", loss, f"{0.1 * factor:.4f} by Niemann/Winter, 5 %")
+    assert loss == pytest.approx(0.1 * factor, rel=0.05)
+
+
+def loss_factor(scene):
+    from fenics_gears.geometry.pair import gear_pair
+
+    pair = gear_pair(scene.gears)
+    z_1, ratio = scene.gears.pinion.teeth, scene.gears.wheel.teeth / scene.gears.pinion.teeth
+    pitch_point = pair.line_of_action_length * pair.pinion.base_radius / (pair.pinion.base_radius + pair.wheel.base_radius)
+    approach, recess = (pitch_point - pair.path_start) / pair.base_pitch, (pair.path_end - pitch_point) / pair.base_pitch
+    return np.pi * (ratio + 1.0) / (z_1 * ratio) * (1.0 - approach - recess + approach**2 + recess**2)
