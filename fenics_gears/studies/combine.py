@@ -10,6 +10,7 @@ import xarray as xr
 
 import fenics_gears
 from fenics_gears.output import written_aside
+from fenics_gears.results.files import netcdf
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.record import CURVES, Record
 from fenics_gears.studies.study import Study
@@ -69,9 +70,9 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
 
 def save_study(dataset: xr.Dataset, directory: Path) -> Path:
     """Write the combined dataset, aside first. Raises ComputationError where it cannot be written."""
-    encoding = {name: {"zlib": True, "complevel": 1} for name in CURVES if name in dataset}
+    content = netcdf(dataset)
     with written_aside(directory, written := []) as aside:
-        dataset.to_netcdf(aside / STUDY_FILE, engine="h5netcdf", encoding=encoding)
+        (aside / STUDY_FILE).write_bytes(content)
     return written[0]
 
 

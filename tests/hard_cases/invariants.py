@@ -34,7 +34,7 @@ def run_of(built: Model, compliances: Compliances) -> Run:
     """March a scene on given gears and keep every step; its result is made too, and must hold no NaN where nodes stand."""
     cycle = mesh_cycle(built, compliances)
     friction = built.scene.friction.coefficient if built.scene.friction else 0.0
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.follows_statics)
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace)
     try:
         march = marcher.run(built.steps, built.steps + 1)
     except ContactNotConverged as failure:
@@ -101,11 +101,6 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
     # In the frame of the drive flanks' line of action, the wheel's centre seen from the pinion's.
     across, along = -(radius_1 + radius_2), pair.line_of_action_length
     couple = radius_1 * on_pinion[2] + radius_2 * on_wheel[2] + (along * on_wheel[1] - across * on_wheel[0])
-    if frictional:
-        # Friction acts on either flank where that stands undeformed: the flanks' distance there is its arm (small displacements).
-        distance = pair.line_of_action_length - sum(operator.arms)
-        turn = np.concatenate([np.full(len(each.offsets), each.place.turn) for each in operator.pairs])
-        couple -= float(forces[operator.nodes :] @ (turn * distance))
     found = {
         "sum_of_forces": float(np.abs(on_pinion[:2] + on_wheel[:2]).max()) / total,
         "sum_of_moments": abs(couple) / (total * pair.centre_distance),

@@ -1,15 +1,12 @@
-"""Studies under mpirun: the same numbers as alone, for any number of ranks, with failures and killed ranks."""
+"""Studies under mpirun: the same numbers as alone, for any number of ranks. Failing and killed ranks are hard case 28."""
 
-import os
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
-from tests.studies.conftest import command, environment, gears, stamps, write_study
-from tests.studies.test_run_study import FOUR, MANY, SOME_FAIL, load
+from tests.studies.conftest import command, environment, gears, write_study
+from tests.studies.test_run_study import FOUR, load
 
 from fenics_gears.cli import main
 from fenics_gears.studies.ranks import Alone
@@ -26,17 +23,6 @@ def test_a_study_under_mpirun_gives_what_it_gives_alone(folder, ranks):
     assert together.stdout.count("kept from before") == 1
     alone, here = load("alone"), load("here")
     assert here.drop_vars("wall_time").equals(alone.drop_vars("wall_time"))
-
-
-def test_a_failing_case_neither_hangs_nor_ends_the_other_ranks(folder):
-    """Authority: hard case 28; recorded as failed with the reason, the others finish, the exit code says so."""
-    study = write_study(folder, SOME_FAIL)
-    ended = gears(folder, "study", study, "--output", "here", ranks=2)
-    assert ended.returncode == 3, ended.stderr
-    combined = load("here")
-    assert list(combined["failed"].values) == [0, 1, 0]
-    assert "contact did not converge" in str(combined["failure"].values[1])
-    assert len(stamps("here")) == 2 and len(list(Path("here/cases").glob("*.failed.txt"))) == 1
 
 
 def test_a_wrong_study_ends_every_rank(folder):
@@ -67,39 +53,6 @@ def test_both_of_two_ranks_compute(folder):
     computed_by = told.stdout.split()
     assert len(computed_by) == 20, told.stderr
     assert 7 <= computed_by.count("0") <= 13
-
-
-def started_by(process):
-    """Ids of the processes that a process has started, and those that they have: Open MPI 5 starts ranks through a daemon."""
-    files = Path(f"/proc/{process}/task").glob("*/children")
-    children = [int(child) for file in files for child in file.read_text().split()]
-    return children + [each for child in children for each in started_by(child)]
-
-
-def ranks_of(process):
-    """Ids of the ranks below mpirun."""
-    return [each for each in started_by(process) if b"fenics_gears\0study" in Path(f"/proc/{each}/cmdline").read_bytes()]
-
-
-@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds the ranks in /proc")
-def test_a_killed_rank_loses_nothing_that_was_done(folder):
-    """Authority: hard case 27 under MPI: the job ends, and run again it computes only what is missing."""
-    study = write_study(folder, MANY)
-    process = subprocess.Popen(
-        command("study", study, "--output", "here", ranks=2),
-        cwd=folder, env=environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-    deadline = time.monotonic() + 60
-    while len(stamps("here")) < 3 and time.monotonic() < deadline and process.poll() is None:
-        time.sleep(0.005)
-    os.kill(ranks_of(process.pid)[-1], signal.SIGKILL)
-    assert process.wait(timeout=60) != 0
-    before = stamps("here")
-    assert 3 <= len(before) < 30
-    again = gears(folder, "study", study, "--output", "here", ranks=2)
-    assert again.returncode == 0 and f"{len(before)} kept" in again.stderr, again.stderr
-    after = stamps("here")
-    assert len(after) == 30 and {name: after[name] for name in before} == before
 
 
 def test_alone_mpi_is_never_touched(folder):

@@ -1,0 +1,117 @@
+"""Row 28: a rank of an MPI study fails. Its case is recorded with the reason, the others finish, nothing hangs, the exit code says so.
+
+Authority throughout: hard case 28 and the exit codes of design.md.
+"""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.studies.conftest import cache, command, environment, folder, gears, mpirun, stamps, write_study  # noqa: F401
+from tests.studies.test_run_study import MANY, THREE, load
+
+from fenics_gears.studies.study_file import load_study
+
+
+def in_the_way(study, index, directory="here"):
+    """A directory where a case's file belongs: its rank computes the case and then cannot write it."""
+    case = load_study(study).cases[index]
+    obstacle = Path(directory, "cases", f"{case.name}.nc", "of somebody else")
+    obstacle.mkdir(parents=True)
+    return case
+
+
+@pytest.mark.parametrize("failing", [0, 1, 2])
+def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, measured, failing):
+    """Whichever of two ranks has the case: rank 0 takes them from the last on, rank 1 from the first on."""
+    study = write_study(folder, THREE)
+    case = in_the_way(study, failing)
+    begun = time.monotonic()
+    ended = gears(folder, "study", study, "--output", "here", ranks=2)
+    combined = load("here")
+    done, failed = int(np.isfinite(combined["mean_transmission_error"]).sum()), int(combined["failed"].sum())
+    outcome = f"exit code {ended.returncode}, {done} done, {failed} failed, {time.monotonic() - begun:.1f} s"
+    measured(f"case {failing} of 3 cannot be written, 2 ranks", outcome, "exit code 3, 2 done, 1 failed, no hang")
+    assert ended.returncode == 3, ended.stderr
+    assert list(combined["failed"].values) == [int(index == failing) for index in range(3)]
+    assert "directory" in str(combined["failure"].values[failing]).lower()
+    assert list(np.isnan(combined["mean_transmission_error"].values)) == [index == failing for index in range(3)]
+    assert case.name in ended.stderr and "1 of 3 cases failed" in ended.stderr
+    (note,) = Path("here/cases").glob("*.failed.txt")
+    assert note.name == f"{case.name}.failed.txt" and "Traceback" in note.read_text(encoding="utf-8")
+    # With the obstacle gone only the failed case is computed.
+    (Path("here/cases") / f"{case.name}.nc" / "of somebody else").rmdir()
+    (Path("here/cases") / f"{case.name}.nc").rmdir()
+    again = gears(folder, "study", study, "--output", "here", ranks=2)
+    assert again.returncode == 0 and "2 kept, 1 to be computed" in again.stderr, again.stderr
+    assert load("here").attrs["complete"] == 1 and not list(Path("here/cases").glob("*.failed.txt"))
+
+
+def started_by(process):
+    """Ids of the processes that a process has started, and those that they have: Open MPI 5 starts ranks through a daemon."""
+    files = Path(f"/proc/{process}/task").glob("*/children")
+    children = [int(child) for file in files for child in file.read_text().split()]
+    return children + [each for child in children for each in started_by(child)]
+
+
+def ranks_of(process):
+    """Ids of the ranks below mpirun."""
+    return [each for each in started_by(process) if b"fenics_gears\0study" in Path(f"/proc/{each}/cmdline").read_bytes()]
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds the ranks in /proc")
+def test_a_killed_rank_loses_nothing_that_was_done(folder, measured):
+    """kill -9 of one rank ends the job, without a hang; run again it computes only what is missing."""
+    study = write_study(folder, MANY)
+    process = subprocess.Popen(
+        command("study", study, "--output", "here", ranks=2),
+        cwd=folder, env=environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    deadline = time.monotonic() + 60
+    while len(stamps("here")) < 3 and time.monotonic() < deadline and process.poll() is None:
+        time.sleep(0.005)
+    os.kill(ranks_of(process.pid)[-1], signal.SIGKILL)
+    killed = time.monotonic()
+    code = process.wait(timeout=60)
+    ended, before = time.monotonic() - killed, stamps("here")
+    again = gears(folder, "study", study, "--output", "here", ranks=2)
+    after = stamps("here")
+    repeated = sum(after[name] != before[name] for name in before)
+    measured("a rank killed: cases computed again", f"{repeated} of {len(before)} done, job ended after {ended:.1f} s", "none, no hang")
+    assert code != 0 and 3 <= len(before) < 30
+    assert again.returncode == 0 and f"{len(before)} kept" in again.stderr, again.stderr
+    assert len(after) == 30 and repeated == 0
+    assert load("here").attrs["complete"] == 1
+
+
+@pytest.mark.parametrize("how", ["cannot be sent back", "is no exception that can be made again"])
+def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, measured, how):
+    """A worker's answer travels to rank 0 as bytes; one that cannot is a failure, not a rank waiting for ever."""
+    program = (
+        "import time\n"
+        "from fenics_gears import environment; environment.prepare()\n"
+        "from fenics_gears.studies.ranks import ranks\n"
+        "class Odd(Exception):\n"
+        "    def __init__(self, one, two): super().__init__('odd')\n"
+        "def task(number, tick=None):\n"
+        "    if number == 3: time.sleep(0.5)  # rank 0 begins with the last and leaves the first to the worker\n"
+        "    if number == 1: return (lambda: 0) if HOW == 'cannot be sent back' else fail()\n"
+        "    return number\n"
+        "def fail(): raise Odd(1, 2)\n"
+        f"HOW = {how!r}\n"
+        "with ranks() as team:\n"
+        "    if team is not None:\n"
+        "        found = {}\n"
+        "        team.run(task, [0, 1, 2, 3], found.__setitem__, lambda: None)\n"
+        "        print(*(found[i] if isinstance(found[i], int) else 'failed' for i in range(4)))\n"
+    )
+    Path("program.py").write_text(program)
+    call = [*mpirun(2), command("x")[0], "program.py"]
+    told = subprocess.run(call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=60)
+    measured(f"an outcome that {how}", told.stdout.strip() or f"exit code {told.returncode}", "the other three outcomes come back")
+    outcomes = told.stdout.split()
+    assert len(outcomes) == 4 and [outcomes[0], *outcomes[2:]] == ["0", "2", "3"], told.stderr
