@@ -1,0 +1,145 @@
+"""Whether a frictional step has a solution, and only one: the certificate and the error's words against exact and enumerated cases."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.contact.problems import all_open, random_problem
+
+from fenics_gears.contact.errors import SelfLocking
+from fenics_gears.contact.existence import locked_nodes, working
+from fenics_gears.contact.ladder import StepProblem, solve_step
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
+from fenics_gears.contact.newton import solve_sets
+from fenics_gears.contact.uniqueness import is_only_solution
+
+
+def solutions(problem, sigma):
+    """Every solution that slips along `sigma` (n,), by trying each set of closed nodes."""
+    n, found = len(sigma), []
+    slips = np.where(sigma > 0, SLIP_FORWARD, SLIP_BACKWARD)
+    for closed in itertools.product((False, True), repeat=n):
+        forces, coordinates = np.zeros(2 * n), np.zeros(len(problem.load))
+        try:
+            solve_sets(
+                problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before, problem.friction,
+                np.where(closed, slips, OPEN).astype(np.int8), forces, coordinates,
+            )  # fmt: skip
+        except np.linalg.LinAlgError:
+            continue
+        openings = problem.gap - (problem.rigid @ coordinates - problem.compliance @ forces)[:n]
+        balance = problem.stiffness @ coordinates + problem.rigid.T @ forces - problem.load
+        if forces[:n].min() >= 0.0 and openings.min() >= -1e-9 and np.abs(balance).max() <= 1e-6:
+            found.append(forces)
+    return found
+
+
+def certified(problem, sigma, stiffness=None):
+    stiffness = problem.stiffness if stiffness is None else stiffness
+    closed = np.ones(len(sigma), dtype=bool)
+    return is_only_solution(stiffness, problem.compliance, problem.rigid, problem.friction, closed, sigma)
+
+
+@pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
+def test_a_certified_solution_is_the_only_one(free):
+    """Brute force: with the slip directions given, all 2^4 sets of closed nodes of 1500 problems leave at most one solution where the
+    certificate says so, and sometimes two where it does not."""
+    most = {True: 0, False: 0}
+    count = {True: 0, False: 0}
+    for seed in range(1500):
+        rng = np.random.default_rng(seed)
+        problem = random_problem(seed, 4, float(rng.uniform(0.05, 1.5)), coordinates=2, free=free)
+        if free:
+            # Arms of friction as gears have them: most of friction's moments are smaller than those of the normal forces.
+            problem.rigid[4:, 0] *= 0.3
+        sigma = rng.choice([-1.0, 1.0], 4)
+        says = certified(problem, sigma)
+        count[says] += 1
+        most[says] = max(most[says], len(solutions(problem, sigma)))
+    assert count[True] > 100 and count[False] > 100
+    assert most[True] == 1 and most[False] >= 2
+
+
+def test_a_load_held_by_contact_alone_is_the_limit_of_a_soft_spring():
+    """Known limit: the certificate of a singular stiffness is that of a spring of 1e-6 and of 1e-9 of the others along the free motion."""
+    verdicts = set()
+    for seed in range(200):
+        problem = random_problem(seed, 4, 0.4, coordinates=2, free=True)
+        problem.rigid[4:, 0] *= 0.3
+        sigma = np.random.default_rng(seed).choice([-1.0, 1.0], 4)
+        soft = [problem.stiffness + np.diag([spring, 0.0]) for spring in (1e-1, 1e-4)]
+        verdict = certified(problem, sigma)
+        assert [certified(problem, sigma, stiffness) for stiffness in soft] == [verdict, verdict]
+        verdicts.add(verdict)
+    assert verdicts == {True, False}
+
+
+def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0):
+    """One node that slips backward (its slip so far is -1 mm); `arm`: of friction against the load; `coupling`: elastic, normal-tangential."""
+    free = stiffness == 0.0
+    return StepProblem(
+        stiffness=np.array([[stiffness]]),
+        load=np.array([load]),
+        compliance=1e-6 * np.array([[1.0, coupling], [coupling, 2.0]]),
+        rigid=np.array([[1.0], [arm]]),
+        gap=np.array([gap]),
+        slip_before=np.array([-1.0]),
+        friction=friction,
+        free_motion=np.ones(1) if free else np.empty(0),
+        tolerance=Tolerance.of_load(load),
+    )
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.5, 0.9])
+def test_friction_against_the_load_raises_the_normal_force(friction):
+    """Exact: a node whose friction has the arm `a` against the load F carries F/(1 - mu a)."""
+    problem = one_node(friction, arm=1.0)
+    assert solve_step(problem, all_open(problem)).forces[0] == pytest.approx(100.0 / (1.0 - friction), rel=1e-12)
+
+
+@pytest.mark.parametrize("friction", [1.0, 1.5, 2.0])
+def test_friction_that_undoes_the_normal_force_locks(friction):
+    """Exact: from mu a = 1 on the node sticks and jams, with a force that the slip asks for (1 mm against 3e-6 mm/N), not the load."""
+    problem = one_node(friction, arm=1.0)
+    solution = solve_step(problem, all_open(problem))
+    assert solution.status[0] == STICK
+    assert solution.forces[0] == pytest.approx((1.0 + 2e-6 * 100.0) / 3e-6, rel=1e-12)
+    weights = working(problem.rigid, problem.free_motion, solution.forces)
+    assert weights.normal[0] == 1.0
+    assert weights.sliding[0] == pytest.approx(100.0 / solution.forces[0], rel=1e-9)
+    slides = replace(solution, forces=np.array([1.0, -friction]))
+    assert locked_nodes(working(problem.rigid, problem.free_motion, slides.forces)).all()
+
+
+@pytest.mark.parametrize(
+    "seed, nodes, words",
+    [(20067, 1, "no contact forces whose friction opposes the slip can balance the load"), (27458, 2, "the friction undoes 3.75 times")],
+)
+def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
+    """Of 100 000 random problems (test_ladder) the 18 without a solution say self-locking; two of them, by either reason.
+
+    The arms of forces say so by themselves: friction along the slip outweighs the normal forces.
+    """
+    problem = random_problem(seed, nodes, 2.0, coordinates=2, free=True)
+    with pytest.raises(SelfLocking, match="self-locking: with a friction coefficient of 2 ") as failure:
+        solve_step(problem, all_open(problem))
+    assert words in failure.value.reason
+    arms = problem.rigid[nodes:, 0]
+    assert np.any(1.0 - 2.0 * np.abs(arms) <= 0.0)
+
+
+def test_two_solutions_are_not_certified():
+    """Exact: where friction pulls the flanks together by more than the normal force parts them (mu c_nt > c_nn) an open gap of g
+    has two solutions, p = 0 and p = g/(mu c_nt - c_nn - 1/k)."""
+    problem = one_node(2.0, coupling=1.2, load=0.0, stiffness=1e9, gap=1e-3)
+    problem = replace(problem, tolerance=Tolerance.of_load(1e3))
+    assert not certified(problem, np.array([-1.0]))
+    assert certified(replace(problem, friction=0.5), np.array([-1.0]))
+    expected = 1e-3 / (2.4e-6 - 1e-6 - 1e-9)
+    found = sorted(forces[0] for forces in solutions(problem, np.array([-1.0])))
+    assert found == [0.0, pytest.approx(expected, rel=1e-9)]
+    for start, force in ((OPEN, 0.0), (SLIP_BACKWARD, expected)):
+        assert solve_step(problem, np.array([start], dtype=np.int8)).forces[0] == pytest.approx(force, rel=1e-9)
+    slides = solve_step(replace(problem, gap=np.array([-1e-3]), friction=0.5), np.array([OPEN], dtype=np.int8))
+    assert slides.forces[0] == pytest.approx(1e-3 / (1e-6 - 0.6e-6 + 1e-9), rel=1e-9)
