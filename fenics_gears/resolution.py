@@ -16,7 +16,7 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.scene.data import Scene
+from fenics_gears.scene.data import Material, Scene
 
 ELEMENTS_PER_HALF_WIDTH = 4.0
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
@@ -34,6 +34,8 @@ CLOSEST_NODES = 0.7
 STEPS_PER_MESH_CYCLE = 200
 STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
+# Above this Poisson's ratio first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at 0.499).
+LOCKING_POISSONS_RATIO = 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.
 ONCE, EVERY_STEP = "once", "every step"
 
@@ -132,3 +134,13 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
             "accuracy.contact_nodes or accuracy.flank_element_size"
         )
     return found
+
+
+def locking_warnings(resolution: Resolution, material: Material) -> list[str]:
+    """A sentence on an element that locks in a nearly incompressible material."""
+    if resolution.element.endswith("2") or material.poissons_ratio <= LOCKING_POISSONS_RATIO:
+        return []
+    return [
+        f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is {material.poissons_ratio:g}, "
+        f"above {LOCKING_POISSONS_RATIO}): the teeth are too stiff; choose accuracy.element P2 or Q2"
+    ]

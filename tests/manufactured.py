@@ -1,0 +1,54 @@
+"""A manufactured solution of plane strain on a distorted square, and how far an element is from it."""
+
+import numpy as np
+import ufl
+from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import spsolve
+
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.stiffness import displacement_space, stiffness_form, stress
+
+
+def distorted_square(cells: int, corners: int) -> BodyMesh:
+    """Unit square of cells x cells quadrilaterals or twice as many triangles, smoothly distorted inside."""
+    x, y = np.meshgrid(*2 * [np.linspace(0.0, 1.0, cells + 1)], indexing="ij")
+    bump = 0.05 * np.sin(np.pi * x) * np.sin(np.pi * y)
+    points = np.stack([(x + bump).ravel(), (y - bump).ravel()], axis=-1)
+    index = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
+    square = [index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]]
+    square = np.stack([part.ravel() for part in square], axis=-1)
+    if corners == 3:
+        square = np.vstack([square[:, [0, 1, 2]], square[:, [0, 2, 3]]])
+    return BodyMesh(points, square, {})
+
+
+def exact_displacement(x, module):
+    """Smooth field that no element holds exactly."""
+    return (
+        module.sin(2.0 * x[0]) * module.cos(1.5 * x[1]) + x[0] * x[1],
+        module.exp(0.8 * x[0]) * module.sin(1.7 * x[1]),
+    )
+
+
+def l2_error(name: str, cells: int, poissons_ratio: float) -> float:
+    """Error of the displacement, exact values held on the boundary, the exact field's own body force inside."""
+    element = ELEMENTS[name]
+    space = displacement_space(distorted_square(cells, element.corners), element)
+    matrix = adapter.assemble_matrix(stiffness_form(space, element, poissons_ratio))
+    rows, columns, values = matrix.getValuesCSR()
+    stiffness = csr_matrix((values, columns, rows), shape=matrix.getSize())
+    x = ufl.SpatialCoordinate(space.mesh)
+    exact = ufl.as_vector(exact_displacement(x, ufl))
+    measure = ufl.dx(metadata={"quadrature_degree": 8})
+    body_force = -ufl.div(stress(exact, adapter.constant(space.mesh, poissons_ratio)))
+    test = ufl.TestFunction(space)
+    load = adapter.assemble_vector(adapter.compile_form(ufl.inner(body_force, test) * measure))
+    nodes = adapter.node_coordinates(space)
+    displacement = np.stack(exact_displacement(nodes.T, np), axis=-1).ravel()
+    inside = np.repeat(np.all((nodes > 1e-9) & (nodes < 1.0 - 1e-9), axis=1), 2)
+    held = displacement * ~inside
+    displacement[inside] = spsolve(stiffness[inside][:, inside].tocsc(), (load - stiffness @ held)[inside])
+    difference = adapter.function(space, displacement) - exact
+    return np.sqrt(adapter.assemble_scalar(adapter.compile_form(ufl.inner(difference, difference) * measure)))
