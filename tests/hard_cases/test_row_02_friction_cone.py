@@ -1,0 +1,65 @@
+"""Row 2: single steps with random loads, gaps, slips and starts, friction up to 2; whole runs are judged in `test_any_scene.py`."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.contact.problems import all_open, random_problem
+from tests.hard_cases.random_steps import solved, steps, violations
+
+from fenics_gears.contact.ladder import solve_step
+
+# Of hard_cases.md and model.md section 4.
+LIMITS = {
+    "cone": ("friction beyond the cone, of the largest force", 1e-6, ""),
+    "stick": ("slip of a node inside its cone", 1e-4, "um"),
+    "wrong_way": ("friction along the slip, of force times length", 1e-10, ""),
+    "dissipation": ("energy gained by friction, of force times length", 1e-10, ""),
+}
+
+
+def judged(measured, examples):
+    worst = dict.fromkeys(LIMITS, 0.0)
+
+    @settings(max_examples=examples)
+    @given(steps(st.floats(1e-3, 2.0)))
+    def every_step(step):
+        solution = solved(*step)
+        if solution is None:
+            return
+        found = violations(step[0], solution)
+        for name, (_, limit, _) in LIMITS.items():
+            worst[name] = max(worst[name], found[name])
+            assert found[name] <= limit, name
+
+    try:
+        every_step()
+    finally:
+        for name, (words, limit, unit) in LIMITS.items():
+            measured(f"{words}, single steps", worst[name], f"{limit:g} {unit}".rstrip(), unit)
+
+
+def test_any_step_obeys_coulomb(measured):
+    """Authority: Coulomb's law, from forces and coordinates."""
+    judged(measured, 300)
+
+
+@pytest.mark.nightly
+def test_many_steps_obey_coulomb(measured):
+    """Authority: as above, ten thousand times."""
+    judged(measured, 10000)
+
+
+def test_friction_dissipates_what_it_bounds(measured):
+    """Exact: a node loses mu p_n per length that it slips, no less and no more; one that sticks has no slip to lose it by."""
+    worst = 0.0
+    for seed in range(200):
+        problem = random_problem(seed, 6, friction=0.2)
+        solution = solve_step(problem, all_open(problem))
+        slip = (problem.rigid @ solution.coordinates - problem.compliance @ solution.forces)[6:] + problem.slip_before
+        lost = solution.forces[6:] * slip
+        full = 0.2 * solution.forces[:6] * np.abs(slip)
+        scale = np.abs(solution.forces).max() * np.abs(slip).max()
+        worst = max(worst, float(np.abs(lost - full).max() / scale) if scale else 0.0)
+    measured("energy lost against mu p_n slip at every node", worst, "1e-10 of force times slip")
+    assert worst <= 1e-10
