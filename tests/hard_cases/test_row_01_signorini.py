@@ -11,7 +11,7 @@ LIMITS = {
     "penetration": ("largest penetration", 1e-4, "um"),
     "tension": ("largest tension, of the largest force", 1e-6, ""),
     "complementarity": ("p_n gap, of force times length", 1e-10, ""),
-    "balance": ("forces out of balance, of the largest force", 1e-8, ""),
+    "balance": ("forces out of balance, of the largest term", 1e-12, ""),
 }
 
 
