@@ -81,21 +81,6 @@ def test_undamped_tied_motion_keeps_its_energy(paper_scene, paper_pair, stand_in
     assert np.abs(np.array(energies) - first).max() <= 1e-6 * kinetic
 
 
-def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks):
-    """Row 18: thrown apart, without springs or damping, the wheel flies at constant acceleration C/J and no force acts."""
-    scene = frictionless(paper_scene, damping=None, shafts=None, bearings=None)
-    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-5)
-    start = marcher.start()
-    free = float(shafts.load[0] / shafts.mass[0, 0])
-    thrown = State(start.state.position - 5.0, np.array([-50.0]), np.array([free]))
-    record = Record(0, thrown, start.position, replace(start.solution, status=np.zeros_like(start.solution.status)))
-    for step in range(1, 101):
-        record = marcher.step(marcher.dynamic, record, step)
-        assert np.all(record.solution.forces == 0.0)
-    t = 1e-3
-    assert record.state.position[0] == pytest.approx(thrown.position[0] - 50.0 * t + 0.5 * free * t**2, rel=1e-11)
-
-
 def test_low_mesh_frequency_tends_to_the_quasi_static_solution(paper_scene, paper_pair, stand_in_flanks):
     """Row 23: at 0.01 Hz the dynamic solution is the quasi-static one to 1e-6."""
     results = []

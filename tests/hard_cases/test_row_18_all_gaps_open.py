@@ -1,0 +1,109 @@
+"""Row 18: no flank touches. With inertia the gears fly free; without, nothing holds the load, and the error says which load and which motion."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from tests.contact.problems import all_open, random_problem
+from tests.frozen_gears import frozen_marcher
+
+from fenics_gears.contact.errors import NoStaticEquilibrium
+from fenics_gears.contact.ladder import solve_step
+from fenics_gears.contact.mesh_cycle import MeshCycle, Position
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.average_acceleration import State
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.march import Marcher, Record
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_a_step_without_contact_is_the_drivetrain_alone(friction, measured):
+    """Exact: p = 0 and q = K^-1 F."""
+    problem = replace(random_problem(2, friction=friction), gap=np.full(8, 10.0))
+    solution = solve_step(problem, all_open(problem))
+    expected = np.linalg.solve(problem.stiffness, problem.load)
+    error = np.abs(solution.coordinates - expected).max() / np.abs(expected).max()
+    measured(f"coordinates against K^-1 F, friction {friction:g}", error, "1e-13")
+    assert np.all(solution.forces == 0.0)
+    assert error <= 1e-13
+
+
+def thrown_apart(start, position, velocity, acceleration):
+    """A record with every gap open and nothing touching."""
+    nothing = replace(start.solution, status=np.zeros_like(start.solution.status), forces=np.zeros_like(start.solution.forces))
+    return Record(0, State(position, velocity, acceleration), start.position, nothing)
+
+
+def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks, measured):
+    """Exact: thrown apart, without springs or damping, the wheel flies at constant acceleration C/J and no force acts."""
+    scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
+    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-5)
+    start = marcher.start()
+    free = float(shafts.load[0] / shafts.mass[0, 0])
+    record = thrown_apart(start, start.state.position - 5.0, np.array([-50.0]), np.array([free]))
+    thrown = record.state.position[0]
+    forces = 0.0
+    for step in range(1, 101):
+        record = marcher.step(marcher.dynamic, record, step)
+        forces = max(forces, float(np.abs(record.solution.forces).max()))
+    exact = thrown - 50.0 * 1e-3 + 0.5 * free * 1e-3**2
+    error = abs(record.state.position[0] - exact) / abs(exact)
+    measured("free flight of the wheel against C/J, 100 steps", error, "1e-11")
+    measured("largest contact force in flight", forces, "0", "N")
+    assert forces == 0.0
+    assert error <= 1e-11
+
+
+def test_free_flight_of_the_whole_drivetrain(paper_scene, paper_pair, stand_in_flanks, measured):
+    """Exact identity: apart, with friction, springs and damping in the scene, each step is that of the drivetrain without any gears."""
+    marcher, shafts = frozen_marcher(paper_scene, paper_pair, stand_in_flanks, 1e-5)
+    start = marcher.start()
+    away = np.zeros(len(shafts.coordinates))
+    away[shafts.coordinates.index("rotation_2")] = -1.0
+    record = thrown_apart(start, start.state.position + 0.5 * away, 50.0 * away, np.zeros(len(away)))
+    state, worst, scheme = record.state, 0.0, marcher.dynamic
+    for step in range(1, 101):
+        record = marcher.step(scheme, record, step)
+        state = scheme.advance(state, np.linalg.solve(scheme.stiffness, scheme.load(state)))
+        assert np.all(record.solution.forces == 0.0)
+        worst = max(worst, float(np.abs(record.state.position - state.position).max() / np.abs(state.position).max()))
+    measured("flight of the whole drivetrain against that without gears, 100 steps", worst, "1e-11")
+    assert worst <= 1e-11
+
+
+ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]
+
+
+@pytest.mark.parametrize("frictional", [False, True], ids=["frictionless", "friction"])
+@pytest.mark.parametrize("absent", ABSENT, ids=["all"] + ["without " + " and ".join(names) for names in ABSENT[1:]])
+def test_a_static_load_that_opens_all_gaps_is_named(absent, frictional, paper_scene, paper_pair, stand_in_flanks, measured):
+    """Message: turned the other way, and without coast flanks, the couple opens every gap; whatever else gives way, it turns the wheel."""
+    scene = replace(paper_scene, inertia=None, damping=None, **dict.fromkeys(absent))
+    scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque), friction=scene.friction if frictional else None)
+    shafts = drivetrain(scene, paper_pair)
+    cycle = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), 40, shafts.indices, tangential=frictional)
+    marcher = Marcher(cycle, shafts, 1e-4, scene.friction.coefficient if frictional else 0.0)
+    with pytest.raises(NoStaticEquilibrium) as failure:
+        marcher.run(1, 2)
+    measured(f"error, {'friction' if frictional else 'frictionless'}", failure.value.reason, "names load and free motion")
+    assert failure.value.reason.startswith("no equilibrium")
+    assert "all gaps open" in failure.value.reason
+    assert failure.value.reason.endswith("the wheel turns freely under its couple of -437 N m")
+    assert failure.value.step == -1 and not failure.value.partial.records
+
+
+def test_a_position_where_nothing_can_touch_is_named(paper_scene, paper_pair, stand_in_flanks, measured):
+    """Message: a static step at which no tooth pair has a contact node says so, and that the wheel turns freely."""
+    scene = replace(paper_scene, inertia=None, damping=None, friction=None)
+    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
+    start, k = marcher.start(), len(shafts.coordinates)
+    empty = SimpleNamespace(
+        nodes=0, compliance=np.zeros((0, 0)), rigid=np.zeros((0, k)), gap=np.empty(0), sliding=None,
+    )  # fmt: skip
+    marcher.cycle.position = lambda step: Position(empty, np.empty(0, dtype=np.int64))
+    with pytest.raises(NoStaticEquilibrium) as failure:
+        marcher.step(marcher.static, start, 1)
+    measured("error where no tooth pair can touch", failure.value.reason, "names load and free motion")
+    assert failure.value.reason.startswith("no equilibrium: no tooth pair can touch")
+    assert failure.value.reason.endswith("the wheel turns freely under its couple of 437 N m")
