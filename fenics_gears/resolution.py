@@ -18,6 +18,7 @@ from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Material, Scene
 
+DEFAULT_ELEMENT = "P2"
 ELEMENTS_PER_HALF_WIDTH = 4.0
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
 FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
@@ -28,6 +29,9 @@ LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
 HALF_WIDTHS_BESIDE = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
+# Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart. Peak pressure is
+# then within 4, 1, 0.5 % of Hertz's for half-widths of 2, 4, 8 elements; with nodes one element apart it errs by 12, 2, 0.3 %.
+NODE_SPACING = 0.7
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
 # Peaks of the transmission error lie between steps: 200 steps miss 0.1 % of the peak-to-peak value of the paper's pair.
@@ -84,9 +88,10 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
         np.clip(half_width / ELEMENTS_PER_HALF_WIDTH, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
     )
     length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
-    nodes = asked.contact_nodes or max(ceil(length / size), 2) + 1
+    spacing = size if (asked.element or DEFAULT_ELEMENT).endswith("1") else NODE_SPACING * size
+    nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
     return Resolution(
-        element=asked.element or "P2",
+        element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
         contact_grid=ContactGrid(length, nodes),
         steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),

@@ -11,6 +11,7 @@ import xarray as xr
 
 import fenics_gears
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.pressure import peak_pressure
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record
 from fenics_gears.effects import result_variables
@@ -85,6 +86,7 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
     }
     attributes |= {f"steps_by_rung: {rung}": count for rung, count in march.rungs.items() if count}
     if len(error):
+        attributes["peak_contact_pressure"] = peak_pressure(result["contact_pressure"].values, result["contact_offset"].values)
         attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
         attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
     if len(error) > 1 and scene.friction is not None and result["work_input"].values[-1]:

@@ -1,0 +1,131 @@
+"""Row 8: Hertz line contact at the paper's pitch point, meshed so that a half-width b spans 2, 4 and 8 flank elements h.
+
+Literature: K. L. Johnson, Contact Mechanics, 1985, section 4.2. One tooth pair alone, contact nodes 0.7 elements apart (the default),
+over loads that move the edges of contact across the nodes and positions that move it across the elements: the worst error counts.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from tests.coarse import frictionless, teeth_alone
+
+from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.operator import CompliancePairing, contact_operator
+from fenics_gears.contact.pressure import peak_pressure, without_oscillation
+from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.model import model
+from fenics_gears.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.simulation import simulate
+
+LIMITS = {2: 0.04, 4: 0.01, 8: 0.005}
+# Loads in parts of the one whose half-width is `ratio` elements; where the contact point lies, in parts of an element.
+LOADS, SHIFTS = np.linspace(1.0, 1.25, 6) ** 2, (0.0, 0.3)
+
+
+@pytest.fixture(scope="module")
+def errors(paper_scene):
+    """Errors of peak (nodal, averaged) and half-width over all loads and positions, (cases, 3), for an element and b/h."""
+    scene = teeth_alone(paper_scene)
+    pair, material = model(scene).pair, scene.gears.material
+    nominal = scene.load.wheel_torque / pair.wheel.base_radius
+    modulus = plane_contact_modulus(scene)
+
+    def half_width(force, xi):
+        return hertz_half_width(force / pair.face_width, relative_radius(pair, xi), modulus)
+
+    @lru_cache
+    def of(element, ratio, node_spacing=NODE_SPACING):
+        size = half_width(nominal, pair.pitch_point) / ratio
+        gears = (
+            flank_compliance(gear, material, element=element, flank_element_size=size, tooth_offsets=0)
+            for gear in (pair.pinion, pair.wheel)
+        )
+        flanks, found = Flanks(pair, tuple(gears)), []
+        for load in LOADS:
+            for shift in SHIFTS:
+                xi, force = pair.pitch_point + shift * size, load * nominal
+                offsets, pressure = pressed(flanks, xi, force, node_spacing * size, 3.0 * half_width(force, xi))
+                peak = 2.0 * force / pair.face_width / (np.pi * half_width(force, xi))
+                # Second moment of the elliptic pressure: b^2/4; that of each node's hat function adds spacing^2/6.
+                centre = pressure @ offsets / pressure.sum()
+                moment = pressure @ (offsets - centre) ** 2 / pressure.sum() + (offsets[1] - offsets[0]) ** 2 / 6.0
+                found.append((
+                    pressure.max() / peak - 1.0,
+                    without_oscillation(pressure).max() / peak - 1.0,
+                    2.0 * np.sqrt(moment) / half_width(force, xi) - 1.0,
+                ))  # fmt: skip
+        return np.abs(found)
+
+    return of
+
+
+def pressed(flanks, xi, force, spacing, length):
+    """Offsets (n,), mm, and pressures (n,), MPa, of the contact nodes of one pair under a force."""
+    cells = 2 * int(np.ceil(0.5 * length / spacing))
+    nodes = tooth_pair(flanks, ContactGrid(cells * spacing, cells + 1), drive_place(flanks.pair, 0, xi))
+    operator = contact_operator(flanks, CompliancePairing(flanks), (nodes,), coordinates=[5])
+    problem = StepProblem(
+        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, np.ones(1),
+        Tolerance.of_load(force),
+    )  # fmt: skip
+    solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+    return nodes.offsets, solution.forces / (nodes.lengths * flanks.pair.face_width)
+
+
+@pytest.mark.parametrize("ratio", LIMITS)
+@pytest.mark.parametrize("element", ["P2", "Q2"])
+def test_peak_pressure(element, ratio, errors, measured):
+    """The peak of the averaged pressure, at its worst; the nodal values' own for comparison."""
+    nodal, averaged, _ = errors(element, ratio).max(axis=0)
+    measured(f"{element}, b/h = {ratio}: peak pressure, averaged (nodal)", f"{100 * averaged:.2g} % ({100 * nodal:.2g} %)",
+             f"{100 * LIMITS[ratio]:g} %")  # fmt: skip
+    assert averaged <= LIMITS[ratio]
+
+
+@pytest.mark.parametrize("element", ["P2", "Q2"])
+def test_order_of_the_half_width(element, errors, measured):
+    """Known order: at least 1, from the worst errors at b/h = 2, 4, 8."""
+    worst = [errors(element, ratio)[:, 2].max() for ratio in LIMITS]
+    orders = np.log2(np.array(worst[:-1]) / worst[1:])
+    measured(f"{element}: half-width, error at b/h = 2, 4, 8", ", ".join(f"{100 * error:.2g} %" for error in worst), "recorded")
+    measured(f"{element}: half-width, order", ", ".join(f"{order:.2g}" for order in orders), "at least 1")
+    assert orders.min() >= 1.0
+
+
+@pytest.mark.parametrize("element", ["P1", "Q1"])
+def test_first_order_elements(element, errors, measured):
+    """What first-order elements are worth here: on record; the peak converges, with order 1 at least from b/h = 2 to 8."""
+    worst = [errors(element, ratio, 1.0)[:, 1].max() for ratio in LIMITS]
+    measured(f"{element}, nodes one element apart: peak at b/h = 2, 4, 8", ", ".join(f"{100 * error:.2g} %" for error in worst), "recorded")
+    assert worst[2] <= 0.25 * worst[0]
+
+
+def test_peak_that_a_run_reports(paper_scene, measured):
+    """The same through a whole run at the default accuracy, b/h = 4.6 at the pitch point: what the result's attribute is made of."""
+    scene = frictionless(teeth_alone(replace(paper_scene, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))))
+    pair, result = model(scene).pair, simulate(scene)
+    phases = (pair.pitch_point - pair.path_start) / pair.base_pitch
+    at = result.isel(time=[int(np.argmin(np.abs(result.mesh_phase.values - phases)))])
+    xi = pair.path_start + float(at.mesh_phase[0]) * pair.base_pitch
+    line_load = float(at.normal_force[0]) / pair.face_width
+    half_width = hertz_half_width(line_load, relative_radius(pair, xi), plane_contact_modulus(scene))
+    peak = peak_pressure(at.contact_pressure.values, at.contact_offset.values)
+    error = abs(peak * np.pi * half_width / (2.0 * line_load) - 1.0)
+    measured("a run at default accuracy: peak pressure at the pitch point", f"{100 * error:.2g} %", "1 %")
+    assert error <= 0.01
+    assert result.attrs["peak_contact_pressure"] >= peak
+
+
+def test_average_keeps_cubics_and_removes_what_alternates():
+    """Exact: weights (-1, 4, 10, 4, -1)/16 reproduce cubics and vanish on (-1)^j; ends and short contacts stay as they are."""
+    places = np.arange(12.0)
+    cubic = 3.0 + 2.0 * places - 0.7 * places**2 + 0.1 * places**3
+    np.testing.assert_allclose(without_oscillation(cubic), cubic, rtol=1e-13)
+    np.testing.assert_allclose(without_oscillation(cubic + (-1.0) ** places)[2:-2], cubic[2:-2], rtol=1e-13)
+    np.testing.assert_array_equal(without_oscillation(cubic[:4]), cubic[:4])
