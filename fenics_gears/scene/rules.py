@@ -6,15 +6,19 @@ The rules read the parsed TOML file, so that they speak even where some field is
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from math import inf
 from typing import Any
 
 from fenics_gears import effects
 from fenics_gears.scene import units
 from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problems import Problem
+from fenics_gears.scene.schema import Gears
 from fenics_gears.scene.written import as_written
 
 Tree = Mapping[str, Any]
+# In modules: the dense compliance of a flank of such elements has gigabytes.
+FINEST_ELEMENT = 1e-3
 
 
 def broken_rules(tree: Tree) -> list[Problem]:
@@ -77,12 +81,18 @@ def _relief_is_complete(tree: Tree) -> Iterator[Problem]:
 
 
 def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
-    module = _quantity((_table(tree, "gears") or {}).get("module"))
+    module = _module(tree)
+    if module is None:
+        return
     accuracy = _table(tree, "accuracy") or {}
     for name, modules in (("flank_element_size", 1.0), ("contact_length", 3.0)):
         size = _quantity(accuracy.get(name))
-        if module is not None and size is not None and size > modules * module > 0:
+        if size is not None and size > modules * module:
             yield Problem(("accuracy", name), as_written(accuracy[name]), f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.")
+    size, finest = _quantity(accuracy.get("flank_element_size")), FINEST_ELEMENT * module
+    if size is not None and 0 < size < finest:
+        message = f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from {finest:g} mm."
+        yield Problem(("accuracy", "flank_element_size"), as_written(accuracy["flank_element_size"]), message)
 
 
 def _load_has_flanks(tree: Tree) -> Iterator[Problem]:
@@ -105,6 +115,15 @@ _RULES = (_load_has_flanks, _route_has_flanks, _effects_fit_together, _one_speed
 def _table(tree: Tree, name: str) -> Tree | None:
     value = tree.get(name)
     return value if isinstance(value, Mapping) else None
+
+
+def _module(tree: Tree) -> float | None:
+    """The module in mm; None where it is missing or wrong by itself."""
+    module = _quantity((_table(tree, "gears") or {}).get("module"))
+    if module is None:
+        return None
+    limits = Gears.model_fields["module"].metadata
+    return module if all(getattr(each, "ge", 0.0) <= module <= getattr(each, "le", inf) for each in limits) else None
 
 
 def _quantity(value: Any) -> float | None:

@@ -1,0 +1,99 @@
+"""Every field that a scene can have, found in the schema itself, and a scene that has them all."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fenics_gears.scene import units
+from fenics_gears.scene.fields import Allowed, allowed_in
+from fenics_gears.scene.schema import SceneText
+from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
+
+DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
+RELIEF = {"depth": "31 um", "start": "HPSTC"}
+# Units of every kind of quantity that a scene has, by what `units` calls it.
+UNITS = {
+    "a length": "mm", "an angle": "deg", "a stress": "GPa", "a couple": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
+    "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2", "a time": "s",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field of a scene: its path, what it allows, whether it must be there, and its bounds in N, mm, s, rad (None without)."""
+
+    path: tuple[str, ...]
+    allowed: Allowed
+    required: bool
+    bounds: tuple[float, float] | None
+    excluded: tuple[bool, bool]
+
+    @property
+    def name(self) -> str:
+        """The path as it is written."""
+        return ".".join(self.path)
+
+    @property
+    def unit(self) -> str:
+        """A unit that the field takes; empty for one without."""
+        return "1/s" if self.path[-1] == "mass_proportional" else UNITS[self.allowed.kind] if self.allowed.kind else ""
+
+    @property
+    def whole(self) -> bool:
+        """Whether the field takes whole numbers only."""
+        return "whole number" in self.allowed.description
+
+    def takes(self, number: float) -> bool:
+        """Whether a number, in the field's unit, lies within its bounds."""
+        if self.allowed.kind:
+            number = units.quantity(f"{number!r} {self.unit}")[0]
+        (lowest, highest), (above, below) = self.bounds, self.excluded
+        return (lowest < number if above else lowest <= number) and (number < highest if below else number <= highest)
+
+    def literal(self, number: Any) -> str:
+        """A number as this field's text in TOML."""
+        return f'"{number} {self.unit}"' if self.allowed.kind else f"{number}"
+
+
+def fields() -> list[Field]:
+    """All of them; a new one joins by itself."""
+    return list(_fields())
+
+
+def _fields() -> Iterator[Field]:
+    for path, is_section in known_paths().items():
+        if is_section:
+            continue
+        section: Any = SceneText
+        for name in path[:-1]:
+            kinds = (section.model_fields[name].annotation, *getattr(section.model_fields[name].annotation, "__args__", ()))
+            section = next(kind for kind in kinds if hasattr(kind, "model_fields"))
+        info = section.model_fields[path[-1]]
+        limits = {key: getattr(item, key) for item in info.metadata for key in ("ge", "gt", "le", "lt") if getattr(item, key, None) is not None}
+        low, high = limits.get("ge", limits.get("gt")), limits.get("le", limits.get("lt"))
+        bounds = None if low is None else (low, high)
+        yield Field(path, allowed_in(section, path[-1]), info.is_required(), bounds, ("gt" in limits, "lt" in limits))
+
+
+def whole_scene() -> dict[str, Any]:
+    """The demonstration scene with every section and every field."""
+    tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
+    tree["tip_relief"] = {**RELIEF, "pinion": RELIEF, "wheel": RELIEF}
+    tree["gears"]["pinion"]["rack_tip_radius"] = tree["gears"]["wheel"]["rack_tip_radius"] = 0.38
+    return tree | {"coast_flanks": {}}
+
+
+def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None) -> str:
+    """The whole scene's text with `literal` (TOML) at a path, nothing there where that is None; under another `name` if given."""
+    tree = whole_scene()
+    if path == ("motion", "pinion_speed"):
+        tree = changed(tree, ("motion", "mesh_frequency"), ABSENT)
+    tree = changed(tree, path, ABSENT)
+    if literal is None:
+        return as_toml(tree)
+    text = as_toml(changed(tree, (*path[:-1], name or path[-1]), "@@"))
+    return text.replace('"@@"', literal)

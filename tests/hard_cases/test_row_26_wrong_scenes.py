@@ -1,0 +1,318 @@
+"""Row 26: a wrong value in any field of a scene is refused before any computation.
+
+Authority throughout: hard case 26. The refusal names file, field, value as written, what is allowed and the nearest known name; the
+exit code is 2; nothing is written. The fields come from the schema itself, so that a new one is tried too. How messages are
+worded for mistakes as people make them is told by tests/scene/test_wrong_scenes.py.
+"""
+
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.hard_cases.scene_fields import DEMO, UNITS, Field, fields, scene_with
+from tests.studies.conftest import ACCURACY
+
+import fenics_gears.simulation
+from fenics_gears.cli import main
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.read import scene_from_text
+
+WRONG_TYPES = ("true", "[1, 2]", "{ a = 1 }", "1979-05-27", '""')
+
+
+class Computed(Exception):
+    """Raised in the place of a computation."""
+
+
+@pytest.fixture
+def outcome(tmp_path, monkeypatch, capsys):
+    """A function that runs a scene's text: the refusal's words, None where the scene is taken; it fails where anything is written."""
+    monkeypatch.chdir(tmp_path)
+
+    def compute(scene, **options):
+        raise Computed
+
+    monkeypatch.setattr(fenics_gears.simulation, "simulate", compute)
+
+    def run(text):
+        file = tmp_path / "pair.toml"
+        file.write_text(text, encoding="utf-8")
+        try:
+            code = main(["run", "pair.toml"])
+        except Computed:
+            code = None
+        said = capsys.readouterr()
+        assert [each.name for each in tmp_path.rglob("*")] == ["pair.toml"]
+        if code is None:
+            return None
+        assert code == 2 and said.out == "" and said.err.startswith("pair.toml") and "Traceback" not in said.err
+        assert "Nothing was computed or written." in said.err
+        return said.err
+
+    return run
+
+
+def as_said(literal: str) -> str:
+    """How a message shows a value."""
+    return "a list" if literal.startswith("[") else "" if literal.startswith("{") else literal
+
+
+def not_numbers(field: Field) -> list[str]:
+    return [field.literal(value) for value in ("nan", "-nan", "inf", "-inf", "1e400", "-1e400")] if field.bounds else []
+
+
+def huge(field: Field) -> list[str]:
+    if not field.bounds:
+        return []
+    numbers = ["1e300", "-1e300", "1e30"] + (["9" * 50, "1" + 400 * "0"] if not field.allowed.kind else [])
+    return [field.literal(number) for number in numbers]
+
+
+def negative(field: Field) -> list[str]:
+    return [field.literal(number) for number in (-123, -1e-30, -1e-320) if field.bounds and not field.takes(number)]
+
+
+def zero(field: Field) -> list[str]:
+    tiny = [field.literal(number) for number in ("0", "-0.0", "1e-320", "5e-324", "0e9")]
+    return tiny if field.bounds and not field.takes(0.0) and not field.takes(1e-320) else []
+
+
+def wrong_unit(field: Field) -> list[str]:
+    if not field.allowed.kind:
+        return [f'"3 {unit}"' for unit in ("mm", "1/s")] if field.path[-1] != "title" else []
+    others = [f'"3 {unit}"' for kind, unit in UNITS.items() if kind != field.allowed.kind]
+    return [*others, f'"3 {field.unit}x"', '"3"', "3.5", "3", "nan", f'"3,5 {field.unit}"', f'"3 {field.unit} {field.unit}"', f'"{field.unit}"']
+
+
+def wrong_type(field: Field) -> list[str]:
+    if field.path[-1] == "title":
+        return ["true", "3", "[1, 2]", '"' + 501 * "x" + '"']
+    return [*WRONG_TYPES, *(["1.5"] if field.whole else []), *(['"3"'] if not field.allowed.kind else [])]
+
+
+KINDS = {
+    "NaN and infinity": not_numbers,
+    "huge": huge,
+    "negative": negative,
+    "zero and denormal": zero,
+    "wrong unit": wrong_unit,
+    "wrong type": wrong_type,
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind):
+    """Every field that the kind of mistake can be made in; "negative" and "zero" only where the field's own range leaves them out."""
+    tries = [(field, literal) for field in fields() for literal in KINDS[kind](field)]
+    wrong = []
+    for field, literal in tries:
+        said = outcome(scene_with(field.path, literal))
+        shown = as_said(literal)
+        named = f"{field.name} = {shown[:50]}" if shown and len(shown) <= 60 else field.name
+        if said is None or named not in said or "Allowed: " not in said or not re.match(r"pair\.toml:\d+: ", said):
+            wrong.append((field.name, literal, said))
+    measured(f"{kind}: refused", f"{len(tries) - len(wrong)} of {len(tries)} in {len({field.name for field, _ in tries})} fields", "all")
+    assert len(tries) > 10 and wrong == []
+
+
+def test_a_missing_field_is_named(outcome, measured):
+    """Every field without a default; one with a default may be left out, or a rule between fields says what then is missing."""
+    required = [field for field in fields() if field.required]
+    said = {field.name: outcome(scene_with(field.path, None)) for field in required}
+    wrong = [name for name, words in said.items() if words is None or f": {name}\n    is missing. Allowed: " not in words]
+    measured("missing: named", f"{len(required) - len(wrong)} of {len(required)} fields", "all")
+    assert len(required) > 20 and wrong == []
+    for field in fields():
+        if not field.required:
+            words = outcome(scene_with(field.path, None))
+            assert words is None or "is missing. Allowed: " in words
+
+
+def test_a_misspelt_field_is_answered_with_the_right_one(outcome, measured):
+    """A letter lost in every field's name; it is not reported as missing on top of it."""
+    wrong, tries = [], fields()
+    for field in tries:
+        key = field.path[-1]
+        misspelt = key[:2] + key[3:]
+        said = outcome(scene_with(field.path, '"1 mm"', misspelt))
+        if said is None or f'{".".join((*field.path[:-1], misspelt))} = "1 mm"\n' not in said or f'Did you mean "{key}"?' not in said:
+            wrong.append((field.name, said))
+        elif field.required and "1 mistake in" not in said:
+            wrong.append((field.name, said))
+    measured("misspelt: nearest known name given", f"{len(tries) - len(wrong)} of {len(tries)} fields", "all")
+    assert wrong == []
+
+
+def bounds_of(field: Field) -> list[str]:
+    """Both ends of a field's range, or the numbers next to them where an end is left out; not those that only cost time."""
+    found = []
+    for end, excluded, inwards in zip(field.bounds, field.excluded, (1, -1)):
+        number = end + inwards * (1e-12 * abs(end) or 1e-12) if excluded else end
+        if field.allowed.kind:
+            number /= float(scale(field))
+        while not field.takes(number):  # a digit lost to the unit
+            number *= 1 + 1e-15 * inwards * (1 if number > 0 else -1)
+        found.append(field.literal(int(number) if field.whole else repr(float(number))))
+    return found
+
+
+def scale(field: Field) -> float:
+    from fenics_gears.scene.units import quantity
+
+    return quantity(f"1 {field.unit}")[0]
+
+
+def test_either_end_of_every_range_is_a_scene_or_refused(tmp_path, monkeypatch, capsys, measured):
+    """What a range lets pass neither overflows nor divides by zero on the way to a model: `gears check` describes it, or refuses it in words."""
+    monkeypatch.chdir(tmp_path)
+    outcomes = []
+    for field in fields():
+        for literal in bounds_of(field) if field.bounds else []:
+            (tmp_path / "pair.toml").write_text(scene_with(field.path, literal), encoding="utf-8")
+            code, said = main(["check", "pair.toml"]), capsys.readouterr()
+            outcomes.append((field.name, literal, code, "nan" in said.out.lower().split(), said.err))
+    taken = sum(code == 0 for _, _, code, _, _ in outcomes)
+    measured("ends of ranges", f"{taken} described, {len(outcomes) - taken} refused in words", "each one or the other, no NaN")
+    assert all(code in (0, 2) and not nan and (code == 0) == (err == "") for _, _, code, nan, err in outcomes), outcomes
+
+
+COSTLY = {"accuracy.steps_per_mesh_cycle", "accuracy.contact_nodes", "accuracy.flank_element_size", "motion.mesh_cycles"}
+
+
+@pytest.mark.nightly
+def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, measured):
+    """A run at either end of a range ends with a result or a typed error, and holds no NaN; those that only cost time are left out."""
+    from fenics_gears import results
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))
+    codes, wrong = [], []
+    for field in fields():
+        for literal in bounds_of(field) if field.bounds and field.name not in COSTLY else []:
+            text = scene_with(field.path, literal).replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
+            if field.path[0] != "accuracy":
+                text = text[: text.index("[accuracy]")] + ACCURACY + "\n" + text[text.index("[tip_relief]") :]
+            (tmp_path / "pair.toml").write_text(text, encoding="utf-8")
+            codes.append(main(["run", "pair.toml", "--output", "here", "--quiet"]))
+            said = capsys.readouterr().err
+            if codes[-1] not in (0, 2, 3) or (codes[-1] > 0) != (said != ""):
+                wrong.append((field.name, literal, codes[-1], said))
+            if codes[-1] == 0 and not results.load("here/run.nc").transmission_error.notnull().all():
+                wrong.append((field.name, literal, "NaN"))
+    measured("runs at the ends of ranges, by night", f"{codes.count(0)} results, {codes.count(2)} refused, {codes.count(3)} typed errors", "no other")
+    assert wrong == []
+
+
+ANY_FIELD = st.sampled_from(fields())
+ANY_VALUE = st.sampled_from(
+    ["0", "-1", "1e-320", "nan", "-inf", '""', '"mm"', '"1 mm"', '"HPSTC"', "true", "[]", "{}", "{depth = 3}", "12:30:00", "9" * 60, '"1e308 m"', "'''3 mm'''"]
+)
+
+
+@settings(max_examples=200)
+@given(ANY_FIELD, ANY_VALUE, st.sampled_from(["", "shafts", "bearings", "inertia", "motion", "gears", "coast_flanks"]))
+def test_any_value_in_any_field_is_taken_or_refused(field, value, missing):
+    """A scene or a SceneError, never another error; also where another section is missing."""
+    text = scene_with(field.path, value)
+    if missing:
+        text = re.sub(rf"^\[{missing}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
+    try:
+        scene = scene_from_text(text)
+    except SceneError as error:
+        assert "mistake" in str(error)
+    else:
+        assert isinstance(scene, Scene)
+
+
+LINES = DEMO.read_text(encoding="utf-8").splitlines()
+WRITTEN = [number for number, line in enumerate(LINES) if re.match(r"\w+ *=", line)]
+ANY_LINE = st.integers(0, len(LINES) - 1)
+EDIT = st.one_of(
+    st.tuples(st.just("delete"), ANY_LINE, ANY_LINE),
+    st.tuples(st.just("duplicate"), ANY_LINE, ANY_LINE),
+    st.tuples(st.just("move"), ANY_LINE, ANY_LINE),
+    st.tuples(st.just("swap values"), st.sampled_from(WRITTEN), st.sampled_from(WRITTEN)),
+    st.tuples(st.just("swap names"), st.sampled_from(WRITTEN), st.sampled_from(WRITTEN)),
+    st.tuples(st.just("character"), ANY_LINE, st.tuples(st.integers(0, 60), st.characters(blacklist_categories=("Cs",)))),
+    st.tuples(st.just("cut"), ANY_LINE, st.integers(0, 60)),
+)
+
+
+def edited(lines: list[str], edit) -> list[str]:
+    """The lines after one edit; places count round where there are fewer lines by now."""
+    kind, first, other = edit
+    lines, first = list(lines), edit[1] % len(lines)
+    if kind == "delete":
+        del lines[first]
+    elif kind == "duplicate":
+        lines.insert(other, lines[first])
+    elif kind == "move":
+        lines.insert(other, lines.pop(first))
+    elif kind in ("swap values", "swap names"):
+        other %= len(lines)
+        one, two = lines[first].partition("="), lines[other].partition("=")
+        lines[first], lines[other] = ("".join((*one[:2], two[2])), "".join((*two[:2], one[2])))
+        if kind == "swap names":
+            lines[first], lines[other] = lines[other], lines[first]
+    elif kind == "character":
+        place, character = other
+        lines[first] = lines[first][:place] + character + lines[first][place + 1 :]
+    else:
+        lines[first] = lines[first][:other]
+    return lines or [""]
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """A directory for files that are written again and again."""
+    return tmp_path_factory.mktemp("edited")
+
+
+def check_edited(place: Path, edits, capsys) -> int:
+    """`gears check` on the demonstration scene after some edits: 0, or 2 with a message and no result."""
+    lines = LINES
+    for edit in edits:
+        lines = edited(lines, edit)
+    file = place / "pair.toml"
+    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    code = main(["check", str(file)])
+    said = capsys.readouterr()
+    assert (code == 0 and said.out and not said.err) or (code == 2 and said.err and not said.out)
+    return code
+
+
+def test_a_scene_edited_at_random_is_described_or_refused(place, capsys, measured):
+    """Lines deleted, doubled, moved, cut, values and names exchanged, a character overwritten: exit code 0 or 2, never a traceback."""
+    codes = []
+
+    @settings(max_examples=250)
+    @given(st.lists(EDIT, min_size=1, max_size=3))
+    def edits(each):
+        codes.append(check_edited(place, each, capsys))
+
+    edits()
+    measured("scenes edited at random", f"{codes.count(0)} taken, {codes.count(2)} refused in words", "each one or the other")
+    assert len(codes) >= 250
+
+
+def test_a_wrong_value_in_a_study_is_refused(tmp_path, monkeypatch, capsys, measured):
+    """The same through [sweep] and [set] of a study, in every field: exit code 2, the field named, nothing written."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "pair.toml").write_text(scene_with(("title",), '"whole"'), encoding="utf-8")
+    tries, wrong = 0, []
+    for field in fields():
+        if field.path == ("title",):
+            continue
+        for literal in [*not_numbers(field)[:1], *huge(field)[:1], *negative(field)[:1], *zero(field)[:1], *wrong_unit(field)[:1], "true"]:
+            for study in (f"[sweep]\n{field.name} = [{literal}]", f'[set]\n{field.name} = {literal}\n[sweep]\nfriction = ["absent", "present"]'):
+                tries += 1
+                text = 'scene = "pair.toml"\n' + ('without = ["motion.mesh_frequency"]\n' if "pinion_speed" in field.name else "") + study + "\n"
+                (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+                code, said = main(["study", "study.toml"]), capsys.readouterr()
+                if code != 2 or field.name not in said.err or "Nothing was computed or written." not in said.err:
+                    wrong.append((field.name, literal, code, said.err))
+    measured("wrong values in a study: refused", f"{tries - len(wrong)} of {tries}", "all")
+    assert wrong == [] and {each.name for each in tmp_path.rglob("*")} == {"pair.toml", "study.toml"}
