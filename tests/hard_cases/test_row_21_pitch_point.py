@@ -1,0 +1,93 @@
+"""Row 21: a step that lands on the pitch point exactly, and 1e-12 mm beside it. There the rigid slip vanishes and friction turns its sign."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.march import Marcher
+
+BESIDE = (0.0, 1e-12, -1e-12)
+# Before the pitch point, and after it until all nodes slip again; short enough that one step's slip is less than the teeth give way.
+AT, AFTER, FINE = 10, 60, 400
+
+
+class Shifted(MeshCycle):
+    """Steps counted so that a tooth pair stands `beside` (mm) the pitch point at step AT."""
+
+    beside = 0.0
+
+    def position(self, step):
+        """The contact equations at a step; each is asked for once."""
+        pair = self.pair
+        pitch_point = pair.line_of_action_length * pair.rotation_ratio / (1.0 + pair.rotation_ratio)
+        place = (pitch_point + self.beside - pair.path_start) / pair.base_pitch * self.steps + step - AT
+        return self.between(place, place - 1)
+
+
+def past_the_pitch_point(scene, pair, flanks, beside, steps):
+    """A march from AT steps before the pitch point to AFTER behind it, `steps` to a mesh cycle."""
+    shafts = drivetrain(scene, pair)
+    cycle = Shifted(flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=True)
+    cycle.beside = beside
+    return Marcher(cycle, shafts, 1.0 / (200.0 * steps), scene.friction.coefficient).run(AT + AFTER, AT + AFTER + 1)
+
+
+def on_line(record):
+    """Rigid slip (mm) over the step where the pair at the pitch point touches, on the line of action."""
+    operator = record.position.operator
+    return float(np.abs(operator.sliding).min())
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.3])
+@pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
+@pytest.mark.parametrize("absent", [(), ("shafts", "bearings")], ids=["elastic shafts", "rigid shafts"])
+def test_friction_turns_through_stick(absent, changes, friction, paper_scene, paper_pair, stand_in_flanks, measured):
+    """Known course: the nodes slip backward, stick, slip forward; none turns from one slip to the other without sticking between.
+
+    With mu = 0.1 every node that touches does so once. With 0.3 friction moves the gears enough to turn some nodes to and fro.
+    No step fails, 1e-12 mm change nothing, and friction is full on either side, against the slip.
+    """
+    scene = replace(paper_scene, friction=replace(paper_scene.friction, coefficient=friction), **changes, **dict.fromkeys(absent))
+    marches = [past_the_pitch_point(scene, paper_pair, stand_in_flanks, beside, FINE) for beside in BESIDE]
+    courses, forces = set(), []
+    for march in marches:
+        assert sum(march.rungs.values()) == AT + AFTER
+        statuses = np.array([record.solution.status for record in march.records])
+        courses |= {tuple(int(status) for status, _ in itertools.groupby(course)) for course in statuses.T}
+        forces.append(np.array([record.solution.forces for record in march.records]))
+    n = forces[0].shape[1] // 2
+    total = forces[0][:, n:].sum(axis=1)
+    difference = max(np.abs(other - forces[0]).max() for other in forces[1:]) / np.abs(forces[0]).max()
+    case = f"{'quasi-static' if changes else 'dynamic'}, {'rigid' if absent else 'elastic'} shafts, mu = {friction:g}"
+    rungs = ", ".join(f"{count} by {rung}" for rung, count in marches[0].rungs.items() if count)
+    measured(f"{case}: rigid slip where a step lands on the pitch point", on_line(marches[0].records[AT]), "that of the nodes' width", "mm")
+    measured(f"{case}: steps", rungs, "none fails")
+    measured(f"{case}: forces 1e-12 mm beside, of the largest", difference, "1e-9")
+    measured(f"{case}: friction force before and after", f"{total[0]:.0f} N, {total[-1]:.0f} N", "turns its sign")
+    touching, turns = courses - {(OPEN,)}, {turn for course in courses for turn in itertools.pairwise(course)}
+    measured(f"{case}: courses of the nodes that touch", f"{len(touching)} different", "never from slip to slip")
+    assert (SLIP_BACKWARD, SLIP_FORWARD) not in turns and (SLIP_FORWARD, SLIP_BACKWARD) not in turns
+    assert (SLIP_BACKWARD, STICK, SLIP_FORWARD) in touching
+    assert friction > 0.1 or len(touching) == 1
+    assert difference <= 1e-9
+    assert total[0] == pytest.approx(-friction * forces[0][0, :n].sum(), rel=1e-9)
+    assert total[-1] == pytest.approx(friction * forces[0][-1, :n].sum(), rel=1e-9)
+
+
+@pytest.mark.parametrize("steps", [10, 40, 100])
+@pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
+def test_no_step_fails_at_the_pitch_point(changes, steps, paper_scene, paper_pair, stand_in_flanks, measured):
+    """Any length of step: slip may turn within one. No step fails, and 1e-12 mm change nothing."""
+    marches = [past_the_pitch_point(replace(paper_scene, **changes), paper_pair, stand_in_flanks, beside, steps) for beside in BESIDE]
+    last = [march.records[-1].state.position for march in marches]
+    difference = max(np.abs(other - last[0]).max() for other in last[1:]) / np.abs(last[0]).max()
+    case = f"{'quasi-static' if changes else 'dynamic'}, {steps} steps a cycle"
+    measured(f"{case}: coordinates 1e-12 mm beside, of the largest", difference, "1e-9")
+    assert [sum(march.rungs.values()) for march in marches] == 3 * [AT + AFTER]
+    assert difference <= 1e-9
