@@ -11,7 +11,8 @@ import numpy as np
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.scene.data import Inertia, Scene
+from fenics_gears.effects.inertia import Inertia
+from fenics_gears.scene.data import Scene
 
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 TRANSLATIONS = ("centre_x1", "centre_y1", "centre_x2", "centre_y2")

@@ -10,7 +10,7 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.scene.data import Relief, TipRelief
+from fenics_gears.effects.tip_relief import Relief, TipRelief
 
 
 @dataclass(frozen=True)

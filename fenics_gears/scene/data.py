@@ -5,7 +5,10 @@ A section that the scene does not name is ``None``: that effect is not simulated
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, make_dataclass
+from typing import Optional
+
+from fenics_gears.effects import EFFECTS
 
 
 @dataclass(frozen=True)
@@ -58,64 +61,6 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class Shafts:
-    """Torsional stiffness of either shaft, N mm/rad."""
-
-    torsional_stiffness: float
-
-
-@dataclass(frozen=True)
-class Bearings:
-    """Translational stiffness of either shaft's support, N/mm."""
-
-    stiffness: float
-
-
-@dataclass(frozen=True)
-class Inertia:
-    """Mass of a gear, N s^2/mm, and moment of inertia, N mm s^2; one value for both gears."""
-
-    mass: float
-    moment_of_inertia: float
-
-
-@dataclass(frozen=True)
-class Damping:
-    """Rayleigh damping of each shaft: alpha K + beta M, alpha in s, beta in 1/s."""
-
-    stiffness_proportional: float
-    mass_proportional: float
-
-
-@dataclass(frozen=True)
-class Friction:
-    """Coulomb friction on the flanks."""
-
-    coefficient: float
-
-
-@dataclass(frozen=True)
-class Relief:
-    """Tip relief of one gear: depth at the tip, mm; start as a roll angle in rad, None for HPSTC."""
-
-    depth: float
-    start_roll_angle: float | None
-
-
-@dataclass(frozen=True)
-class TipRelief:
-    """Tip relief of the pair, linear in the roll angle; a gear without relief has None."""
-
-    pinion: Relief | None
-    wheel: Relief | None
-
-
-@dataclass(frozen=True)
-class CoastFlanks:
-    """Contact on the unloaded flanks, with the backlash that the geometry has."""
-
-
-@dataclass(frozen=True)
 class Accuracy:
     """How the scene is computed; None where the program shall choose from the scene."""
 
@@ -128,20 +73,17 @@ class Accuracy:
 
 
 @dataclass(frozen=True)
-class Scene:
-    """Everything a run needs to know, and the text it was read from."""
-
+class _AlwaysThere:
     title: str
     gears: GearPairData
     load: Load
     motion: Motion
-    shafts: Shafts | None = None
-    bearings: Bearings | None = None
-    inertia: Inertia | None = None
-    damping: Damping | None = None
-    friction: Friction | None = None
-    tip_relief: TipRelief | None = None
-    coast_flanks: CoastFlanks | None = None
     accuracy: Accuracy = Accuracy()
     text: str = ""
     name: str = "scene"
+
+
+# Everything a run needs to know, and the text it was read from; one field for each effect, None where the scene does not name it.
+Scene = make_dataclass("Scene", [(effect.section, Optional[effect.data], None) for effect in EFFECTS], bases=(_AlwaysThere,), frozen=True)
+Scene.__doc__ = "Everything a run needs to know, and the text it was read from; an effect that the scene does not name is None."
+Scene.__module__ = __name__

@@ -4,44 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from fenics_gears.scene.fields import Allowed, allowed_in
 from fenics_gears.scene.names import did_you_mean, nearest
+from fenics_gears.scene.problem import Path, Problem
 from fenics_gears.scene.schema import SceneText
 from fenics_gears.scene.written import as_written
-
-Path = tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Problem:
-    """One mistake: the field's path, its value as written, and what to do about it.
-
-    ``written`` is None where nothing is written and empty for a section; ``unknown`` marks a name that no scene has.
-    """
-
-    path: Path
-    written: str | None
-    message: str
-    unknown: bool = False
-
-    def line(self, lines: Mapping[Path, int]) -> int:
-        """The line of the field or of the section that lacks it; 0 where neither is found."""
-        return next((lines[self.path[:n]] for n in range(len(self.path), 0, -1) if self.path[:n] in lines), 0)
-
-    def describe(self, source: str, lines: Mapping[Path, int]) -> str:
-        """Two lines for people: file, line, field and value; then what is wrong and what is allowed."""
-        line = self.line(lines)
-        place = f"{source}:{line}" if line else source
-        field = ".".join(self.path)
-        if self.written is not None:
-            field = f"{field} = {self.written}" if self.written else f"[{field}]"
-        return f"{place}: {field}\n    {self.message}"
-
 
 def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
     """The validated ``SceneText`` of a parsed TOML file, None where it is wrong, and all that is wrong with it."""

@@ -7,11 +7,14 @@ import os
 import tomllib
 from pathlib import Path
 
+from fenics_gears.effects import EFFECTS
+from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import SceneError
 from fenics_gears.scene import data, schema
 from fenics_gears.scene.lines import line_numbers
 from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.problems import Problem, problems_of_schema, without_echoes
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.scene.written import WrittenFloat
 
@@ -73,27 +76,13 @@ def _scene(checked, text: str, name: str) -> data.Scene:
     return data.Scene(
         title=checked.title or name,
         gears=_gears(checked.gears),
-        load=_as(data.Load, checked.load),
+        load=same_names(data.Load, checked.load),
         motion=_motion(checked.motion, checked.gears.pinion.teeth),
-        shafts=_as(data.Shafts, checked.shafts),
-        bearings=_as(data.Bearings, checked.bearings),
-        inertia=_as(data.Inertia, checked.inertia),
-        damping=_as(data.Damping, checked.damping),
-        friction=_as(data.Friction, checked.friction),
-        tip_relief=_tip_relief(checked.tip_relief),
-        coast_flanks=_as(data.CoastFlanks, checked.coast_flanks),
-        accuracy=_as(data.Accuracy, checked.accuracy),
+        accuracy=same_names(data.Accuracy, checked.accuracy),
         text=text,
         name=name,
+        **{effect.section: effect.from_text(getattr(checked, effect.section)) for effect in EFFECTS},
     )
-
-
-def _as(kind, section: schema.Section | None):
-    """The dataclass ``kind`` with the section's values, which have the same names; None for an absent section."""
-    if section is None:
-        return None
-    # Bare numbers leave their spelling behind here.
-    return kind(**{name: float(value) if isinstance(value, float) else value for name, value in section})
 
 
 def _gears(gears: schema.Gears) -> data.GearPairData:
@@ -102,9 +91,9 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
         pressure_angle=gears.pressure_angle,
         centre_distance=gears.centre_distance,
         face_width=gears.face_width,
-        pinion=_as(data.GearData, gears.pinion),
-        wheel=_as(data.GearData, gears.wheel),
-        material=_as(data.Material, gears.material),
+        pinion=same_names(data.GearData, gears.pinion),
+        wheel=same_names(data.GearData, gears.wheel),
+        material=same_names(data.Material, gears.material),
     )
 
 
@@ -115,17 +104,3 @@ def _motion(motion: schema.Motion, pinion_teeth: int) -> data.Motion:
         frequency = motion.pinion_speed / (2 * math.pi) * pinion_teeth
     recorded = motion.recorded_cycles or min(2, motion.mesh_cycles)
     return data.Motion(frequency, motion.mesh_cycles, recorded)
-
-
-def _tip_relief(relief: schema.TipRelief | None) -> data.TipRelief | None:
-    if relief is None:
-        return None
-    return data.TipRelief(_relief(relief, relief.pinion), _relief(relief, relief.wheel))
-
-
-def _relief(both: schema.TipRelief, own: schema.Relief | None) -> data.Relief | None:
-    """One gear's relief: its own depth and start before those of both gears; None without a depth."""
-    own = own or schema.Relief()
-    depth = both.depth if own.depth is None else own.depth
-    start = own.start if "start" in own.model_fields_set else both.start
-    return None if depth is None else data.Relief(depth, start)

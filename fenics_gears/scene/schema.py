@@ -1,4 +1,4 @@
-"""The sections and fields of a scene file, with what each allows.
+"""The sections and fields of a scene file, with what each allows; those of an effect are in its own module.
 
 Ranges are generous: what is physically possible is allowed. Whether teeth and diameters make a gear is for ``geometry`` to say.
 """
@@ -11,8 +11,6 @@ from pydantic import create_model
 
 from fenics_gears.effects import EFFECTS
 from fenics_gears.scene.fields import Section, choice, number, quantity, text, whole_number
-
-_NO_RELIEF = "For a gear without relief, leave its depth out."
 
 
 def _diameter(example: str):
@@ -64,56 +62,6 @@ class Motion(Section):
     recorded_cycles: Optional[int] = whole_number(1, 1_000_000, 2, optional=True)
 
 
-class Shafts(Section):
-    """``[shafts]``."""
-
-    torsional_stiffness: float = quantity("1e-6 N mm/rad", "1e24 N mm/rad", "0.203e9 N mm/rad")
-
-
-class Bearings(Section):
-    """``[bearings]``."""
-
-    stiffness: float = quantity("1e-6 N/mm", "1e20 N/mm", "0.155e6 N/mm")
-
-
-class Inertia(Section):
-    """``[inertia]``."""
-
-    mass: float = quantity("1e-9 kg", "1e9 kg", "4.9 kg")
-    moment_of_inertia: float = quantity("1e-15 kg m^2", "1e15 kg m^2", "24.5e-3 kg m^2")
-
-
-class Damping(Section):
-    """``[damping]``."""
-
-    stiffness_proportional: float = quantity("0 s", "1e3 s", "0.4e-3 s")
-    mass_proportional: float = quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s")
-
-
-class Friction(Section):
-    """``[friction]``."""
-
-    coefficient: float = number(0.1, above=0, highest=5, too_low="For a pair without friction, leave the section [friction] out.")
-
-
-class Relief(Section):
-    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; what is left out is taken from ``[tip_relief]``."""
-
-    depth: Optional[float] = quantity("1e-6 um", "100 mm", "31 um", optional=True, below=_NO_RELIEF)
-    start: Optional[float] = quantity("1e-3 deg", "360 deg", "29.61 deg", optional=True, words={"HPSTC": None})
-
-
-class TipRelief(Relief):
-    """``[tip_relief]``: depth and start for both gears."""
-
-    pinion: Optional[Relief] = None
-    wheel: Optional[Relief] = None
-
-
-class CoastFlanks(Section):
-    """``[coast_flanks]``: has no fields; naming it is enough."""
-
-
 class Accuracy(Section):
     """``[accuracy]``: what is left out is derived from the scene."""
 
@@ -133,19 +81,9 @@ class _AlwaysThere(Section):
     accuracy: Accuracy = Accuracy()
 
 
-_EFFECT_SECTIONS = {
-    "shafts": Shafts,
-    "bearings": Bearings,
-    "inertia": Inertia,
-    "damping": Damping,
-    "friction": Friction,
-    "tip_relief": TipRelief,
-    "coast_flanks": CoastFlanks,
-}
-
 SceneText = create_model(
     "SceneText",
     __base__=_AlwaysThere,
     __doc__="A whole scene file: the sections that are always there, and one optional section for each effect.",
-    **{effect.section: (Optional[_EFFECT_SECTIONS[effect.section]], None) for effect in EFFECTS},
+    **{effect.section: (Optional[effect.text], None) for effect in EFFECTS},
 )

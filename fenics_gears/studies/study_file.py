@@ -14,7 +14,8 @@ from fenics_gears.model import model
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.lines import line_numbers
 from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.problems import Problem, problems_of_schema, without_echoes
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.scene.written import WrittenFloat, as_written

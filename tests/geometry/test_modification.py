@@ -8,7 +8,7 @@ import pytest
 
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.modification import tip_reliefs
-from fenics_gears.scene.data import Relief, TipRelief
+from fenics_gears.effects.tip_relief import Relief, TipRelief
 
 
 def test_relief_from_the_highest_point_of_single_tooth_contact(paper_pair):

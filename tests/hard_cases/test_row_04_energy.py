@@ -11,7 +11,8 @@ from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.energy_account import account, contact_work
 from fenics_gears.dynamics.march import Record
 from fenics_gears.results.energy_variables import energy_variables
-from fenics_gears.scene.data import Friction, Motion
+from fenics_gears.effects.friction import Friction
+from fenics_gears.scene.data import Motion
 from fenics_gears.simulation import simulate
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
-from fenics_gears.scene.data import Friction
+from fenics_gears.effects.friction import Friction
 from fenics_gears.simulation import prepared, simulate
 
 SCENES = {"quasi-static": quasi_static, "200 Hz": lambda scene: scene}

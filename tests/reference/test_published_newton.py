@@ -15,7 +15,8 @@ from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.reference_route import remeshed
 from fenics_gears.resolution import EVERY_STEP
-from fenics_gears.scene.data import Accuracy, CoastFlanks
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.scene.data import Accuracy
 
 NODES, CENTRE = 7, 3
 

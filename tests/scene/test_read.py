@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import fenics_gears
+from fenics_gears.effects.tip_relief import Relief, TipRelief
 from fenics_gears.scene import data
 from fenics_gears.scene.read import load_scene, scene_from_text
 
@@ -87,20 +88,20 @@ def test_other_units_give_the_same_scene():
 @pytest.mark.parametrize(
     ("section", "pinion", "wheel"),
     [
-        ('depth = "31 um"\nstart = "HPSTC"', data.Relief(0.031, None), data.Relief(0.031, None)),
-        ('depth = "31 um"\nstart = "90 deg"', data.Relief(0.031, math.pi / 2), data.Relief(0.031, math.pi / 2)),
-        ('[tip_relief.pinion]\ndepth = "31 um"\nstart = "HPSTC"', data.Relief(0.031, None), None),
-        ('start = "90 deg"\n[tip_relief.wheel]\ndepth = "31 um"', None, data.Relief(0.031, math.pi / 2)),
+        ('depth = "31 um"\nstart = "HPSTC"', Relief(0.031, None), Relief(0.031, None)),
+        ('depth = "31 um"\nstart = "90 deg"', Relief(0.031, math.pi / 2), Relief(0.031, math.pi / 2)),
+        ('[tip_relief.pinion]\ndepth = "31 um"\nstart = "HPSTC"', Relief(0.031, None), None),
+        ('start = "90 deg"\n[tip_relief.wheel]\ndepth = "31 um"', None, Relief(0.031, math.pi / 2)),
         (
             'depth = "31 um"\nstart = "90 deg"\n[tip_relief.wheel]\ndepth = "20 um"\nstart = "HPSTC"',
-            data.Relief(0.031, math.pi / 2),
-            data.Relief(0.02, None),
+            Relief(0.031, math.pi / 2),
+            Relief(0.02, None),
         ),
     ],
 )
 def test_relief_of_both_gears_and_of_one(section, pinion, wheel):
     """Authority: design.md; [tip_relief] speaks of both gears, its subsections of one."""
-    assert scene_from_text(f"{DEMO}\n[tip_relief]\n{section}\n").tip_relief == data.TipRelief(pinion, wheel)
+    assert scene_from_text(f"{DEMO}\n[tip_relief]\n{section}\n").tip_relief == TipRelief(pinion, wheel)
 
 
 def test_what_is_left_out_has_its_default():

@@ -9,7 +9,8 @@ from fenics_gears.contact.tooth_pair import coast_place, drive_place
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
-from fenics_gears.scene.data import Accuracy, CoastFlanks, Motion
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.show.curves import load_sharing
 from fenics_gears.simulation import simulate
 

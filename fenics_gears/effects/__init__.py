@@ -1,0 +1,69 @@
+"""The one list of effects a scene can switch on by naming their section.
+
+An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist, and what computes it is
+not imported. The scene's sections, what ``gears check`` prints, the result's variables and the documentation's table come from here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from fenics_gears.effects import bearings, coast_flanks, damping, friction, inertia, shafts, tip_relief
+from fenics_gears.effects.effect import Effect, ResultVariable
+
+EFFECTS: tuple[Effect, ...] = (
+    shafts.EFFECT,
+    bearings.EFFECT,
+    inertia.EFFECT,
+    damping.EFFECT,
+    friction.EFFECT,
+    tip_relief.EFFECT,
+    coast_flanks.EFFECT,
+)
+
+# What every run has, whatever its effects.
+COMMON_VARIABLES: tuple[ResultVariable, ...] = (
+    ResultVariable("transmission_error", "rad", "transmission error"),
+    ResultVariable("rotation", "rad", "rotation of the hub from its nominal motion"),
+    ResultVariable("normal_force", "N", "contact force of the mesh along the line of action"),
+    ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action"),
+    ResultVariable("contact_pressure", "MPa", "contact pressure"),
+    ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion"),
+    ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank"),
+    ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action"),
+    ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action"),
+    ResultVariable("reaction_couple", "N mm", "couple of the gear on its shaft"),
+    ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
+    ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
+    ResultVariable("energy", "N mm", "elastic and kinetic energy"),
+    ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
+    ResultVariable("work_input", "N mm", "work of the drive"),
+    ResultVariable("work_output", "N mm", "work done on the load"),
+    ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
+    ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
+)
+
+
+def effect(section: str) -> Effect:
+    """The effect of that section; raises KeyError for a name that is not in the list."""
+    return {each.section: each for each in EFFECTS}[section]
+
+
+def effects_on(scene) -> tuple[Effect, ...]:
+    """The effects that a scene (``scene.data.Scene``) switches on, in the order of the list."""
+    return tuple(each for each in EFFECTS if getattr(scene, each.section) is not None)
+
+
+def result_variables(scene) -> tuple[ResultVariable, ...]:
+    """Every variable that the result of a scene has."""
+    return COMMON_VARIABLES + tuple(variable for each in effects_on(scene) for variable in each.variables)
+
+
+def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:
+    """Pairs of an effect among the named sections and a section that it needs and that is not among them."""
+    return [(each, need) for each in EFFECTS if each.section in sections for need in each.needs if need not in sections]
+
+
+def conflicts(sections: Collection[str]) -> list[tuple[Effect, str]]:
+    """Pairs of an effect among the named sections and a section beside it that it excludes."""
+    return [(each, other) for each in EFFECTS if each.section in sections for other in each.excludes if other in sections]

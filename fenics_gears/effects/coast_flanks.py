@@ -1,0 +1,52 @@
+"""``[coast_flanks]``: contact on the unloaded flanks (``contact.tooth_pair``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.scene.fields import Section
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, quantity_in, table
+from fenics_gears.scene.written import as_written
+
+
+@dataclass(frozen=True)
+class CoastFlanks:
+    """Contact on the unloaded flanks, with the backlash that the geometry has."""
+
+
+class CoastFlanksText(Section):
+    """``[coast_flanks]``: has no fields; naming it is enough."""
+
+
+def flanks_are_there(tree: Tree) -> Iterator[Problem]:
+    """A negative torque needs the coast flanks; remeshing at every step does not have them."""
+    torque = quantity_in((table(tree, "load") or {}).get("wheel_torque"))
+    if torque is not None and torque < 0.0 and "coast_flanks" not in tree:
+        message = "is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section [coast_flanks] any sign, without it 0 N m and above."
+        yield Problem(("load", "wheel_torque"), as_written(tree["load"]["wheel_torque"]), message)
+    if (table(tree, "accuracy") or {}).get("condensation") == "every step" and "coast_flanks" in tree:
+        message = 'has no contact on the coast flanks. Take "once", or leave the section [coast_flanks] out.'
+        yield Problem(("accuracy", "condensation"), '"every step"', message)
+
+
+EFFECT = Effect(
+    section="coast_flanks",
+    description="contact on the unloaded flanks, with the backlash of the geometry",
+    absent="drive flanks only",
+    text=CoastFlanksText,
+    data=CoastFlanks,
+    unknowns=("normal force of each closed contact node on the coast flanks",),
+    terms=("contact along the coast flanks' own line of action",),
+    variables=(
+        ResultVariable("coast_normal_force", "N", "contact force of the coast flanks along their line of action"),
+        ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth"),
+        ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks"),
+        ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank"),
+        ResultVariable("drive_flank_opening", "mm", "smallest distance of the drive flanks"),
+        ResultVariable("coast_flank_opening", "mm", "smallest distance of the coast flanks"),
+    ),
+    rules=flanks_are_there,
+)

@@ -1,0 +1,69 @@
+"""What an effect is: the section that switches it on, and where it enters the model.
+
+An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A module holds the section as it is
+written (``text``), its data in program units, what it says of itself, and hooks. A hook is called only when the scene names the
+effect; it imports what computes the effect itself, so that a scene without the effect does not load it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from fenics_gears.scene.fields import Section
+from fenics_gears.scene.problem import Problem
+
+
+@dataclass(frozen=True)
+class ResultVariable:
+    """One variable of the result: its name, its units and its long name for labels."""
+
+    name: str
+    units: str
+    long_name: str
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
+
+    ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``, ``terms`` and
+    ``variables`` say what it adds. ``text`` is the section as a scene file has it and ``data`` the frozen dataclass of its values;
+    ``read`` makes one of the other where the names do not do so by themselves, ``rules`` finds what is wrong between fields.
+
+    Hooks, each with the effect's data first:
+
+    ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or None.
+    ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
+    ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
+    ``results(data, model, records)``: the effect's own variables, name to (dimensions, values).
+    """
+
+    section: str
+    description: str
+    absent: str
+    text: type[Section]
+    data: type
+    unknowns: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
+    variables: tuple[ResultVariable, ...] = ()
+    needs: tuple[str, ...] = ()
+    excludes: tuple[str, ...] = ()
+    read: Callable[[Any], Any] | None = None
+    rules: Callable[[Mapping[str, Any]], Iterator[Problem]] | None = None
+    removal: Callable | None = None
+    gaps: Callable | None = None
+    load: Callable | None = None
+    results: Callable | None = None
+
+    def from_text(self, section: Section | None) -> Any:
+        """The data of a validated section; None for an absent one."""
+        if section is None:
+            return None
+        return self.read(section) if self.read is not None else same_names(self.data, section)
+
+
+def same_names(kind: type, section: Section) -> Any:
+    """The dataclass ``kind`` with the section's values, which have the same names; bare numbers leave their spelling behind."""
+    return kind(**{name: float(value) if isinstance(value, float) else value for name, value in section})

@@ -1,0 +1,36 @@
+"""``[friction]``: Coulomb friction between the flanks (``contact``)."""
+
+from dataclasses import dataclass
+
+from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.scene.fields import Section, number
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Coulomb friction on the flanks."""
+
+    coefficient: float
+
+
+class FrictionText(Section):
+    """``[friction]``."""
+
+    coefficient: float = number(0.1, above=0, highest=5, too_low="For a pair without friction, leave the section [friction] out.")
+
+
+EFFECT = Effect(
+    section="friction",
+    description="Coulomb friction between the flanks",
+    absent="frictionless, no tangential unknowns",
+    text=FrictionText,
+    data=Friction,
+    unknowns=("tangential force of each closed contact node",),
+    terms=("friction law with stick and slip",),
+    variables=(
+        ResultVariable("friction_force", "N", "friction force of the mesh"),
+        ResultVariable("pair_friction_force", "N", "friction force of the tooth pair"),
+        ResultVariable("contact_traction", "MPa", "friction traction on the flank"),
+        ResultVariable("work_friction", "N mm", "work that friction takes"),
+    ),
+)
