@@ -47,13 +47,18 @@ class Account:
 
 def account(drivetrain: Drivetrain, time_step: float, records: Sequence[Record], energy: np.ndarray) -> Account:
     """The account of consecutive records, whose elastic and kinetic `energy` (records,) is in N mm."""
-    steps = list(zip(records[:-1], records[1:]))
+    # A step that was divided is accounted for part by part.
+    ends = [record.parts or (record,) for record in records[1:]]
+    ended = np.cumsum([0] + [len(parts) for parts in ends])
+    passed = [*records[:1], *(part for parts in ends for part in parts)]
+    steps = list(zip(passed[:-1], passed[1:]))
     contact = [contact_work(last, record) for last, record in steps]
     moved = np.array([record.state.position - last.state.position for last, record in steps])
     moved = moved.reshape(len(steps), len(drivetrain.coordinates))
     damping = np.zeros(len(steps))
     if drivetrain.damping is not None:
-        damping = np.einsum("ti,ij,tj->t", moved, drivetrain.damping, moved) / time_step
+        damping = np.einsum("ti,ij,tj->t", moved, drivetrain.damping, moved)
+        damping /= time_step * np.array([record.step - last.step for last, record in steps])
     parts = {
         "rotation": _summed([work.rotation for work in contact]),
         "load": _summed(moved @ drivetrain.load),
@@ -61,6 +66,7 @@ def account(drivetrain: Drivetrain, time_step: float, records: Sequence[Record],
         "friction": _summed([work.friction for work in contact]),
         "changes": _summed([work.changes for work in contact]),
     }
+    parts = {name: work[ended][: len(records)] for name, work in parts.items()}
     gained = parts["rotation"] + parts["load"] + parts["changes"] - parts["damping"] - parts["friction"]
     return Account(**parts, defect=energy - energy[:1] - gained if len(energy) else energy)
 

@@ -24,6 +24,7 @@ from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import MOST_HALVINGS, Marcher
 
 # rung: (seed, nodes, friction, free)
@@ -159,6 +160,22 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
         assert RUNGS[a.solution.rung] == HALVED
         assert a.state.position == pytest.approx(b.state.position, rel=1e-10, abs=1e-12)
         assert a.solution.forces == pytest.approx(b.solution.forces, rel=1e-7, abs=1e-6)
+
+
+def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair, stand_in_flanks):
+    """Exact identity: the account of a march whose every step is divided in two is that of the march with twice the steps."""
+    coarse, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
+    fine, _ = cycle_of(MeshCycle, paper_scene, paper_pair, stand_in_flanks, 20)
+    whole, halves = Marcher(fine, shafts, 5e-5, 0.1), Marcher(coarse, shafts, 1e-4, 0.1)
+    start = whole.start()
+    records = [[replace(start, position=cycle.position(0))] for cycle in (coarse, fine)]
+    for march, marcher, steps in zip(records, (halves, whole), (20, 40)):
+        for step in range(1, steps + 1):
+            march.append(marcher.step(marcher.dynamic, march[-1], step))
+    divided, exact = (account(shafts, step, march, np.zeros(len(march))) for march, step in zip(records, (1e-4, 5e-5)))
+    for name in ("rotation", "load", "damping", "friction", "changes"):
+        expected = getattr(exact, name)[::2]
+        assert getattr(divided, name) == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(exact.load).max()), name
 
 
 def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):

@@ -48,7 +48,9 @@ def run_of(built: Model, compliances: Compliances) -> Run:
 def worst_of(run: Run) -> dict[str, float]:
     """The worst of all steps, each in parts of what it is measured by (the keys' docstring is `step_residuals`)."""
     worst: dict[str, float] = {}
-    for before, record in zip([None, *run.records], run.records):
+    # A step that was divided is judged part by part.
+    passed = [part for record in run.records for part in record.parts or (record,)]
+    for before, record in zip([None, *passed], passed):
         for name, value in step_residuals(run, before, record).items():
             worst[name] = max(worst.get(name, 0.0), value)
     return worst

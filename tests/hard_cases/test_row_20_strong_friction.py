@@ -1,0 +1,92 @@
+"""Row 20: friction of 0.3 to 2 on the paper's pair, with inertia and without: it converges, or says what friction does to the solution."""
+
+from dataclasses import replace
+
+import pytest
+from tests.coarse import coarse_scene, quasi_static
+from tests.hard_cases.invariants import run_of, worst_of
+
+from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.errors import ComputationError
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.simulation import gear_compliances, simulate
+from fenics_gears.summary import summary_rows
+
+WORDS = ("self-locking", "more than one solution")
+ABSENT = [(), ("bearings",), ("shafts", "bearings")]
+DYNAMIC = {"dynamic": lambda scene: scene, "quasi-static": quasi_static}
+# Of hard_cases.md, rows 1 and 2, by the names of `invariants.step_residuals`.
+LIMITS = {"penetration": 1e-4, "tension": 1e-6, "complementarity": 1e-10, "cone": 1e-6, "wrong_way": 1e-10, "dissipation": 1e-10}
+
+
+@pytest.fixture(scope="module")
+def coarse(paper_scene):
+    return coarse_scene(paper_scene)
+
+
+def with_friction(scene, coefficient, absent=()):
+    return replace(scene, friction=replace(scene.friction, coefficient=coefficient), **dict.fromkeys(absent))
+
+
+def outcome(scene):
+    """How a run ends: what its warnings or its error say of friction, and whether it converged."""
+    try:
+        result = simulate(scene)
+    except ComputationError as failure:
+        return failure.reason, False, {}
+    said = [line for line in result.attrs["warnings"].splitlines() if any(words in line for words in WORDS)]
+    rungs = {key.split(": ")[1]: int(count) for key, count in result.attrs.items() if key.startswith("steps_by_rung")}
+    return "; ".join(said), True, rungs
+
+
+def locks_from(pair):
+    """Friction at the first point of the path of contact outweighs the normal force on the wheel from this coefficient on."""
+    return pair.wheel.base_radius / (pair.line_of_action_length - pair.path_start)
+
+
+@pytest.mark.parametrize("absent", ABSENT, ids=["all", "without bearings", "rigid"])
+@pytest.mark.parametrize("dynamic", DYNAMIC)
+@pytest.mark.parametrize("friction", [0.3, 0.6, 1.0, 2.0])
+def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
+    """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and friction have
+    the arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of contact), and not below."""
+    scene = with_friction(DYNAMIC[dynamic](coarse), friction, absent)
+    said, converged, rungs = outcome(scene)
+    built = model(scene)
+    worst = worst_of(run_of(built, gear_compliances(built, SilentProgress(), user_cache())))
+    case = f"mu = {friction:g}, {dynamic}, {'all springs' if not absent else 'without ' + ' and '.join(absent)}"
+    ladder = ", ".join(f"{count} by {rung}" for rung, count in rungs.items() if rung != "newton")
+    measured(case, ("converges" if converged else "error") + (f" ({ladder})" if ladder else "") + (f"; {said}" if said else ""), "row 20")
+    for name, limit in LIMITS.items():
+        measured(f"{case}: {name}", worst[name], f"{limit:g}")
+        assert worst[name] <= limit, name
+    if friction < locks_from(paper_pair):
+        assert converged and not said
+    else:
+        assert "self-locking" in said
+
+
+@pytest.mark.parametrize("dynamic", DYNAMIC)
+def test_locking_begins_where_the_arms_say(dynamic, coarse, paper_pair, measured):
+    """Exact: rb2/(L - x) at the first point where the teeth touch; just below nothing locks, well above something does."""
+    limit = locks_from(paper_pair)
+    below, above = (outcome(with_friction(DYNAMIC[dynamic](coarse), factor * limit, ("shafts", "bearings")))[0] for factor in (0.98, 1.15))
+    measured(f"{dynamic}: friction coefficient from which the paper's pair can lock", limit, "rb2/(L - x)")
+    measured(f"{dynamic}: 2 % below", "self-locking" if "self-locking" in below else "no word of locking", "no word of locking")
+    measured(f"{dynamic}: 15 % above", "self-locking" if "self-locking" in above else "no word of locking", "self-locking")
+    assert "self-locking" not in below
+    assert "self-locking" in above
+
+
+def test_the_summary_counts_the_ladder(coarse, measured):
+    """Message: the summary has a line on the ladder, with the result's own counts; none where Newton alone was used."""
+    scene = with_friction(quasi_static(coarse), 2.0, ("shafts", "bearings"))
+    result = simulate(scene)
+    counts = {key.split(": ")[1]: int(count) for key, count in result.attrs.items() if key.startswith("steps_by_rung")}
+    (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by the fallback ladder"]
+    measured("summary at mu = 2", line, "the counts of the result")
+    assert sum(counts.values()) == result.attrs["steps"] and len(counts) > 1
+    assert line == ", ".join(f"{count} by {rung}" for rung, count in counts.items() if rung != "newton")
+    plain = summary_rows(simulate(with_friction(quasi_static(coarse), 0.3)))
+    assert not [label for label, _, _ in plain if "ladder" in label]
