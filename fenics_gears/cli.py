@@ -189,13 +189,11 @@ def _checked_scene(path: Path):
     from fenics_gears.scene.read import load_scene
 
     scene = load_scene(path)
-    from fenics_gears.geometry.modification import tip_reliefs
+    from fenics_gears.geometry.modification import removals
     from fenics_gears.geometry.pair import gear_pair
 
     try:
-        pair = gear_pair(scene.gears)
-        if scene.tip_relief is not None:
-            tip_reliefs(pair, scene.tip_relief)
+        removals(scene, gear_pair(scene.gears))
     except GeometryError as error:
         raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
     return scene

@@ -37,7 +37,7 @@ class Effect:
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or None.
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
-    ``results(data, model, records)``: the effect's own variables, name to (dimensions, values).
+    ``results(data, scene, cycle, records)``: the effect's own variables, name to (dimensions, values).
     """
 
     section: str

@@ -1,4 +1,4 @@
-"""Deliberate departures from the involute: tip relief."""
+"""Departures from the involute that all teeth of a gear share."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.scene.data import Scene
+from fenics_gears.effects import effects_on
 from fenics_gears.effects.tip_relief import Relief, TipRelief
 
 
@@ -25,6 +27,28 @@ class LinearRelief:
         """Removal (mm, not negative) at roll angles (rad, any shape); it goes on growing beyond the tip."""
         slope = self.depth / (self.tip_roll_angle - self.start_roll_angle)
         return slope * np.maximum(np.asarray(roll_angle, dtype=float) - self.start_roll_angle, 0.0)
+
+
+@dataclass(frozen=True)
+class Removals:
+    """Several effects that take material from one flank."""
+
+    parts: tuple
+
+    def __call__(self, roll_angle) -> np.ndarray:
+        """Removal (mm) at roll angles (rad, any shape) by all of them together."""
+        return sum(part(roll_angle) for part in self.parts)
+
+
+def removals(scene: Scene, pair: GearPair) -> tuple:
+    """Material that the scene's effects remove from the drive flanks of pinion and wheel: functions of the roll angle, or None.
+
+    Raises GeometryError where an effect asks for what the flank does not have.
+    """
+    effects = [each for each in effects_on(scene) if each.removal is not None]
+    found = [effect.removal(getattr(scene, effect.section), pair) for effect in effects]
+    parts = [tuple(part for part in of_gear if part is not None) for of_gear in zip(*found)] or [(), ()]
+    return tuple(Removals(of_gear) if len(of_gear) > 1 else (of_gear[0] if of_gear else None) for of_gear in parts)
 
 
 def tip_reliefs(pair: GearPair, reliefs: TipRelief) -> tuple[LinearRelief | None, LinearRelief | None]:

@@ -14,7 +14,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.pressure import peak_pressure
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record
-from fenics_gears.effects import result_variables
+from fenics_gears.effects import effects_on, result_variables
 from fenics_gears.results.contact_variables import mesh_variables, pair_variables
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.scene.data import Scene
@@ -32,6 +32,9 @@ def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, ti
     values |= pair_variables(scene, cycle, records, pairs)
     values |= energy_variables(scene, drivetrain, records)
     values |= work_variables(scene, drivetrain, records, time_step, values["energy"][1])
+    for effect in effects_on(scene):
+        if effect.results is not None:
+            values |= effect.results(getattr(scene, effect.section), scene, cycle, records)
     steps = np.array([record.step for record in records], dtype=float)
     described = {variable.name: variable for variable in result_variables(scene)}
     result = xr.Dataset(

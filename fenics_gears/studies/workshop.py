@@ -6,6 +6,7 @@ import functools
 from dataclasses import replace
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.effects import EFFECTS
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.model import Model
@@ -20,7 +21,7 @@ NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 class Workshop:
     """Keeps the last two gears and the last mesh cycle; a frequency sweep builds its operators once.
 
-    Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, tip relief, contact grid,
+    Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact grid,
     steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and coefficient may differ.
     """
 
@@ -63,7 +64,8 @@ def own_workshop() -> Workshop:
 def gear_key(built: Model, name: str, reach: int) -> tuple:
     """What a gear's flank compliance depends on."""
     resolution = built.resolution
-    return getattr(built.pair, name), built.scene.gears.material, resolution.element, resolution.flank_element_size, reach
+    coast = built.scene.coast_flanks is not None
+    return getattr(built.pair, name), built.scene.gears.material, resolution.element, resolution.flank_element_size, reach, coast
 
 
 def cycle_key(built: Model) -> tuple:
@@ -76,4 +78,5 @@ def cycle_key(built: Model) -> tuple:
         resolution.contact_grid,
         resolution.steps_per_mesh_cycle,
     )
-    return scene.gears, scene.tip_relief, accuracy, tuple(built.drivetrain.indices), scene.friction is not None
+    in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps)
+    return scene.gears, in_operators, scene.coast_flanks is not None, accuracy, tuple(built.drivetrain.indices), scene.friction is not None
