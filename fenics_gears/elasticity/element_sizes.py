@@ -62,13 +62,15 @@ class SizeField:
     def set_background(self, gmsh, points, tags, scale: float) -> None:
         """Make ``scale`` times this field the mesh size of the current gmsh model.
 
-        points: (n, 2) and tags: (n,) of the model's geometric points, which hold all the sources' points.
+        points: (n, 2) and tags: (n,) of the model's geometric points. Of the sources, those points count that are among them.
         """
         lookup, fields = cKDTree(points), []
         for source in self.sources:
             distance, nearest = lookup.query(source.points)
-            near = gmsh.model.mesh.field.add("Distance")
             own = np.unique(nearest[distance < 1e-9 * self.largest])
+            if not len(own):
+                continue
+            near = gmsh.model.mesh.field.add("Distance")
             gmsh.model.mesh.field.setNumbers(near, "PointsList", [tags[i] for i in own])
             rise = max(self.largest - source.size, 0.0)
             fields.append(gmsh.model.mesh.field.add("Threshold"))
@@ -85,15 +87,15 @@ class SizeField:
         gmsh.model.mesh.field.setAsBackgroundMesh(smallest)
 
 
-def divided(curve: np.ndarray, size: np.ndarray, fewest: int) -> np.ndarray:
+def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2) -> np.ndarray:
     """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand.
 
-    An even number of divisions, at least ``fewest``, both ends included.
+    A multiple of ``multiple`` divisions, at least ``fewest``, both ends included.
     """
     steps = np.linalg.norm(np.diff(curve, axis=0), axis=1)
     length = np.concatenate([[0.0], np.cumsum(steps)])
     density = np.concatenate([[0.0], np.cumsum(steps * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])
-    count = max(2 * int(np.ceil(0.5 * density[-1] - 1e-9)), fewest)
+    count = multiple * int(np.ceil(max(density[-1], fewest) / multiple - 1e-9))
     return np.interp(np.linspace(0.0, density[-1], count + 1), density, length) / length[-1]
 
 

@@ -79,19 +79,22 @@ def sector_boundary(
     hub = gear.bore_radius * _directions(np.linspace(*hub_angles, CURVE_SAMPLES))
     field = _size_field(gear, sizes, outline, flank, root, coast, hub)
 
-    def nodes(curve, fewest=2):
-        return along(curve, divided(curve, field.at(curve), fewest))
+    def nodes(curve, fewest=2, multiple=2):
+        return along(curve, divided(curve, field.at(curve), fewest, multiple))
+
+    # A sector with two working flanks is meshed by halves: tip and bore have a node on the centreline, itself at an even index.
+    halved = 4 if sizes.both_flanks else 2
 
     radii = _cut_radii(gear, field, hub_angles)
     pieces = {
         "upper cut": radii[:, None] * _directions(hub_angles[1:]),
         "root": _on_circle(gear.root_radius, nodes(root, 12), root),
         "flank": flank,
-        "tip": _on_circle(gear.tip_radius, nodes(tip), tip),
+        "tip": _on_circle(gear.tip_radius, nodes(tip, multiple=halved), tip),
         "coast": coast if sizes.both_flanks else nodes(coast, 4),
         "coast root": outline.coast(_on_circle(gear.root_radius, nodes(root, 12), root))[::-1],
         "lower cut": radii[::-1, None] * _directions(hub_angles[:1]),
-        "hub": _on_circle(gear.bore_radius, nodes(hub), hub),
+        "hub": _on_circle(gear.bore_radius, nodes(hub, multiple=halved), hub),
     }
     if flank_rolls is not None:
         pieces["flank"] = canonical_point(gear.base_radius, flank_rolls)

@@ -7,6 +7,7 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.element_sizes import ElementSizes, SizeField
 from fenics_gears.elasticity.gmsh_session import gmsh_model
+from fenics_gears.elasticity.half_sector import mirrored_halves
 from fenics_gears.elasticity.mesh_data import BodyMesh, oriented, split_to_quadrilaterals
 from fenics_gears.elasticity.sector_boundary import SectorBoundary, sector_boundary
 from fenics_gears.errors import ComputationError
@@ -21,22 +22,24 @@ def sector_mesh(
 ) -> BodyMesh:
     """Mesh of one tooth sector, its two cuts congruent node for node.
 
+    With both flanks working it is symmetric about the tooth's centreline, so that neither flank is the better one.
     Flank vertices stand on the exact involute, even in arc length or at `flank_rolls` (rad, see sector_boundary).
     Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any version
     of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises ComputationError when gmsh fails,
     a cell is folded, or quadrilaterals meet an odd number of flank elements.
     """
     boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
-    mesh = _filled_with_quadrilaterals(boundary, field) if quadrilaterals else _filled_with_triangles(boundary, field)
+    fill = _filled_with_quadrilaterals if quadrilaterals else _filled_with_triangles
+    mesh = mirrored_halves(boundary, field, fill) if sizes.both_flanks else fill(boundary, field, NAMED_PARTS)
     return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges)
 
 
-def _filled_with_triangles(boundary: SectorBoundary, field: SizeField) -> BodyMesh:
+def _filled_with_triangles(boundary: SectorBoundary, field: SizeField, parts: tuple[str, ...]) -> BodyMesh:
     points, cells = filled(boundary.points, field, 1.0, recombine=False)
-    return BodyMesh(points, oriented(points, cells[0]), _edges(boundary, np.arange(len(boundary.points))))
+    return BodyMesh(points, oriented(points, cells[0]), _edges(boundary, np.arange(len(boundary.points)), parts))
 
 
-def _filled_with_quadrilaterals(boundary: SectorBoundary, field: SizeField) -> BodyMesh:
+def _filled_with_quadrilaterals(boundary: SectorBoundary, field: SizeField, parts: tuple[str, ...]) -> BodyMesh:
     if len(boundary.part("flank")) % 2 == 0:
         raise ComputationError("quadrilaterals need an even number of elements on the flank; choose other contact_nodes")
     coarse = boundary.points[::2]
@@ -46,7 +49,7 @@ def _filled_with_quadrilaterals(boundary: SectorBoundary, field: SizeField) -> B
     index = np.empty(len(boundary.points), dtype=int)
     index[::2] = np.arange(len(coarse))
     index[1::2] = [middle[side] for side in exact]
-    return BodyMesh(points, oriented(points, split), _edges(boundary, index))
+    return BodyMesh(points, oriented(points, split), _edges(boundary, index, parts))
 
 
 def filled(
@@ -105,8 +108,8 @@ def _odd_points(boundary: SectorBoundary) -> dict[tuple[int, int], np.ndarray]:
     return {(min(edge), max(edge)): boundary.points[2 * edge[0] + 1] for edge in edges}
 
 
-def _edges(boundary: SectorBoundary, index: np.ndarray) -> dict[str, np.ndarray]:
-    parts = {name: index[boundary.part(name)] for name in NAMED_PARTS}
+def _edges(boundary: SectorBoundary, index: np.ndarray, names: tuple[str, ...]) -> dict[str, np.ndarray]:
+    parts = {name: index[boundary.part(name)] for name in names}
     return {name: np.stack([part[:-1], part[1:]], axis=-1) for name, part in parts.items()}
 
 

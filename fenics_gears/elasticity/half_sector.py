@@ -1,0 +1,54 @@
+"""A sector that is symmetric about its tooth's centreline: one half meshed, the other its mirror image."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from fenics_gears.elasticity.element_sizes import SizeField, along, divided
+from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
+from fenics_gears.elasticity.sector_boundary import SectorBoundary
+
+CENTRELINE_SAMPLES = 400
+# Parts of the half on the drive flank's side, and what their mirror images are.
+IMAGES = {"flank": "coast", "upper cut": "lower cut", "hub": "hub"}
+
+
+def mirrored_halves(
+    boundary: SectorBoundary, field: SizeField, fill: Callable[[SectorBoundary, SizeField, tuple[str, ...]], BodyMesh]
+) -> BodyMesh:
+    """Mesh of a sector from its boundary, of which the half with the drive flank is filled.
+
+    fill: makes the mesh of a closed boundary whose points come first, or as its edges name them, with edges for the named parts.
+    """
+    half = _half(boundary, field)
+    mesh = fill(half, field, (*IMAGES, "centreline"))
+    axis = half.points[half.part("centreline")[0]]
+    axis = axis / np.linalg.norm(axis)
+    along_axis = mesh.points @ axis
+    image = 2.0 * along_axis[:, None] * axis - mesh.points
+    shared = mesh.edge_points("centreline")
+    # Round-off apart they are there already.
+    points = mesh.points.copy()
+    points[shared] = along_axis[shared, None] * axis
+    own = np.setdiff1d(np.arange(len(points)), shared)
+    index = np.arange(len(points))
+    index[own] = len(points) + np.arange(len(own))
+    points = np.vstack([points, image[own]])
+    edges = {name: mesh.edges[name] for name in IMAGES}
+    mirrored = {other: index[mesh.edges[name]] for name, other in IMAGES.items()}
+    edges = {name: np.vstack([part[name] for part in (edges, mirrored) if name in part]) for name in {**edges, **mirrored}}
+    return BodyMesh(points, oriented(points, np.vstack([mesh.cells, index[mesh.cells]])), edges)
+
+
+def _half(boundary: SectorBoundary, field: SizeField) -> SectorBoundary:
+    """The drive flank's side: from the bore up the cut, root, flank and half the tip, down the centreline, half the bore back."""
+    (tip_first, tip_last), (hub_first, hub_last) = boundary.parts["tip"], boundary.parts["hub"]
+    top, bottom = (tip_first + tip_last) // 2, (hub_first + hub_last) // 2
+    line = np.linspace(boundary.points[top], boundary.points[bottom], CENTRELINE_SAMPLES)
+    inner = along(line, divided(line, field.at(line), 4))
+    points = np.vstack([boundary.points[: top + 1], inner[1:-1], boundary.points[bottom:]])
+    end = top + len(inner) - 1
+    parts = {name: ends for name, ends in boundary.parts.items() if ends[1] <= top}
+    return SectorBoundary(points, {**parts, "centreline": (top, end), "hub": (end, len(points))})

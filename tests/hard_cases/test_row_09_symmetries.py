@@ -1,0 +1,126 @@
+"""Row 9: where a run starts, which gear is called the pinion, and which way the world is mirrored must not matter."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
+from tests.coarse_sector import relative
+from tests.stand_in import stand_in_compliance
+
+from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mesh_cycle import pair_places
+from fenics_gears.contact.operator import CompliancePairing, contact_operator
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.simulation import prepared, simulate
+
+PHASES = np.linspace(0.013, 0.987, 25)
+
+
+@pytest.fixture(scope="module")
+def scene(paper_scene):
+    return coarse_scene(paper_scene)
+
+
+def elastic(pair, scene, element="P1", coast_flank=False):
+    """Flank compliances of both gears by finite elements."""
+    return tuple(
+        flank_compliance(
+            gear, scene.gears.material, element=element, flank_element_size=scene.accuracy.flank_element_size, tooth_offsets=5,
+            coast_flank=coast_flank,
+        )
+        for gear in (pair.pinion, pair.wheel)
+    )  # fmt: skip
+
+
+def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
+    """Rotation of the wheel (mm on its base circle) under a force at a phase of the mesh, the pinion held; and the forces of contact."""
+    places = pair_places(flanks.pair, grid, phase % 1.0, coast_flanks=flank == COAST)
+    pairs = tuple(tooth_pair(flanks, grid, place) for place in places if place.flank == flank)
+    operator = contact_operator(flanks, pairing, pairs, coordinates=[5])
+    load, free = np.array([force]), np.array([np.sign(force)])
+    problem = StepProblem(
+        np.zeros((1, 1)), load, operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(abs(force))
+    )
+    solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+    return solution.coordinates[0], solution.forces
+
+
+@pytest.mark.parametrize("start", [1, 7, 23, 39])
+@pytest.mark.parametrize("make", [frictionless, lambda scene: scene], ids=["frictionless", "friction"])
+def test_any_start_angle(make, start, scene, measured):
+    """Quasi-static gears forget where they began: after two mesh cycles the same transmission error at the same angle."""
+    scene = make(quasi_static(replace(scene, motion=replace(scene.motion, mesh_cycles=3, recorded_cycles=1))))
+
+    def begun_later(built, progress, cache):
+        gears, cycle = prepared(built, SilentProgress(), cache)
+        plain, between, number = cycle.position, cycle.between, cycle.pair_number
+        cycle.position = lambda step: plain(step + start)
+        cycle.between = lambda step, before: between(step + start, before + start)
+        cycle.pair_number = lambda step, index: number(step + start, index)
+        return gears, cycle
+
+    usual = simulate(scene).transmission_error.values[:-1]
+    later = simulate(scene, preparation=begun_later).transmission_error.values[:-1]
+    change = relative(np.roll(later, start) - usual, usual)
+    measured(f"start {start}/{len(usual)} of a mesh cycle later, mu = {scene.friction.coefficient if scene.friction else 0:g}", change, "1e-10")
+    assert change <= 1e-10
+
+
+def test_finer_steps_stand_at_the_same_angles(scene, measured):
+    """Exact identity: without friction and inertia a position's answer does not know the steps between; every third of 120 is one of 40."""
+    scene = frictionless(teeth_alone(scene))
+    fine = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=120))
+    errors = [simulate(each).transmission_error.values for each in (scene, fine)]
+    change = relative(errors[1][::3] - errors[0], errors[0])
+    measured("40 and 120 steps a mesh cycle, at the same angles", change, "1e-10")
+    assert change <= 1e-10
+
+
+@pytest.mark.parametrize("relieved", [False, True])
+@pytest.mark.parametrize("element", ["P1", "P2"])
+def test_gears_swapped(element, relieved, scene, measured):
+    """Exact identity: turned by half a turn the pair is the wheel driving the pinion backwards; xi becomes L - xi."""
+    built = model(teeth_alone(frictionless(scene)))
+    pair, grid, force = built.pair, built.resolution.contact_grid, built.drivetrain.load[-1]
+    swapped = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
+    removal = (lambda roll: 0.02 * np.maximum(roll - 0.5, 0.0), lambda roll: 0.03 * np.maximum(roll - 0.4, 0.0)) if relieved else (None, None)
+    gears = elastic(pair, scene, element)
+    here, there = Flanks(pair, gears, removal), Flanks(swapped, gears[::-1], removal[::-1])
+    pairings, changes = (CompliancePairing(here), CompliancePairing(there)), []
+    for phase in PHASES:
+        usual, forces = approach(here, pairings[0], grid, phase, force)
+        other, swapped_forces = approach(there, pairings[1], grid, pair.contact_ratio - phase, force)
+        changes.append(max(abs(other / usual - 1.0), relative(np.sort(swapped_forces) - np.sort(forces), forces)))
+    measured(f"gears swapped, {element}{', tip relief' if relieved else ''}: transmission error and forces", max(changes), "1e-10")
+    assert max(changes) <= 1e-10
+
+
+@pytest.mark.parametrize("element", ["stand-in", "P1", "P2", "Q1", "Q2"])
+def test_mirrored_pair(element, scene, measured):
+    """Exact identity: mirrored at the line of centres the pair drives on its coast flanks; without backlash these stand as the drive
+    flanks do at another phase, and the wheel gives way as far the other way."""
+    pair = gear_pair(scene.gears)
+    pair = replace(pair, centre_distance=pair.centre_distance_without_backlash)
+    built = model(teeth_alone(frictionless(scene)))
+    grid, force = built.resolution.contact_grid, built.drivetrain.load[-1]
+    if element == "stand-in":
+        gears = tuple(stand_in_compliance(gear, offsets=5, coast_flank=True) for gear in (pair.pinion, pair.wheel))
+    else:
+        gears = elastic(pair, scene, element, coast_flank=True)
+    flanks, changes = Flanks(pair, gears), []
+    pairing = CompliancePairing(flanks)
+    # Roll angles of the coast flanks at phase t are those of the drive flanks at this less t.
+    turned = 2.0 * pair.pinion.base_radius * (pair.operating_pressure_angle + pair.pinion.tooth_half_angle_at_base)
+    mirrored = (turned - 2.0 * pair.path_start) / pair.base_pitch
+    for phase in PHASES:
+        drive, _ = approach(flanks, pairing, grid, mirrored - phase, force)
+        coast, _ = approach(flanks, pairing, grid, phase, -force, COAST)
+        changes.append(abs(-coast / drive - 1.0))
+    measured(f"mirrored pair, {element}: transmission error", max(changes), "1e-10")
+    assert max(changes) <= 1e-10
