@@ -12,6 +12,7 @@ import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
+from fenics_gears.contact.newton import CYCLED, OUTCOMES
 from fenics_gears.contact.uniqueness import flexibility, is_only_solution
 
 
@@ -42,7 +43,7 @@ def balance(rigid: np.ndarray, motion: np.ndarray, friction: float, slip_sign: n
 
 
 def working(rigid: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Balance:
-    """The same of the nodes that a solution with friction, `forces` (m,), presses, by the friction that acts there; zero elsewhere."""
+    """The same of the nodes that a solution, `forces` (m,), presses, by the friction that acts there; zero elsewhere."""
     along, n = rigid @ motion, len(forces) // 2
     pressed = forces[:n] > 0.0
     normal = np.where(pressed, along[:n], 0.0)
@@ -131,8 +132,9 @@ def _several(problem, visited: np.ndarray) -> str:
 
 
 def _reason(problem, attempts) -> str:
-    if attempts[-1][1] == "the sets repeat":
+    if attempts[-1][1] == OUTCOMES[CYCLED]:
         return "every rung of the ladder ended with alternating sets"
     return (
-        "the sets settle, but the equations cannot be solved within the tolerance: the scene's stiffnesses or loads are too far apart"
+        "the sets settle, but the equations cannot be solved within the tolerance: "
+        "the scene's stiffnesses or loads are too far apart"
     )

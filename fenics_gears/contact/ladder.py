@@ -12,15 +12,14 @@ from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
 from fenics_gears.contact.newton import (
     ALL_AT_ONCE,
     CONVERGED,
-    CYCLED,
     ONE_AT_A_TIME,
+    OUTCOMES,
     SINGULAR,
     THROUGH_STICK,
     newton,
 )
 from fenics_gears.contact.tresca import tresca
 
-OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
 LADDER = (
     "newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time", "Tresca fixed point",
 )  # fmt: skip

@@ -19,6 +19,7 @@ from numba import njit
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
+OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
 ROUND_OFF = 1e-12
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the first
 # node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a P-matrix

@@ -43,7 +43,7 @@ class SlidingBlock:
 
 
 def block_at_rest(problem: StepProblem, status: np.ndarray) -> tuple[Marcher, Record]:
-    """A block of such mass that its first step of 1 ms is the problem, and its state before: at rest, unloaded, sets `status` (n,)."""
+    """A block whose first step of 1 ms is the problem, by its mass, and its state before: at rest, unloaded, sets `status` (n,)."""
     step, k = 1e-3, len(problem.load)
     mass = 0.25 * step**2 * problem.stiffness
     names = ("rotation_2", "centre_x1", "centre_y1")[:k]

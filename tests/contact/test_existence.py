@@ -1,4 +1,4 @@
-"""Whether a frictional step has a solution, and only one: the certificate and the error's words against exact and enumerated cases."""
+"""Whether a frictional step has a solution, and only one: certificate and errors against exact and enumerated cases."""
 
 import itertools
 from dataclasses import replace
@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.contact.problems import all_open, random_problem
 
-from fenics_gears.contact.errors import SelfLocking
-from fenics_gears.contact.existence import locked_nodes, working
+from fenics_gears.contact.errors import MoreThanOneSolution, SelfLocking
+from fenics_gears.contact.existence import explained, locked_nodes, working
 from fenics_gears.contact.ladder import StepProblem, solve_step
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.newton import solve_sets
@@ -23,8 +23,8 @@ def solutions(problem, sigma):
         forces, coordinates = np.zeros(2 * n), np.zeros(len(problem.load))
         try:
             solve_sets(
-                problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before, problem.friction,
-                np.where(closed, slips, OPEN).astype(np.int8), forces, coordinates,
+                problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before,
+                problem.friction, np.where(closed, slips, OPEN).astype(np.int8), forces, coordinates,
             )  # fmt: skip
         except np.linalg.LinAlgError:
             continue
@@ -62,7 +62,7 @@ def test_a_certified_solution_is_the_only_one(free):
 
 
 def test_a_load_held_by_contact_alone_is_the_limit_of_a_soft_spring():
-    """Known limit: the certificate of a singular stiffness is that of a spring of 1e-6 and of 1e-9 of the others along the free motion."""
+    """Known limit: a singular stiffness has the certificate of a spring of 1e-6, and of 1e-9, of the others along the free motion."""
     verdicts = set()
     for seed in range(200):
         problem = random_problem(seed, 4, 0.4, coordinates=2, free=True)
@@ -76,7 +76,7 @@ def test_a_load_held_by_contact_alone_is_the_limit_of_a_soft_spring():
 
 
 def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0):
-    """One node that slips backward (its slip so far is -1 mm); `arm`: of friction against the load; `coupling`: elastic, normal-tangential."""
+    """One node that slips backward, so far by 1 mm; `arm`: of friction against the load; `coupling`: elastic, normal to tangential."""
     free = stiffness == 0.0
     return StepProblem(
         stiffness=np.array([[stiffness]]),
@@ -100,7 +100,7 @@ def test_friction_against_the_load_raises_the_normal_force(friction):
 
 @pytest.mark.parametrize("friction", [1.0, 1.5, 2.0])
 def test_friction_that_undoes_the_normal_force_locks(friction):
-    """Exact: from mu a = 1 on the node sticks and jams, with a force that the slip asks for (1 mm against 3e-6 mm/N), not the load."""
+    """Exact: from mu a = 1 on the node sticks and jams, with the force that the slip asks for, 1 mm over 3e-6 mm/N, not the load."""
     problem = one_node(friction, arm=1.0)
     solution = solve_step(problem, all_open(problem))
     assert solution.status[0] == STICK
@@ -114,7 +114,10 @@ def test_friction_that_undoes_the_normal_force_locks(friction):
 
 @pytest.mark.parametrize(
     "seed, nodes, words",
-    [(20067, 1, "no contact forces whose friction opposes the slip can balance the load"), (27458, 2, "the friction undoes 3.75 times")],
+    [
+        (20067, 1, "no contact forces whose friction opposes the slip can balance the load"),
+        (27458, 2, "the friction undoes 3.75 times"),
+    ],
 )
 def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
     """Of 100 000 random problems (test_ladder) the 18 without a solution say self-locking; two of them, by either reason.
@@ -143,3 +146,21 @@ def test_two_solutions_are_not_certified():
         assert solve_step(problem, np.array([start], dtype=np.int8)).forces[0] == pytest.approx(force, rel=1e-9)
     slides = solve_step(replace(problem, gap=np.array([-1e-3]), friction=0.5), np.array([OPEN], dtype=np.int8))
     assert slides.forces[0] == pytest.approx(1e-3 / (1e-6 - 0.6e-6 + 1e-9), rel=1e-9)
+
+
+def test_an_error_without_a_certificate_says_more_than_one_solution():
+    """Message, on its own: no step of the search needs it, all 18 failures locking. Given to the explanation as failed, problems that
+    have two solutions by enumeration, while no single node locks, are named for that."""
+    named = 0
+    for seed in range(1500):
+        rng = np.random.default_rng(seed)
+        problem = random_problem(seed, 4, float(rng.uniform(0.05, 1.5)), coordinates=2)
+        sigma = rng.choice([-1.0, 1.0], 4)
+        sets = np.where(sigma > 0, SLIP_FORWARD, SLIP_BACKWARD).astype(np.int8)
+        failure = explained(problem, [("newton", "the sets repeat", np.zeros((1, 5)), sets[None])])
+        if isinstance(failure, SelfLocking) or len(solutions(problem, sigma)) < 2:
+            continue
+        named += 1
+        assert isinstance(failure, MoreThanOneSolution)
+        assert failure.reason.startswith("more than one solution, or none: with a friction coefficient of ")
+    assert named > 0

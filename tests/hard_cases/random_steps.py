@@ -37,7 +37,7 @@ def solved(problem: StepProblem, start: np.ndarray) -> StepSolution | None:
 
 
 def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]:
-    """How far a solution misses the laws: penetration in um, forces in parts of the largest force, works of that times the largest length."""
+    """How far a solution misses the laws: lengths in um, forces in parts of the largest force, works of that times the largest length."""
     forces, n = solution.forces, len(problem.gap)
     deflection, moved = problem.compliance @ forces, problem.rigid @ solution.coordinates
     displacement = moved - deflection

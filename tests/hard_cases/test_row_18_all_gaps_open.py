@@ -1,4 +1,4 @@
-"""Row 18: no flank touches. With inertia the gears fly free; without, nothing holds the load, and the error says which load and which motion."""
+"""Row 18: no flank touches. With inertia the gears fly free; without, the error says which load is not held and which motion is free."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -78,9 +78,10 @@ ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]
 @pytest.mark.parametrize("frictional", [False, True], ids=["frictionless", "friction"])
 @pytest.mark.parametrize("absent", ABSENT, ids=["all"] + ["without " + " and ".join(names) for names in ABSENT[1:]])
 def test_a_static_load_that_opens_all_gaps_is_named(absent, frictional, paper_scene, paper_pair, stand_in_flanks, measured):
-    """Message: turned the other way, and without coast flanks, the couple opens every gap; whatever else gives way, it turns the wheel."""
+    """Message: the other way round, without coast flanks, the couple opens every gap; whatever else gives way, it turns the wheel."""
     scene = replace(paper_scene, inertia=None, damping=None, **dict.fromkeys(absent))
-    scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque), friction=scene.friction if frictional else None)
+    scene = scene if frictional else replace(scene, friction=None)
+    scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque))
     shafts = drivetrain(scene, paper_pair)
     cycle = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), 40, shafts.indices, tangential=frictional)
     marcher = Marcher(cycle, shafts, 1e-4, scene.friction.coefficient if frictional else 0.0)

@@ -1,4 +1,4 @@
-"""Row 20: friction of 0.3 to 2 on the paper's pair, with inertia and without: it converges, or says what friction does to the solution."""
+"""Row 20: friction of 0.3 to 2 on the paper's pair, with inertia and without: it converges, or says what friction does."""
 
 from dataclasses import replace
 

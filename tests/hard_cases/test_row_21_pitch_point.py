@@ -1,4 +1,4 @@
-"""Row 21: a step that lands on the pitch point exactly, and 1e-12 mm beside it. There the rigid slip vanishes and friction turns its sign."""
+"""Row 21: a step that lands on the pitch point, exactly or 1e-12 mm beside it. There rigid slip vanishes and friction turns its sign."""
 
 import itertools
 from dataclasses import replace
