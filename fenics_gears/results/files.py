@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
-import hashlib
 import io
-import json
 import os
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-
-DIGEST = "content_digest"
+from fenics_gears.sealed import seal, unsealed
 
 
 def save(result: xr.Dataset, path: str | Path) -> None:
-    """Write a dataset as NetCDF-4 with a digest of its content; it appears under its name only when whole.
+    """Write a dataset as NetCDF-4 with a digest at its end; it appears under its name only when whole.
 
     Raises OSError where the disk is full or the directory cannot be written.
     """
     path = Path(path)
-    content = netcdf(result.assign_attrs({DIGEST: _digest(result)}))
+    content = netcdf(result)
     path.parent.mkdir(parents=True, exist_ok=True)
     aside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         with open(aside, "wb") as file:
             file.write(content)
+            file.write(seal(content))
             file.flush()
             os.fsync(file.fileno())
         os.replace(aside, path)
@@ -53,31 +50,10 @@ def netcdf(dataset: xr.Dataset) -> memoryview:
 def load(path: str | Path) -> xr.Dataset:
     """Read a saved result into memory. Raises ComputationError when the file is no result of this program, or damaged."""
     try:
-        with xr.open_dataset(path, engine="h5netcdf") as opened:
+        with xr.open_dataset(unsealed(Path(path)), engine="h5netcdf") as opened:
             result = opened.load()
-    # A damaged HDF5 file is reported by many types, RuntimeError and KeyError among them.
-    except Exception as failure:
+    except (OSError, ValueError) as failure:
         raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
-    written = result.attrs.pop(DIGEST, None)
-    if written != _digest(result):
-        raise ComputationError(f"{path}: does not hold what was written into it, or was written by another version. Run its scene again.")
     return result
-
-
-def _digest(dataset: xr.Dataset) -> str:
-    """Hash of every variable's name, dimensions, values and labels, and of the dataset's own attributes."""
-    digest = hashlib.sha256(_words(dataset.attrs))
-    for name in sorted(dataset.variables):
-        variable = dataset[name]
-        values = np.ascontiguousarray(variable.values)
-        digest.update(_words({"name": name, "dimensions": list(variable.dims), "shape": list(values.shape), **variable.attrs}))
-        digest.update(values.tobytes() if values.dtype.kind in "fiub" else _words({"texts": values.astype(str).tolist()}))
-    return digest.hexdigest()
-
-
-def _words(values: dict) -> bytes:
-    """Names and plain values as text, the same before and after a file has held them."""
-    plain = {str(name): np.asarray(value).tolist() for name, value in values.items() if name != DIGEST}
-    return json.dumps(plain, sort_keys=True, default=str).encode()

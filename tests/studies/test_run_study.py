@@ -8,14 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import command, environment, gears, stamps, write_study
+from tests.studies.conftest import command, environment, stamps, write_study
 
 from fenics_gears import results
 from fenics_gears.cli import main
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.simulation import simulate
 from fenics_gears.studies import work
-from fenics_gears.studies.case_files import sole_writer
 from fenics_gears.studies.study_file import load_study
 
 FOUR = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nfriction = ["absent", "present"]\n'
@@ -111,30 +110,6 @@ def test_a_changed_base_scene_is_noticed(folder, capsys):
     assert load("here")["mean_transmission_error"].equals(old["mean_transmission_error"])
 
 
-@pytest.mark.parametrize("damage", ["cut", "overwritten", "swapped"])
-def test_a_damaged_file_is_computed_again(folder, caplog, damage):
-    """Authority: hard case 27; never a wrong number."""
-    study = write_study(folder, FOUR)
-    main(["study", str(study), "--quiet", "--output", "here"])
-    combined = load("here")
-    first, second = sorted(Path("here/cases").glob("*.nc"))[:2]
-    content = first.read_bytes()
-    if damage == "cut":
-        first.write_bytes(content[: len(content) // 2])
-    elif damage == "swapped":
-        first.write_bytes(second.read_bytes())
-    else:
-        values = results.load(first)["transmission_error"].values.tobytes()
-        assert values in content
-        first.write_bytes(content.replace(values, values[8:] + values[:8]))
-    before = stamps("here")
-    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
-    after = stamps("here")
-    assert [name for name in before if before[name] != after[name]] == [first.name]
-    assert "computed again" in caplog.text
-    assert load("here").drop_vars("wall_time").equals(combined.drop_vars("wall_time"))
-
-
 def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypatch):
     """Authority: issue 3; the error is the contact's own. Exit code 3; tried again the next time."""
 
@@ -170,15 +145,6 @@ def test_an_unwritable_cache_changes_nothing(folder, monkeypatch):
     assert load("here")["transmission_error"].equals(load("cached")["transmission_error"])
 
 
-def test_two_studies_do_not_share_a_directory(folder, capsys):
-    """Authority: hard case 27, two runs at once."""
-    study = write_study(folder, FOUR)
-    with sole_writer(folder / "here"):
-        assert main(["study", str(study), "--output", "here"]) == 3
-    assert "another study is writing there" in capsys.readouterr().err
-    assert stamps("here") == {}
-
-
 def test_quiet_says_nothing(folder, capfd):
     """Authority: the option's own description."""
     study = write_study(folder, '[sweep]\nfriction = ["absent"]')
@@ -197,20 +163,6 @@ def stopped_in_the_middle(folder, study, how):
         time.sleep(0.005)
     os.kill(process.pid, how)
     return process.wait(timeout=60), process.stderr.read()
-
-
-def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder):
-    """Authority: hard case 27, kill -9: nothing lost, nothing computed twice, nothing left half-written."""
-    study = write_study(folder, MANY)
-    assert stopped_in_the_middle(folder, study, signal.SIGKILL)[0] == -signal.SIGKILL
-    before = stamps("here")
-    assert 3 <= len(before) < 30
-    again = gears(folder, "study", study, "--output", "here")
-    assert again.returncode == 0 and f"{len(before)} kept, {30 - len(before)} to be computed" in again.stderr
-    after = stamps("here")
-    assert len(after) == 30 and {name: after[name] for name in before} == before
-    assert not list(Path("here").rglob("*.part")) and not list(Path("here").glob(".unfinished*"))
-    assert load("here").attrs["complete"] == 1
 
 
 def test_ctrl_c_keeps_what_is_done(folder):

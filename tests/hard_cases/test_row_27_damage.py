@@ -1,0 +1,273 @@
+"""Row 27: damaged cache entries and results; nothing that is read back can be code.
+
+Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final name. Where a number
+is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
+"""
+
+import ast
+import logging
+import os
+import pickle
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.hard_cases.kept_files import ARRAYS, KEY
+from tests.studies.conftest import cache, folder, stamps, write_study  # noqa: F401
+from tests.studies.test_run_study import FOUR, load
+
+import fenics_gears
+from fenics_gears import results
+from fenics_gears.cli import main
+from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.errors import ComputationError
+
+
+@pytest.fixture
+def own_cache(tmp_path):
+    """A cache with one entry."""
+    made = Cache(tmp_path / "own cache")
+    made.store(KEY, ARRAYS)
+    return made
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """A result like that of a run, small."""
+    values = {"transmission_error": ("time", np.sin(np.arange(40.0))), "contact_pressure": (("time", "node"), np.arange(120.0).reshape(40, 3))}
+    coordinates = {"gear": ("gear", ["pinion", "wheel"], {"long_name": "gear"}), "pair": ("pair", np.array([3, 4]))}
+    made = xr.Dataset(values, coordinates).assign_attrs(scene="[gears]\n", complete=1, peak=0.25, warnings="")
+    made["transmission_error"].attrs["units"] = "rad"
+    return made
+
+
+def truncated(path):
+    path.write_bytes(path.read_bytes()[:-500])
+
+
+def lengthened(path):
+    path.write_bytes(path.read_bytes() + b" ")
+
+
+def empty(path):
+    path.write_bytes(b"")
+
+
+def foreign(path):
+    path.write_bytes(b"not HDF5 at all" * 100)
+
+
+def one_bit_flipped(path):
+    content = bytearray(path.read_bytes())
+    content[content.find(ARRAYS["blocks"].tobytes()[-16:])] ^= 1
+    path.write_bytes(bytes(content))
+
+
+def array_missing(path):
+    with h5py.File(path, "a") as file:
+        del file["unknowns"]
+
+
+def array_added(path):
+    with h5py.File(path, "a") as file:
+        file["more"] = 1.0
+
+
+def other_format(path):
+    with h5py.File(path, "a") as file:
+        file.attrs["format"] = "something else"
+
+
+def directory_instead(path):
+    path.unlink()
+    path.mkdir()
+
+
+def without_permission(path):
+    if os.geteuid() == 0:
+        pytest.skip("root may read anything")
+    path.chmod(0)
+
+
+DAMAGES = [truncated, lengthened, empty, foreign, one_bit_flipped, array_missing, array_added, other_format, directory_instead, without_permission]
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_cache_entry_is_reported_and_not_used(own_cache, damage, caplog, measured):
+    """A damaged entry is as good as none, and says so; it is written again where the file system lets it."""
+    damage(own_cache.path(KEY))
+    with caplog.at_level(logging.WARNING):
+        loaded = own_cache.load(KEY)
+    measured(f"cache entry {damage.__name__.replace('_', ' ')}", "used" if loaded is not None else "computed again", "computed again")
+    assert loaded is None and str(own_cache.path(KEY)) in caplog.text
+    own_cache.store(KEY, ARRAYS)
+    again = own_cache.load(KEY)
+    assert damage is directory_instead or np.array_equal(again["blocks"], ARRAYS["blocks"])
+
+
+def test_an_entry_under_another_name_is_not_used(own_cache, caplog, measured):
+    """A file copied to another key holds another gear."""
+    other = content_key({"gear": {"teeth": 17}})
+    os.replace(own_cache.path(KEY), own_cache.path(other))
+    loaded = own_cache.load(other)
+    measured("another gear's entry under the name", "used" if loaded is not None else "computed again", "computed again")
+    assert loaded is None and "computed again" in caplog.text
+
+
+def flipped(content: bytes, place: float, bit: int) -> bytes:
+    """The content with one bit turned, at a place from 0 to 1."""
+    changed = bytearray(content)
+    changed[min(int(place * len(content)), len(content) - 1)] ^= 1 << bit
+    return bytes(changed)
+
+
+def test_any_one_bit_flipped_in_a_cache_entry(own_cache, measured):
+    """Wherever the bit: the entry is refused, before HDF5 sees it (which ended the process at some of these bits)."""
+    path, counts = own_cache.path(KEY), {"none": 0, "same": 0, "wrong": 0}
+    content = path.read_bytes()
+
+    @settings(max_examples=300)
+    @given(st.floats(0, 1), st.integers(0, 7))
+    def flip(place, bit):
+        path.write_bytes(flipped(content, place, bit))
+        loaded = own_cache.load(KEY)
+        same = loaded is not None and loaded.keys() == ARRAYS.keys() and all(np.array_equal(loaded[name], ARRAYS[name]) for name in ARRAYS)
+        counts["none" if loaded is None else "same" if same else "wrong"] += 1
+
+    flip()
+    measured("one bit of a cache entry flipped", "{none} refused, {same} without effect, {wrong} wrong".format(**counts), "all refused")
+    assert counts["wrong"] == counts["same"] == 0 and counts["none"] >= 300
+
+
+def test_any_one_bit_flipped_in_a_result(run, tmp_path, measured):
+    """Likewise a run's file: what `gears plot` draws and a study keeps is what was written, or an error that names the file."""
+    path, counts = tmp_path / "run.nc", {"none": 0, "same": 0, "wrong": 0}
+    results.save(run, path)
+    content = path.read_bytes()
+    assert results.load(path).identical(run)
+
+    @settings(max_examples=300)
+    @given(st.floats(0, 1), st.integers(0, 7))
+    def flip(place, bit):
+        path.write_bytes(flipped(content, place, bit))
+        try:
+            counts["same" if results.load(path).identical(run) else "wrong"] += 1
+        except ComputationError as error:
+            assert str(path) in str(error)
+            counts["none"] += 1
+
+    flip()
+    measured("one bit of a result flipped", "{none} refused, {same} without effect, {wrong} wrong".format(**counts), "all refused")
+    assert counts["wrong"] == counts["same"] == 0 and counts["none"] >= 300
+
+
+@pytest.mark.parametrize("damage", ["cut", "empty", "text", "directory"])
+def test_a_damaged_result_is_not_drawn(run, tmp_path, capsys, measured, damage):
+    """`gears plot` of a damaged file: exit code 2, the file named."""
+    path = tmp_path / "run.nc"
+    results.save(run, path)
+    content = path.read_bytes()
+    path.write_bytes({"cut": content[: len(content) // 2], "empty": b"", "text": b"no result"}.get(damage, b""))
+    if damage == "directory":
+        path.unlink()
+        path.mkdir()
+    code = main(["plot", str(path)])
+    measured(f"`gears plot` of a result that is damaged: {damage}", f"exit code {code}", "2, file named")
+    assert code == 2 and str(path) in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("damage", ["cut", "overwritten", "swapped", "attribute"])
+def test_a_damaged_case_is_computed_again(folder, caplog, measured, damage):
+    """A study keeps no case that is not what was written into it; the dataset is that of the undisturbed study."""
+    study = write_study(folder, FOUR)
+    main(["study", str(study), "--quiet", "--output", "here"])
+    combined = load("here")
+    first, second = sorted(Path("here/cases").glob("*.nc"))[:2]
+    content = first.read_bytes()
+    if damage == "cut":
+        first.write_bytes(content[: len(content) // 2])
+    elif damage == "swapped":
+        first.write_bytes(second.read_bytes())
+    elif damage == "attribute":
+        with h5py.File(first, "a") as file:
+            file.attrs["peak_to_peak_transmission_error"] = 1.0
+    else:
+        values = results.load(first)["transmission_error"].values.tobytes()
+        assert values in content
+        first.write_bytes(content.replace(values, values[8:] + values[:8]))
+    before = stamps("here")
+    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
+    after = stamps("here")
+    repeated = [name for name in before if before[name] != after[name]]
+    measured(f"case of a study damaged: {damage}", f"{len(repeated)} computed again", "1, the numbers the same to the bit")
+    assert repeated == [first.name] and "computed again" in caplog.text
+    assert load("here").drop_vars("wall_time").equals(combined.drop_vars("wall_time"))
+
+
+class Bomb:
+    """A pickle of it creates a file where it is loaded."""
+
+    def __init__(self, mark):
+        self._mark = mark
+
+    def __reduce__(self):
+        return open, (str(self._mark), "w")
+
+
+def in_hdf5(content: bytes, path: Path) -> None:
+    """The bytes inside an HDF5 file, as an array, an opaque value and an attribute."""
+    with h5py.File(path, "w") as file:
+        file["transmission_error"] = np.frombuffer(content, dtype=np.uint8)
+        file["values"] = np.void(content)
+        file.attrs["scene"] = np.void(content)
+
+
+@pytest.mark.parametrize("wrapped", [False, True])
+def test_a_planted_pickle_is_never_loaded(tmp_path, capsys, measured, wrapped):
+    """In a cache entry's and a result's place, bare or within HDF5: refused, and its code has not run."""
+    mark = tmp_path / "executed"
+    content = pickle.dumps(Bomb(mark))
+    pickle.loads(content).close()
+    assert mark.exists()  # the bomb works
+    mark.unlink()
+    own = Cache(tmp_path)
+    for path in (own.path(KEY), tmp_path / "run.nc"):
+        in_hdf5(content, path) if wrapped else path.write_bytes(content)
+    refused = [own.load(KEY) is None, main(["plot", str(tmp_path / "run.nc")]) == 2]
+    capsys.readouterr()
+    ran = "executed" if mark.exists() else "not executed"
+    measured("pickle " + ("within HDF5" if wrapped else "as a file"), f"{sum(refused)} of 2 refused, {ran}", "refused, not executed")
+    assert all(refused) and not mark.exists()
+
+
+UNSAFE_MODULES = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "marshal", "shelve", "yaml", "runpy"}
+UNSAFE_CALLS = {"eval", "exec", "compile", "execfile", "__import__"}
+
+
+def unsafe_in(path: Path) -> list[str]:
+    """Imports and calls in a source file through which data could become code."""
+    found = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found += [alias.name for alias in node.names if alias.name.split(".")[0] in UNSAFE_MODULES]
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in UNSAFE_MODULES:
+            found.append(node.module)
+        elif isinstance(node, ast.Call):
+            name = node.func.id if isinstance(node.func, ast.Name) else ""
+            of_numpy = isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Name) and node.func.value.id in ("np", "numpy")
+            if name in UNSAFE_CALLS or (of_numpy and node.func.attr in ("load", "fromfile", "memmap")):
+                found.append(name or f"numpy.{node.func.attr}")
+            found += [word.arg for word in node.keywords if word.arg == "allow_pickle"]
+    return [f"{path.name}: {each}" for each in found]
+
+
+def test_no_source_file_makes_code_of_data(measured):
+    """Every module of the program: no pickle, no yaml, no numpy.load, no eval. What mpi4py sends between ranks is no file."""
+    files = sorted(Path(fenics_gears.__file__).parent.rglob("*.py"))
+    found = [each for path in files for each in unsafe_in(path)]
+    measured("source files through which data could become code", f"{len(found)} of {len(files)}", "none")
+    assert len(files) > 50 and found == []

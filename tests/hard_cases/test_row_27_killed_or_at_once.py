@@ -1,0 +1,170 @@
+"""Row 27: kill -9 at any moment, and several runs at once on one cache.
+
+Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final name. Where a number
+is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
+from tests.studies.conftest import cache, command, environment, folder, gears, stamps, write_study  # noqa: F401
+from tests.studies.test_run_study import FOUR, MANY, load, stopped_in_the_middle
+
+from fenics_gears import results
+from fenics_gears.cli import main
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.studies.case_files import sole_writer
+
+
+def killed_after(seconds, call, folder, **settings):
+    """Start a process and kill it after some time; whether it was still running."""
+    process = subprocess.Popen(call, cwd=folder, env={**environment(), **settings}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(seconds)
+    os.kill(process.pid, signal.SIGKILL)
+    return process.wait(timeout=60) == -signal.SIGKILL
+
+
+def kills(folder, measured, moments, what):
+    """Kill a run on an empty cache at so many moments of its time; every result and cache entry that is there is the whole one."""
+    reference = Path("usual")
+    begun = time.monotonic()
+    assert gears(folder, "run", "pair.toml", "--output", reference, "--quiet").returncode == 0
+    lasts = time.monotonic() - begun
+    usual, killed, kept = results.load(reference / "run.nc"), 0, 0
+    for number in range(moments):
+        directory, own = folder / f"out{number}", folder / f"cache{number}"
+        call = command("run", "pair.toml", "--output", directory, "--quiet")
+        # Half of them while files are written, near the end.
+        moment = lasts * (0.3 + 1.1 * number / moments)
+        killed += killed_after(moment, call, folder, FENICS_GEARS_CACHE=str(own))
+        if (directory / "run.nc").exists():
+            assert results.load(directory / "run.nc").transmission_error.equals(usual.transmission_error)
+            kept += 1
+        for entry in own.glob("*.h5"):
+            assert Cache(own).load(entry.stem) is not None
+    ended = gears(folder, "run", "pair.toml", "--output", directory, "--quiet")
+    again = results.load(directory / "run.nc").transmission_error.equals(usual.transmission_error)
+    measured(what, f"{killed} of {moments} killed, {kept} whole results, none half", "no half result, run again the same to the bit")
+    assert ended.returncode == 0 and again
+
+
+def test_a_run_killed_at_any_moment(folder, measured):
+    """kill -9 while gears are meshed, the cache and the result written."""
+    kills(folder, measured, 3, "a run killed")
+
+
+@pytest.mark.nightly
+def test_a_run_killed_at_many_moments(folder, measured):
+    """As above, at moments a few hundredths of a second apart."""
+    kills(folder, measured, 60, "a run killed, by night")
+
+
+def test_writers_killed_while_they_write(tmp_path, measured):
+    """Processes that do nothing but store one large cache entry and one result again and again, killed: readers see whole ones."""
+    program = (
+        "import sys, numpy, xarray\n"
+        "from pathlib import Path\n"
+        "from fenics_gears import results\n"
+        "from fenics_gears.elasticity.cache import Cache\n"
+        "number = 0.0\n"
+        "while True:\n"
+        "    number += 1.0\n"
+        "    values = numpy.full(400_000, number)\n"
+        "    Cache(Path('cache')).store('key', {'values': values})\n"
+        "    results.save(xarray.Dataset({'transmission_error': ('time', values)}, attrs={'scene': ''}), 'run.nc')\n"
+    )
+    seen = 0
+    for pause in (0.0, 0.003, 0.007, 0.011, 0.017, 0.023):
+        process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path, env=environment())
+        deadline = time.monotonic() + 60
+        (tmp_path / "run.nc").unlink(missing_ok=True)
+        while not (tmp_path / "run.nc").exists() and time.monotonic() < deadline:
+            time.sleep(0.002)
+        time.sleep(pause)
+        for killed in (False, True):
+            if killed:
+                os.kill(process.pid, signal.SIGKILL)
+                process.wait(timeout=60)
+            stored, saved = Cache(tmp_path / "cache").load("key")["values"], results.load(tmp_path / "run.nc").transmission_error.values
+            assert len(stored) == len(saved) == 400_000 and np.ptp(stored) == np.ptp(saved) == 0.0
+            seen += 2
+    measured("files read while a writer is killed", f"{seen} of {seen} whole", "all")
+
+
+def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
+    """Ctrl-C between writing aside and renaming."""
+
+    def interrupt(source, target):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        Cache(tmp_path).store(KEY, ARRAYS)
+    measured("Ctrl-C before the cache's rename", f"{len(list(tmp_path.iterdir()))} files left", "none")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, measured):
+    """kill -9: nothing lost, nothing computed twice, nothing left half-written."""
+    study = write_study(folder, MANY)
+    assert stopped_in_the_middle(folder, study, signal.SIGKILL)[0] == -signal.SIGKILL
+    before = stamps("here")
+    again = gears(folder, "study", study, "--output", "here")
+    after = stamps("here")
+    repeated = sum(after[name] != before[name] for name in before)
+    measured("study killed: cases computed again", f"{repeated} of {len(before)} done", "none")
+    assert 3 <= len(before) < 30 and repeated == 0
+    assert again.returncode == 0 and f"{len(before)} kept, {30 - len(before)} to be computed" in again.stderr
+    assert len(after) == 30 and left_over("here")[1] == []
+    assert load("here").attrs["complete"] == 1
+
+
+def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path):
+    """Three processes condense the same gears into one cache at the same time: each has the number of a run alone, to the bit."""
+    own = tmp_path / "shared"
+    calls = [command("run", "pair.toml", "--output", f"out{number}", "--quiet") for number in range(3)]
+    processes = [
+        subprocess.Popen(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": str(own)}, stderr=subprocess.PIPE, text=True) for call in calls
+    ]
+    said = [process.communicate(timeout=120)[1] for process in processes]
+    assert [process.returncode for process in processes] == [0, 0, 0], said
+    assert gears(folder, "run", "pair.toml", "--output", "alone", "--quiet").returncode == 0
+    alone = results.load("alone/run.nc").transmission_error
+    same = sum(results.load(f"out{number}/run.nc").transmission_error.equals(alone) for number in range(3))
+    names, unfinished = left_over(own)
+    entries = [name for name in names if name.endswith(".h5")]
+    measured("3 runs at once on one empty cache", f"{same} of 3 the same, {len(entries)} entries, {len(unfinished)} unfinished", "3, a gear an entry, none")
+    assert same == 3 and unfinished == [] and all("not usable" not in words for words in said)
+    assert len(entries) == 2 and all(Cache(own).load(Path(name).stem) is not None for name in entries)
+
+
+def test_readers_beside_a_writer(tmp_path, caplog, measured):
+    """Every reader sees a whole entry."""
+    own_cache = Cache(tmp_path / "own cache")
+
+    def write_and_read(number):
+        own_cache.store(KEY, ARRAYS)
+        return own_cache.load(KEY)
+
+    with ThreadPoolExecutor(4) as pool:
+        loaded = list(pool.map(write_and_read, range(40)))
+    whole = sum(each is not None and np.array_equal(each["blocks"], ARRAYS["blocks"]) for each in loaded)
+    measured("reads beside writers of the same entry", f"{whole} of 40 whole", "all")
+    assert whole == 40 and not caplog.records and len(list(own_cache.directory.iterdir())) == 1
+
+
+def test_two_studies_do_not_share_a_directory(folder, capsys, measured):
+    """The second says so and leaves the first's files alone."""
+    study = write_study(folder, FOUR)
+    with sole_writer(folder / "here"):
+        code = main(["study", str(study), "--output", "here"])
+    measured("two studies in one directory", f"exit code {code}, {len(stamps('here'))} cases", "3, none")
+    assert code == 3 and "another study is writing there" in capsys.readouterr().err and stamps("here") == {}
