@@ -91,7 +91,10 @@ def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 4
 
 
 def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[int, Callable]]:
-    """The rungs that apply, each with its place in LADDER; without friction the first and the sixth."""
+    """The rungs that apply, each with its place in LADDER; without friction the first and the sixth.
+
+    Murty's rule stands before Tresca's fixed point since it costs about a hundredth, and finds what it finds exactly.
+    """
     yield 0, lambda: run_newton(problem, status, max_iterations)
     if len(problem.slip_before):
         yield 1, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)

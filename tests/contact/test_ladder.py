@@ -115,6 +115,41 @@ def test_a_step_without_a_solution_is_divided():
     check_laws(second, record.solution)
 
 
+def jammed(scene, pair, flanks, absent, nodes, steps):
+    """A static march of two mesh cycles with a friction coefficient of 5, which jams the teeth on approach."""
+    scene = replace(scene, inertia=None, damping=None, **dict.fromkeys(absent))
+    shafts = drivetrain(scene, pair)
+    cycle = MeshCycle(flanks, ContactGrid(2.0, nodes), steps, shafts.indices, tangential=True)
+    return Marcher(cycle, shafts, 1e-3, 5.0).run(2 * steps, 2 * steps + 1)
+
+
+@pytest.mark.parametrize("absent, nodes", [(("shafts",), 5), (("bearings",), 13)])
+def test_gears_that_jam_need_divided_steps(absent, nodes, paper_scene, paper_pair, stand_in_flanks):
+    """Of 2000 marches of the paper's pair on stand-in teeth with friction 0.6 to 5 (94 280 steps) 20 needed a divided step; two of them.
+
+    Every part of every step obeys the laws written out.
+    """
+    march = jammed(paper_scene, paper_pair, stand_in_flanks, absent, nodes, 20)
+    assert march.rungs[HALVED] >= 1 and sum(march.rungs.values()) == 40
+    passed = [part for record in march.records for part in record.parts or (record,)]
+    for last, record in zip(passed[:-1], passed[1:]):
+        operator, forces = record.position.operator, record.solution.forces
+        tangential = operator.previous_rigid @ last.state.position - operator.previous_compliance @ last.solution.forces
+        displacement = operator.rigid @ record.state.position - operator.compliance @ forces
+        residual = law_residual(forces, displacement, operator.gap, operator.sliding - tangential, 5.0)
+        assert max(residual["penetration"], residual["stick_slip"]) <= 1e-7
+        assert max(residual["tension"], residual["cone_excess"]) <= 1e-6 * np.abs(forces).max()
+        assert residual["wrong_way"] <= 1e-10 * np.abs(forces).max()
+
+
+def test_gears_that_lock_say_so(paper_scene, paper_pair, stand_in_flanks):
+    """One of the three marches of those 2000 that end without a solution, even in steps 64 times as short: typed, with the reason."""
+    with pytest.raises(SelfLocking, match="self-locking: with a friction coefficient of 5 ") as failure:
+        jammed(paper_scene, paper_pair, stand_in_flanks, ("bearings",), 13, 40)
+    assert [attempt[0] for attempt in failure.value.attempts] == [*LADDER, HALVED]
+    assert len(failure.value.partial.records) == failure.value.step
+
+
 class Refusing(MeshCycle):
     """A cycle that has no solution in steps longer than `longest` (in steps)."""
 
