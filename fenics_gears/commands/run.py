@@ -1,0 +1,97 @@
+"""``gears run SCENE``: simulate, write the result and its pictures, print a summary."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from fenics_gears.commands.drawing import draw
+from fenics_gears.commands.exit_codes import INTERRUPTED
+from fenics_gears.commands.scene_file import add_scene_argument, checked_scene
+from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.errors import ComputationError
+from fenics_gears.interruption import Interruption
+from fenics_gears.job import communicator
+from fenics_gears.show import PICTURE_FILES
+
+RUN_FILE = "run.nc"
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("run", parents=[shared], help="run a scene; write run.nc and pictures")
+    add_scene_argument(command)
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the scene file>)")
+    command.set_defaults(command=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run a scene."""
+    from fenics_gears.output import check_writable
+
+    scene = checked_scene(options.scene)
+    directory = options.output or Path("results") / scene.name
+    check_writable(directory)
+    # Every rank has now found the scene and the directory right, and none leaves the others waiting.
+    comm = communicator()
+    if comm is not None and comm.rank > 0:
+        from fenics_gears.simulation import assist
+
+        assist(scene, comm)
+        return 0
+    from fenics_gears.simulation import simulate
+
+    with Interruption(told_progress(options.quiet)) as interruption:
+        try:
+            dataset = simulate(scene, progress=interruption, comm=comm)
+        except ComputationError as error:
+            if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
+                # Nothing was done that an earlier result in the directory should give way to.
+                raise
+            file = _save(error.partial, directory, interruption)
+            raise ComputationError(f"{error}\n{_kept(error.partial, file)}") from error
+        files = [_save(dataset, directory, interruption)]
+        complete = bool(dataset.attrs.get("complete", 1))
+        last_words = "" if complete else f"Interrupted. {_kept(dataset, files[0])}"
+        if complete:
+            try:
+                interruption.heed()
+                files += draw(dataset, directory)
+            except KeyboardInterrupt:
+                last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
+    if not options.quiet:
+        _print_summary(scene.title, dataset, files)
+    if last_words:
+        print(last_words, file=sys.stderr)
+    return INTERRUPTED if last_words else 0
+
+
+def _save(dataset, directory: Path, interruption: Interruption) -> Path:
+    """Write the result where no Ctrl-C can lose it, and return its file."""
+    from fenics_gears import results
+    from fenics_gears.output import written_aside
+
+    interruption.ignore()
+    written: list[Path] = []
+    with written_aside(directory, written) as aside:
+        results.save(dataset, aside / RUN_FILE)
+    for picture in PICTURE_FILES:
+        # Those of an earlier run would be taken for pictures of this one.
+        (directory / picture).unlink(missing_ok=True)
+    return written[0]
+
+
+def _kept(dataset, file: Path) -> str:
+    """What an incomplete result holds."""
+    steps = dataset.sizes["time"]
+    return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the recorded steps"
+
+
+def _print_summary(title: str, dataset, files: Sequence[Path]) -> None:
+    from fenics_gears.console import print_rows
+    from fenics_gears.summary import summary_rows
+
+    print_rows(title, summary_rows(dataset))
+    print_rows("Files", [("", str(file), "") for file in files])

@@ -1,0 +1,65 @@
+"""``gears study STUDY``: run what is missing of a parameter study, alone or as one of the processes that mpirun started."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from fenics_gears.commands.exit_codes import INTERRUPTED
+from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.errors import ComputationError, SceneError
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("study", parents=[shared], help="run a parameter study, alone or under mpirun; resumes where it was stopped")
+    command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the study file>)")
+    command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes and share the cases among them")
+    command.set_defaults(command=study)
+
+
+def study(options: argparse.Namespace) -> int:
+    """Run a study."""
+    if options.processes is not None:
+        return _under_mpirun(options)
+    from fenics_gears.studies.run_study import run_study
+    from fenics_gears.studies.summary import last_words, summary_rows
+
+    outcome = run_study(options.study, options.output, told_progress(options.quiet), options.quiet)
+    if outcome is None:
+        return 0
+    if not options.quiet:
+        from fenics_gears.console import print_rows
+
+        print_rows(outcome.study.title, summary_rows(outcome))
+    if last_words(outcome):
+        print(last_words(outcome), file=sys.stderr)
+    if outcome.interrupted:
+        return INTERRUPTED
+    return ComputationError.exit_code if outcome.failures else 0
+
+
+def _under_mpirun(options: argparse.Namespace) -> int:
+    """The same study under mpirun, which finds its settings (as root, say) in the environment that `prepare` has completed."""
+    mpirun = shutil.which("mpirun")
+    if mpirun is None:
+        raise SceneError("There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run the study alone.")
+    command = [mpirun, "-n", str(options.processes)]
+    if options.processes > (os.cpu_count() or 1):
+        command.append("--oversubscribe")
+    command += [sys.executable, "-m", "fenics_gears", "study", str(options.study)]
+    command += ["--output", str(options.output)] if options.output is not None else []
+    command += ["--quiet"] if options.quiet else []
+    return subprocess.call(command)
+
+
+def _count(text: str) -> int:
+    """A whole number above zero, for argparse."""
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above 0")
+    return int(text)

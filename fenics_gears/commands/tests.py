@@ -1,0 +1,25 @@
+"""``gears test ...``: pytest on the checkout's tests."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from fenics_gears.errors import SceneError
+
+
+def add(commands) -> None:
+    """Add the command to the parser, for its help only: pytest's options are not ours to parse."""
+    commands.add_parser("test", help="run the tests of the checkout; options go to pytest", add_help=False)
+
+
+def run_tests(options: Sequence[str]) -> int:
+    """Run pytest with its own options; paths count from the checkout."""
+    checkout = Path(__file__).resolve().parents[2]
+    tests = checkout / "tests"
+    if not tests.is_dir():
+        raise SceneError(f"{tests}: there are no tests beside an installed program. Run `gears test` in a checkout of the project.")
+    chosen = any((checkout / option.partition("::")[0]).exists() for option in options if not option.startswith("-"))
+    return subprocess.call([sys.executable, "-m", "pytest", *options, *([] if chosen else ["tests"])], cwd=checkout)
