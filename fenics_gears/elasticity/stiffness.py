@@ -53,5 +53,6 @@ def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
     for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):
         if wrong.any():
             x, y = coordinates[np.flatnonzero(wrong)[0]]
-            raise ComputationError(f"stiffness: {what} at x = {x:.6f}, y = {y:.6f}, in the mesh's unit of length, of a loaded or held boundary")
+            place = f"x = {x:.6f}, y = {y:.6f} in the mesh's unit of length"
+            raise ComputationError(f"stiffness: {what} at {place} of a loaded or held boundary")
     return found[:, 0]

@@ -68,7 +68,8 @@ def test_any_start_angle(make, start, scene, measured):
     usual = simulate(scene).transmission_error.values[:-1]
     later = simulate(scene, preparation=begun_later).transmission_error.values[:-1]
     change = relative(np.roll(later, start) - usual, usual)
-    measured(f"start {start}/{len(usual)} of a mesh cycle later, mu = {scene.friction.coefficient if scene.friction else 0:g}", change, "1e-10")
+    friction = scene.friction.coefficient if scene.friction else 0.0
+    measured(f"start {start}/{len(usual)} of a mesh cycle later, mu = {friction:g}", change, "1e-10")
     assert change <= 1e-10
 
 
@@ -89,7 +90,8 @@ def test_gears_swapped(element, relieved, scene, measured):
     built = model(teeth_alone(frictionless(scene)))
     pair, grid, force = built.pair, built.resolution.contact_grid, built.drivetrain.load[-1]
     swapped = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
-    removal = (lambda roll: 0.02 * np.maximum(roll - 0.5, 0.0), lambda roll: 0.03 * np.maximum(roll - 0.4, 0.0)) if relieved else (None, None)
+    reliefs = (lambda roll: 0.02 * np.maximum(roll - 0.5, 0.0), lambda roll: 0.03 * np.maximum(roll - 0.4, 0.0))
+    removal = reliefs if relieved else (None, None)
     gears = elastic(pair, scene, element)
     here, there = Flanks(pair, gears, removal), Flanks(swapped, gears[::-1], removal[::-1])
     pairings, changes = (CompliancePairing(here), CompliancePairing(there)), []
@@ -97,7 +99,8 @@ def test_gears_swapped(element, relieved, scene, measured):
         usual, forces = approach(here, pairings[0], grid, phase, force)
         other, swapped_forces = approach(there, pairings[1], grid, pair.contact_ratio - phase, force)
         changes.append(max(abs(other / usual - 1.0), relative(np.sort(swapped_forces) - np.sort(forces), forces)))
-    measured(f"gears swapped, {element}{', tip relief' if relieved else ''}: transmission error and forces", max(changes), "1e-10")
+    name = element + (", tip relief" if relieved else "")
+    measured(f"gears swapped, {name}: transmission error and forces", max(changes), "1e-10")
     assert max(changes) <= 1e-10
 
 

@@ -9,6 +9,7 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 from fenics_gears.elasticity import gear_compliance
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation import simulate
 
 
@@ -34,10 +35,10 @@ def in_units(scene, length, force, time):
         "motion": replace(motion, mesh_frequency=motion.mesh_frequency / time),
         "shafts": replace(scene.shafts, torsional_stiffness=force * length * scene.shafts.torsional_stiffness),
         "bearings": replace(scene.bearings, stiffness=force / length * scene.bearings.stiffness),
-        "accuracy": replace(
-            accuracy, flank_element_size=length * accuracy.flank_element_size, contact_length=length * accuracy.contact_length
-        ),
     }
+    if accuracy.contact_length is not None:
+        lengths = {name: length * getattr(accuracy, name) for name in ("flank_element_size", "contact_length")}
+        changes["accuracy"] = replace(accuracy, **lengths)
     if scene.inertia is not None:
         changes["inertia"] = replace(
             scene.inertia,
@@ -61,7 +62,16 @@ SYSTEMS = {
 }
 
 
-@pytest.mark.parametrize("make", [quasi_static, frictionless, lambda scene: scene], ids=["quasi-static", "frictionless", "all"])
+def default_accuracy(scene):
+    return frictionless(quasi_static(replace(scene, accuracy=Accuracy(steps_per_mesh_cycle=40))))
+
+
+MAKERS = {
+    "quasi-static": quasi_static, "frictionless": frictionless, "all": lambda scene: scene, "default accuracy": default_accuracy
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("make", MAKERS.values(), ids=MAKERS)
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_units_scale_out(system, make, paper_scene, measured):
     """Exact identity (dimensional analysis): angles and force ratios are the same in any units, and so is every iteration."""
