@@ -15,7 +15,8 @@ from fenics_gears.effects.inertia import Inertia
 from fenics_gears.scene.data import Scene
 
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
-TRANSLATIONS = ("centre_x1", "centre_y1", "centre_x2", "centre_y2")
+# Each centre's translations: of which gear, in which direction.
+TRANSLATIONS = {"centre_x1": ("pinion", "x"), "centre_y1": ("pinion", "y"), "centre_x2": ("wheel", "x"), "centre_y2": ("wheel", "y")}
 
 
 @dataclass(frozen=True)
@@ -75,8 +76,8 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     radii = np.array([radius.get(name, 1.0) for name in names])
     stiffness, mass = np.zeros((len(names), len(names))), None
     if scene.bearings is not None:
-        for name in TRANSLATIONS:
-            stiffness[names.index(name), names.index(name)] = scene.bearings.stiffness
+        for name, (gear, direction) in TRANSLATIONS.items():
+            stiffness[names.index(name), names.index(name)] = scene.bearings.of(gear, direction)
     if scene.shafts is not None:
         _add_torsion(stiffness, names, scene.shafts.torsional_stiffness)
     if scene.inertia is not None:

@@ -1,22 +1,94 @@
 """``[bearings]``: elastic support of the gear centres (``dynamics.drivetrain``)."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.scene.fields import Section, quantity
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, table
+
+GEARS, DIRECTIONS = ("pinion", "wheel"), ("x", "y")
 
 
 @dataclass(frozen=True)
-class Bearings:
-    """Translational stiffness of either shaft's support, N/mm."""
+class Support:
+    """Translational stiffness of one shaft's support, N/mm: in every direction, along and off the line of action; None as the other shaft's."""
 
-    stiffness: float
+    stiffness: float | None = None
+    stiffness_x: float | None = None
+    stiffness_y: float | None = None
+
+    def along(self, direction: str) -> float | None:
+        """Stiffness in "x" or "y"; None where it is not given."""
+        own = {"x": self.stiffness_x, "y": self.stiffness_y}[direction]
+        return self.stiffness if own is None else own
 
 
-class BearingsText(Section):
-    """``[bearings]``."""
+@dataclass(frozen=True)
+class Bearings(Support):
+    """Support of both shafts, and what `pinion` and `wheel` have of their own."""
 
-    stiffness: float = quantity("1e-6 N/mm", "1e20 N/mm", "0.155e6 N/mm")
+    pinion: Support | None = None
+    wheel: Support | None = None
+
+    def of(self, gear: str, direction: str) -> float:
+        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"."""
+        own = getattr(self, gear)
+        stiffness = None if own is None else own.along(direction)
+        return self.along(direction) if stiffness is None else stiffness
+
+
+def _stiffness():
+    return quantity("1e-6 N/mm", "1e20 N/mm", "0.155e6 N/mm", optional=True)
+
+
+class SupportText(Section):
+    """``[bearings.pinion]`` and ``[bearings.wheel]``; what is left out is taken from ``[bearings]``."""
+
+    stiffness: Optional[float] = _stiffness()
+    stiffness_x: Optional[float] = _stiffness()
+    stiffness_y: Optional[float] = _stiffness()
+
+
+class BearingsText(SupportText):
+    """``[bearings]``: stiffness in every direction, or along (x) and off (y) the line of action, of both shafts."""
+
+    pinion: Optional[SupportText] = None
+    wheel: Optional[SupportText] = None
+
+
+def read(text: BearingsText) -> Bearings:
+    """The stiffness of both shafts, beside what either has of its own."""
+    own = {gear: getattr(text, gear) for gear in GEARS}
+    return Bearings(
+        text.stiffness, text.stiffness_x, text.stiffness_y,
+        **{gear: None if each is None else Support(each.stiffness, each.stiffness_x, each.stiffness_y) for gear, each in own.items()},
+    )  # fmt: skip
+
+
+def supports_are_complete(tree: Tree) -> Iterator[Problem]:
+    """Either shaft has a stiffness in either direction."""
+    both = table(tree, "bearings")
+    if both is None:
+        return
+    missing = [(gear, direction) for gear in GEARS for direction in DIRECTIONS if not _given(both, gear, direction)]
+    example = 'Allowed: such as "0.155e6 N/mm"'
+    if len(missing) == 4:
+        yield Problem(("bearings", "stiffness"), None, f"is missing. {example}, or stiffness_x and stiffness_y, along and off the line of action.")
+    elif missing:
+        gears = {gear for gear, _ in missing}
+        for direction in sorted({direction for _, direction in missing}):
+            path = ("bearings",) if len(gears) == 2 else ("bearings", *gears)
+            yield Problem((*path, f"stiffness_{direction}"), None, f"is missing. {example}, or stiffness for both directions.")
+
+
+def _given(both: Tree, gear: str, direction: str) -> bool:
+    names = {*both, *(table(both, gear) or {})}
+    return bool(names & {"stiffness", f"stiffness_{direction}"})
 
 
 EFFECT = Effect(
@@ -32,4 +104,6 @@ EFFECT = Effect(
         ResultVariable("centre_y", "mm", "displacement of the centre off the line of action"),
         ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
     ),
+    read=read,
+    rules=supports_are_complete,
 )

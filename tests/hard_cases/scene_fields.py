@@ -15,6 +15,7 @@ from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
 
 DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 RELIEF = {"depth": "31 um", "start": "HPSTC"}
+SUPPORT = {name: "0.155e6 N/mm" for name in ("stiffness", "stiffness_x", "stiffness_y")}
 # Units of every kind of quantity that a scene has, by what `units` calls it.
 UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a couple": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
@@ -83,6 +84,7 @@ def whole_scene() -> dict[str, Any]:
     """The demonstration scene with every section and every field."""
     tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
     tree["tip_relief"] = {**RELIEF, "pinion": RELIEF, "wheel": RELIEF}
+    tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
     tree["gears"]["pinion"]["rack_tip_radius"] = tree["gears"]["wheel"]["rack_tip_radius"] = 0.38
     return tree | {"coast_flanks": {}}
 

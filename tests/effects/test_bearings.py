@@ -1,0 +1,120 @@
+"""``[bearings]``: isotropic, different along and off the line of action, different for either shaft."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, quasi_static
+
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.effects import effect, result_variables
+from fenics_gears.effects.bearings import Bearings, Support
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+
+DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+ISOTROPIC = 'stiffness = "0.155e6 N/mm"'
+RIGID = 1e20
+# Four stiffnesses (N/mm) that no mistake of axis or gear leaves alone.
+ALL_DIFFERENT = Bearings(0.2e6, stiffness_y=0.3e6, pinion=Support(stiffness_x=0.1e6), wheel=Support(stiffness_y=0.5e6))
+EXPECTED = {("pinion", "x"): 0.1e6, ("pinion", "y"): 0.3e6, ("wheel", "x"): 0.2e6, ("wheel", "y"): 0.5e6}
+
+
+def with_bearings(lines):
+    """The demo with other lines in [bearings]."""
+    assert ISOTROPIC in DEMO
+    return scene_from_text(DEMO.replace(ISOTROPIC, lines))
+
+
+def test_a_gears_own_stiffness_stands_before_that_of_both():
+    """Authority: the section's own words; a direction's stiffness stands before that of every direction."""
+    text = (
+        'stiffness = "0.2e6 N/mm"\nstiffness_y = "0.3e6 N/mm"\n[bearings.pinion]\nstiffness_x = "0.1e6 N/mm"\n'
+        '[bearings.wheel]\nstiffness_y = "0.5e6 N/mm"'
+    )
+    bearings = with_bearings(text).bearings
+    assert bearings == ALL_DIFFERENT
+    assert {key: bearings.of(*key) for key in EXPECTED} == EXPECTED
+
+
+def test_isotropic_bearings_are_the_same_however_they_are_written():
+    """Exact identity: one stiffness for all, one for each direction, one for each shaft give the same matrices."""
+    k = '"0.155e6 N/mm"'
+    ways = [
+        ISOTROPIC,
+        f"stiffness_x = {k}\nstiffness_y = {k}",
+        f"[bearings.pinion]\nstiffness = {k}\n[bearings.wheel]\nstiffness_x = {k}\nstiffness_y = {k}",
+    ]
+    scenes = [with_bearings(lines) for lines in ways]
+    shafts = [drivetrain(scene, gear_pair(scene.gears)) for scene in scenes]
+    for other in shafts[1:]:
+        assert np.array_equal(other.stiffness, shafts[0].stiffness) and np.array_equal(other.damping, shafts[0].damping)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("", "bearings.stiffness\n    is missing"),
+        ('stiffness_x = "1 N/mm"', "bearings.stiffness_y\n    is missing"),
+        ('[bearings.pinion]\nstiffness = "1 N/mm"\n[bearings.wheel]\nstiffness_y = "1 N/mm"', "bearings.wheel.stiffness_x\n    is missing"),
+    ],
+)
+def test_a_direction_without_stiffness_is_named(lines, said):
+    """Authority: house rule 7; what is missing, and where."""
+    with pytest.raises(SceneError) as refused:
+        with_bearings(lines)
+    assert said in str(refused.value)
+
+
+def test_static_deflection_is_reaction_over_stiffness(paper_scene):
+    """Exact: at rest each centre moves by the force on its shaft over the bearing's stiffness, in x and in y, for either gear."""
+    result = simulate(replace(quasi_static(coarse_scene(paper_scene)), bearings=ALL_DIFFERENT))
+    for (gear, direction), stiffness in EXPECTED.items():
+        force = result[f"reaction_{direction}"].sel(gear=gear).values
+        moved = result[f"centre_{direction}"].sel(gear=gear).values
+        assert np.ptp(force) > 10.0
+        assert moved * stiffness == pytest.approx(force, abs=1e-9 * np.abs(force).max())
+
+
+def test_stiff_bearings_are_none(paper_scene):
+    """Exact limit: bearings of 1e20 N/mm leave the result of a scene without the section, to round-off."""
+    scene = quasi_static(coarse_scene(paper_scene))
+    stiff, absent = (simulate(replace(scene, bearings=bearings)) for bearings in (Bearings(RIGID), None))
+    assert stiff.transmission_error.values == pytest.approx(absent.transmission_error.values, rel=1e-10)
+    assert float(np.abs(stiff.centre_x).max()) < 1e-15
+
+
+def test_each_direction_gives_way_alone(paper_scene):
+    """Exact limit: stiff in one direction only, the centres stay on a line; without friction they stay on the line of action."""
+    scene = quasi_static(coarse_scene(paper_scene))
+    along = simulate(replace(scene, bearings=Bearings(0.155e6, stiffness_y=RIGID)))
+    off = simulate(replace(scene, bearings=Bearings(0.155e6, stiffness_x=RIGID)))
+    assert float(np.abs(along.centre_y).max()) < 1e-15 < float(np.abs(along.centre_x).max())
+    assert float(np.abs(off.centre_x).max()) < 1e-15 < float(np.abs(off.centre_y).max())
+    frictionless = simulate(replace(scene, friction=None, bearings=Bearings(0.155e6, stiffness_y=1.0)))
+    assert float(np.abs(frictionless.centre_y).max()) == 0.0
+
+
+def test_the_tangent_is_the_springs_force_by_finite_differences(paper_scene, paper_pair):
+    """Finite differences (exact, being linear): what a displacement of one centre adds to the drivetrain's forces is its own spring's."""
+    on = drivetrain(replace(paper_scene, bearings=ALL_DIFFERENT), paper_pair)
+    for name, spring in {"centre_x1": 0.1e6, "centre_y1": 0.3e6, "centre_x2": 0.2e6, "centre_y2": 0.5e6}.items():
+        moved = np.zeros(len(on.coordinates))
+        moved[on.coordinates.index(name)] = 1e-3
+        expected = np.zeros_like(moved)
+        expected[on.coordinates.index(name)] = spring
+        assert on.stiffness @ moved / 1e-3 == pytest.approx(expected, rel=1e-12, abs=1e-12 * spring)
+
+
+def test_without_the_section_there_is_nothing_of_it(paper_scene, paper_pair):
+    """House rule 9: no coordinates, no matrix rows, no variables."""
+    bare = replace(paper_scene, bearings=None)
+    assert not [name for name in drivetrain(bare, paper_pair).coordinates if name.startswith("centre")]
+    assert len(drivetrain(bare, paper_pair).stiffness) == 3
+    gone = {variable.name for variable in effect("bearings").variables}
+    assert gone == {"centre_x", "centre_y", "energy_bearings"}
+    assert not gone & {variable.name for variable in result_variables(bare)}
+    assert not gone & set(simulate(replace(quasi_static(coarse_scene(bare)))))
