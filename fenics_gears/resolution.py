@@ -8,7 +8,7 @@ action; the time step from the mesh cycle and the drivetrain's frequencies.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, pi, sqrt
+from math import ceil, inf, pi, sqrt
 
 import numpy as np
 
@@ -42,6 +42,8 @@ MOST_STEPS_PER_MESH_CYCLE = 1000
 LOCKING_POISSONS_RATIO = 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.
 ONCE, EVERY_STEP = "once", "every step"
+# Where the scene has no material: window in modules, and the nodes in it among which the first to touch is sought.
+RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
 
 
 @dataclass(frozen=True)
@@ -80,6 +82,8 @@ def plane_contact_modulus(scene: Scene) -> float:
 
 def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     """Decide every accuracy setting: the scene's where it has one, else the default."""
+    if scene.tooth_elasticity is None:
+        return _rigid_resolution(scene, drivetrain)
     asked, module = scene.accuracy, scene.gears.module
     line_load = abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
@@ -98,6 +102,14 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
         half_width=half_width,
         condensation=asked.condensation or ONCE,
     )
+
+
+def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
+    """Rigid flanks touch at a point: a window in which it is found, and steps."""
+    asked, module = scene.accuracy, scene.gears.module
+    steps = asked.steps_per_mesh_cycle or (STEPS_PER_MESH_CYCLE if drivetrain.mass is None else MOST_STEPS_PER_MESH_CYCLE)
+    grid = ContactGrid(asked.contact_length or RIGID_WINDOW * module, asked.contact_nodes or RIGID_NODES)
+    return Resolution(RIGID, 0.0, grid, steps, half_width=0.0, condensation=ONCE)
 
 
 def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: float, size: float) -> float:
@@ -119,7 +131,9 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
 
 
 def mesh_stiffness(scene: Scene) -> float:
-    """Rough stiffness (N/mm) of one tooth pair along the line of action; ISO 6336-1, about 14 N/(mm um) for steel."""
+    """Rough stiffness (N/mm) of one tooth pair along the line of action; ISO 6336-1, about 14 N/(mm um) for steel; infinite if rigid."""
+    if scene.tooth_elasticity is None:
+        return inf
     return PAIR_STIFFNESS * scene.gears.material.youngs_modulus * scene.gears.face_width
 
 
@@ -141,9 +155,9 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
     return found
 
 
-def locking_warnings(resolution: Resolution, material: Material) -> list[str]:
+def locking_warnings(resolution: Resolution, material: Material | None) -> list[str]:
     """A sentence on an element that locks in a nearly incompressible material."""
-    if resolution.element.endswith("2") or material.poissons_ratio <= LOCKING_POISSONS_RATIO:
+    if material is None or resolution.element.endswith("2") or material.poissons_ratio <= LOCKING_POISSONS_RATIO:
         return []
     return [
         f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is {material.poissons_ratio:g}, "

@@ -7,11 +7,13 @@ not imported. The scene's sections, what ``gears check`` prints, the result's va
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 
-from fenics_gears.effects import bearings, coast_flanks, damping, friction, inertia, shafts, tip_relief
+from fenics_gears.effects import bearings, coast_flanks, damping, friction, inertia, shafts, tip_relief, tooth_elasticity
 from fenics_gears.effects.effect import Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
+    tooth_elasticity.EFFECT,
     shafts.EFFECT,
     bearings.EFFECT,
     inertia.EFFECT,
@@ -27,16 +29,12 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("rotation", "rad", "rotation of the hub from its nominal motion"),
     ResultVariable("normal_force", "N", "contact force of the mesh along the line of action"),
     ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action"),
-    ResultVariable("contact_pressure", "MPa", "contact pressure"),
-    ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion"),
-    ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank"),
     ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action"),
     ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action"),
     ResultVariable("reaction_couple", "N mm", "couple of the gear on its shaft"),
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
     ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
-    ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
     ResultVariable("work_input", "N mm", "work of the drive"),
     ResultVariable("work_output", "N mm", "work done on the load"),
     ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
@@ -56,7 +54,20 @@ def effects_on(scene) -> tuple[Effect, ...]:
 
 def result_variables(scene) -> tuple[ResultVariable, ...]:
     """Every variable that the result of a scene has."""
-    return COMMON_VARIABLES + tuple(variable for each in effects_on(scene) for variable in each.variables)
+    on = effects_on(scene)
+    named = {each.section for each in on}
+    return COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
+
+
+def top_level() -> tuple[Effect, ...]:
+    """The effects whose section stands at the top of a scene."""
+    return tuple(each for each in EFFECTS if not each.within)
+
+
+def without(scene, *sections: str):
+    """The scene less some effects; what needs them is left in and may then not be valid."""
+    changed = replace(scene, **{name: None for name in sections if not effect(name).within})
+    return replace(changed, gears=replace(scene.gears, material=None)) if "tooth_elasticity" in sections else changed
 
 
 def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:

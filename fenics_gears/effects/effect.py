@@ -17,11 +17,12 @@ from fenics_gears.scene.problem import Problem
 
 @dataclass(frozen=True)
 class ResultVariable:
-    """One variable of the result: its name, its units and its long name for labels."""
+    """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without which it is not there."""
 
     name: str
     units: str
     long_name: str
+    needs: str = ""
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,7 @@ class Effect:
     ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``, ``terms`` and
     ``variables`` say what it adds. ``text`` is the section as a scene file has it and ``data`` the frozen dataclass of its values;
     ``read`` makes one of the other where the names do not do so by themselves, ``rules`` finds what is wrong between fields.
+    ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all the same.
 
     Hooks, each with the effect's data first:
 
@@ -50,12 +52,18 @@ class Effect:
     variables: tuple[ResultVariable, ...] = ()
     needs: tuple[str, ...] = ()
     excludes: tuple[str, ...] = ()
+    within: tuple[str, ...] = ()
     read: Callable[[Any], Any] | None = None
     rules: Callable[[Mapping[str, Any]], Iterator[Problem]] | None = None
     removal: Callable | None = None
     gaps: Callable | None = None
     load: Callable | None = None
     results: Callable | None = None
+
+    @property
+    def written(self) -> str:
+        """The section's name as a scene file has it."""
+        return ".".join(self.within) or self.section
 
     def from_text(self, section: Section | None) -> Any:
         """The data of a validated section; None for an absent one."""

@@ -33,4 +33,6 @@ EFFECT = Effect(
         ResultVariable("contact_traction", "MPa", "friction traction on the flank"),
         ResultVariable("work_friction", "N mm", "work that friction takes"),
     ),
+    # Between rigid flanks the pairs' shares of the force, and with them the friction, are not determined.
+    needs=("tooth_elasticity",),
 )

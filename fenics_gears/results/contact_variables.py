@@ -54,12 +54,34 @@ def _reactions(record: Record) -> np.ndarray:
 
 def pair_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
     """Forces of each tooth pair and the pressure over its contact nodes, on drive and coast flanks; zero where a pair does not touch."""
+    if scene.tooth_elasticity is None:
+        return _rigid_pairs(scene, cycle, records, numbers)
     values = _flank_variables(scene, cycle, records, numbers, DRIVE)
     if scene.coast_flanks is not None:
         coast = _flank_variables(scene, cycle, records, numbers, COAST)
         values["pair_coast_normal_force"] = coast["pair_normal_force"]
         values |= {f"coast_{name}": data for name, data in coast.items() if name in ("contact_pressure", "contact_roll_angle")}
     return values
+
+
+def _rigid_pairs(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
+    """Forces of pairs of rigid flanks: that of the one pair that touches; not a number for pairs that touch together, whose shares
+    are not determined."""
+    from fenics_gears.contact.rigid_cycle import pairs_that_touch
+
+    row = {number: i for i, number in enumerate(numbers)}
+    sides = {"pair_normal_force": DRIVE} | ({"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {})
+    force = {name: np.zeros((len(records), len(numbers))) for name in sides}
+    for i, record in enumerate(records):
+        operator, forces = record.position.operator, _normal(record)
+        for node in np.flatnonzero(forces):
+            flank = operator.pairs[operator.node_pair[node]].place.flank
+            name = next(each for each, side in sides.items() if side == flank)
+            together = pairs_that_touch(operator, node)
+            for pair in together:
+                number = int(cycle.pair_number(record.step, operator.pairs[pair].place.index))
+                force[name][i, row[number]] = forces[node] if len(together) == 1 else np.nan
+    return {name: (("time", "pair"), values) for name, values in force.items()}
 
 
 def _flank_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int], flank: int) -> dict:

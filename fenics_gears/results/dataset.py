@@ -47,8 +47,19 @@ def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, ti
         },
     )
     attributes = _attributes(scene, march, result)
-    attributes["warnings"] = "\n".join(warnings_of(cycle, drivetrain, march))
+    attributes["warnings"] = "\n".join([*warnings_of(cycle, drivetrain, march), *_undetermined_shares(result)])
     return result.assign_attrs(attributes)
+
+
+def _undetermined_shares(result: xr.Dataset) -> list[str]:
+    """A sentence on rigid pairs that touch together."""
+    steps = int(np.isnan(result["pair_normal_force"].values).any(axis=1).sum())
+    if not steps:
+        return []
+    return [
+        f"several pairs of rigid flanks touch at once in {steps} of {len(result['time'])} stored steps: their shares of the force are not "
+        "determined, and pair_normal_force is not a number there; a scene with [gears.material] has them"
+    ]
 
 
 def _labels(variable) -> dict[str, str]:
@@ -89,7 +100,8 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
     }
     attributes |= {f"steps_by_rung: {rung}": count for rung, count in march.rungs.items() if count}
     if len(error):
-        attributes["peak_contact_pressure"] = peak_pressure(result["contact_pressure"].values, result["contact_offset"].values)
+        if "contact_pressure" in result:
+            attributes["peak_contact_pressure"] = peak_pressure(result["contact_pressure"].values, result["contact_offset"].values)
         attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
         attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
     if len(error) > 1 and scene.friction is not None and result["work_input"].values[-1]:

@@ -14,8 +14,10 @@ from fenics_gears.scene.data import Scene
 
 def energy_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]) -> dict:
     """Elastic energy of the teeth, and of shafts, bearings and motion where the scene has them (N mm)."""
-    teeth = [0.5 * r.solution.forces @ r.position.operator.compliance @ r.solution.forces for r in records]
-    parts = {"energy_teeth": np.array(teeth)}
+    parts = {}
+    if scene.tooth_elasticity is not None:
+        teeth = [0.5 * r.solution.forces @ r.position.operator.compliance @ r.solution.forces for r in records]
+        parts["energy_teeth"] = np.array(teeth)
     translations = np.array([name in TRANSLATIONS for name in drivetrain.coordinates])
     states = np.array([record.state.position for record in records]).reshape(len(records), len(translations))
     if scene.bearings is not None:
@@ -25,7 +27,7 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]
     if scene.inertia is not None:
         velocities = np.array([record.state.velocity for record in records]).reshape(states.shape)
         parts["energy_kinetic"] = _quadratic(velocities, drivetrain.mass)
-    parts["energy"] = sum(parts.values())
+    parts["energy"] = sum(parts.values(), np.zeros(len(records)))
     return {name: (("time",), energy) for name, energy in parts.items()}
 
 

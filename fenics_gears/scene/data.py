@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, make_dataclass
 from typing import Optional
 
-from fenics_gears.effects import EFFECTS
+from fenics_gears.effects import top_level
+from fenics_gears.effects.tooth_elasticity import Material
 
 
 @dataclass(frozen=True)
@@ -24,16 +25,8 @@ class GearData:
 
 
 @dataclass(frozen=True)
-class Material:
-    """Isotropic linear elasticity; Young's modulus in MPa."""
-
-    youngs_modulus: float
-    poissons_ratio: float
-
-
-@dataclass(frozen=True)
 class GearPairData:
-    """The pair: module, centre distance and face width in mm, pressure angle in rad."""
+    """The pair: module, centre distance and face width in mm, pressure angle in rad; rigid without a material."""
 
     module: float
     pressure_angle: float
@@ -41,7 +34,7 @@ class GearPairData:
     face_width: float
     pinion: GearData
     wheel: GearData
-    material: Material
+    material: Material | None
 
 
 @dataclass(frozen=True)
@@ -82,8 +75,13 @@ class _AlwaysThere:
     text: str = ""
     name: str = "scene"
 
+    @property
+    def tooth_elasticity(self) -> Material | None:
+        """What makes the flanks elastic; None for rigid ones."""
+        return self.gears.material
+
 
 # Everything a run needs to know, and the text it was read from; one field for each effect, None where the scene does not name it.
-Scene = make_dataclass("Scene", [(effect.section, Optional[effect.data], None) for effect in EFFECTS], bases=(_AlwaysThere,), frozen=True)
+Scene = make_dataclass("Scene", [(effect.section, Optional[effect.data], None) for effect in top_level()], bases=(_AlwaysThere,), frozen=True)
 Scene.__doc__ = "Everything a run needs to know, and the text it was read from; an effect that the scene does not name is None."
 Scene.__module__ = __name__

@@ -6,6 +6,7 @@ Each function returns a pydantic field; its wording travels along as ``Allowed``
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import isfinite
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
@@ -37,19 +38,23 @@ class Allowed:
 
         Raises PydanticCustomError, whose type is "quantity", for a text that is not of this kind.
         """
+        if isinstance(value, str) and value in self.words:
+            return self.words[value]
         if self.kind is None:
             return value
-        if not isinstance(value, str):
-            raise PydanticCustomError("quantity", "{reason}", {"reason": self._without_unit(value)})
-        if value in self.words:
-            return self.words[value]
-        try:
-            number, kind = units.quantity(value)
-        except units.QuantityError as error:
-            raise PydanticCustomError("quantity", "{reason}", {"reason": str(error) + did_you_mean(value, self.words)}) from None
+        number, kind = self._number(value)
         if kind != self.kind:
-            raise PydanticCustomError("quantity", "{reason}", {"reason": f"is {kind}, not {self.kind}."})
+            raise refused(f"is {kind}, not {self.kind}.")
         return number
+
+    def _number(self, value: Any) -> tuple[float, str]:
+        """The number and the kind of a quantity's text."""
+        if not isinstance(value, str):
+            raise refused(self._without_unit(value))
+        try:
+            return units.quantity(value)
+        except units.QuantityError as error:
+            raise refused(str(error) + did_you_mean(value, self.words)) from None
 
     def _without_unit(self, value: Any) -> str:
         if isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -57,6 +62,77 @@ class Allowed:
         written = f"{as_written(value)} {self.unit}"
         in_unit = f' In {self.unit} it is written "{written}".' if written[0] in "0123456789" else ""
         return f"is a number without its unit.{in_unit}"
+
+
+def refused(reason: str) -> PydanticCustomError:
+    """What a conversion raises; ``reason`` completes "the value ..." to whole sentences."""
+    return PydanticCustomError("quantity", "{reason}", {"reason": reason})
+
+
+def out_of_range(number: float, lowest: float, highest: float) -> str:
+    """What is wrong with a number outside its bounds, both included; empty for one within."""
+    if not isfinite(number):
+        return "is not a finite number."
+    if lowest <= number <= highest:
+        return ""
+    if number > highest:
+        return "is too large."
+    if lowest < 0 or number > 0:
+        return "is too small."
+    return "is negative." if number < 0 else "is zero."
+
+
+@dataclass(frozen=True)
+class AllowedList(Allowed):
+    """A list of at most ``longest`` quantities of one kind, each within ``bounds`` (in N, mm, s, rad)."""
+
+    bounds: tuple[float, float] = (0.0, 0.0)
+    longest: int = 1000
+
+    def convert(self, value: Any) -> tuple[float, ...]:
+        """The numbers in N, mm, s, rad. Raises PydanticCustomError, which names the first entry that is wrong."""
+        if not isinstance(value, list):
+            raise refused("is not a list.")
+        if not 0 < len(value) <= self.longest:
+            raise refused("is empty." if not value else f"has {len(value)} entries.")
+        return tuple(self._entry(number, entry) for number, entry in enumerate(value, 1))
+
+    def _entry(self, number: int, entry: Any) -> float:
+        try:
+            converted = super().convert(entry)
+            reason = out_of_range(converted, *self.bounds)
+        except PydanticCustomError as error:
+            reason = error.context["reason"]
+        if reason:
+            raise refused(f"has the entry {as_written(entry) or 'of a section'} at place {number}, which {reason}")
+        return converted
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number in N, mm, s, rad with its kind ("a length"), of a field that takes several kinds."""
+
+    number: float
+    kind: str
+
+
+@dataclass(frozen=True)
+class AllowedEither(Allowed):
+    """A quantity of one of several kinds; ``ranges``: bounds of each kind, both included, in N, mm, s, rad."""
+
+    ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
+
+    def convert(self, value: Any) -> Any:
+        """The number with its kind. Raises PydanticCustomError for a text of no such kind or out of its bounds."""
+        if isinstance(value, str) and value in self.words:
+            return self.words[value]
+        number, kind = self._number(value)
+        if kind not in self.ranges:
+            raise refused(f"is {kind}, not {' or '.join(self.ranges)}.")
+        reason = out_of_range(number, *self.ranges[kind])
+        if reason:
+            raise refused(reason)
+        return Measured(number, kind)
 
 
 class Section(BaseModel):
@@ -106,10 +182,30 @@ def number(
     return Field(default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
 
 
-def whole_number(lowest: int, highest: int, example: int, *, optional: bool = False) -> Any:
+def quantities(lowest: str, highest: str, example: str) -> Any:
+    """A list of quantities with units, optional; bounds of each entry, both included, are written with units too."""
+    (low, kind), high = units.quantity(lowest), units.quantity(highest)[0]
+    description = f'a list of quantities, each {kind} from {lowest} to {highest}, with its unit, such as ["{example}", "{example}"]'
+    return _field(AllowedList(description, kind, units.unit_of(example), bounds=(low, high)), optional=True)
+
+
+def either(*ranges: tuple[str, str, str], words: dict[str, Any]) -> Any:
+    """A quantity of one of several kinds, each given as lowest, highest, example with units; optional. It becomes a ``Measured``."""
+    described, bounds = [], {}
+    for lowest, highest, example in ranges:
+        (low, kind), high = units.quantity(lowest), units.quantity(highest)[0]
+        described.append(f'{kind} from {lowest} to {highest}, such as "{example}"')
+        bounds[kind] = low, high
+    description = ", or ".join([*described, *(f'"{word}"' for word in words)])
+    return _field(AllowedEither(description, next(iter(bounds)), units.unit_of(ranges[0][2]), words, ranges=bounds), optional=True)
+
+
+def whole_number(lowest: int, highest: int, example: int, *, optional: bool = False, words: dict[str, Any] | None = None) -> Any:
     """A bare whole number, bounds included."""
-    allowed = Allowed(f"a whole number from {lowest} to {highest}, without unit, such as {example}")
-    return _field(allowed, optional, ge=lowest, le=highest)
+    words = words or {}
+    description = f"a whole number from {lowest} to {highest}, without unit, such as {example}"
+    description += "".join(f', or "{word}"' for word in words)
+    return _field(Allowed(description, words=words), optional, ge=lowest, le=highest)
 
 
 def choice(*names: str, planned: dict[str, str]) -> Any:

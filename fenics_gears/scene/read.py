@@ -7,7 +7,7 @@ import os
 import tomllib
 from pathlib import Path
 
-from fenics_gears.effects import EFFECTS
+from fenics_gears.effects import top_level, tooth_elasticity
 from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import SceneError
 from fenics_gears.scene import data, schema
@@ -81,7 +81,7 @@ def _scene(checked, text: str, name: str) -> data.Scene:
         accuracy=same_names(data.Accuracy, checked.accuracy),
         text=text,
         name=name,
-        **{effect.section: effect.from_text(getattr(checked, effect.section)) for effect in EFFECTS},
+        **{effect.section: effect.from_text(getattr(checked, effect.section)) for effect in top_level()},
     )
 
 
@@ -93,7 +93,7 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
         face_width=gears.face_width,
         pinion=same_names(data.GearData, gears.pinion),
         wheel=same_names(data.GearData, gears.wheel),
-        material=same_names(data.Material, gears.material),
+        material=tooth_elasticity.EFFECT.from_text(gears.material),
     )
 
 

@@ -26,10 +26,16 @@ def broken_rules(tree: Tree) -> list[Problem]:
 
 
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
-    known = [effect.section for effect in effects.EFFECTS]
+    known = [effect.section for effect in effects.top_level()]
     sections = {nearest(name, known) or name for name in tree}  # a misspelt section is another problem
+    for effect in effects.EFFECTS:
+        home = table(tree, effect.within[0]) if effect.within else None
+        # Without its home nothing can be said.
+        if effect.within and (home is None or any(nearest(name, effect.within[1:]) for name in home)):
+            sections.add(effect.section)
     for effect, need in effects.missing_needs(sections):
-        yield Problem((effect.section,), "", f"needs the section [{need}], which is missing. Add [{need}], or leave [{effect.section}] out.")
+        missing = effects.effect(need).written
+        yield Problem((effect.section,), "", f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out.")
     for effect, other in effects.conflicts(sections):
         yield Problem((effect.section,), "", f"cannot stand beside [{other}]. Leave one of the two out.")
 

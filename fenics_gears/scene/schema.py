@@ -9,7 +9,8 @@ from typing import Literal, Optional
 
 from pydantic import create_model
 
-from fenics_gears.effects import EFFECTS
+from fenics_gears.effects import top_level
+from fenics_gears.effects.tooth_elasticity import MaterialText
 from fenics_gears.scene.fields import Section, choice, number, quantity, text, whole_number
 
 
@@ -28,13 +29,6 @@ class Gear(Section):
     rack_tip_radius: float = number(0.38, lowest=0, highest=2, default=0.38)
 
 
-class Material(Section):
-    """``[gears.material]``."""
-
-    youngs_modulus: float = quantity("1 kPa", "1e9 GPa", "206 GPa")
-    poissons_ratio: float = number(0.3, above=-1, below=0.5)
-
-
 class Gears(Section):
     """``[gears]``."""
 
@@ -44,7 +38,7 @@ class Gears(Section):
     face_width: float = quantity("0.01 mm", "100 m", "15 mm")
     pinion: Gear
     wheel: Gear
-    material: Material
+    material: Optional[MaterialText] = None
 
 
 class Load(Section):
@@ -85,5 +79,5 @@ SceneText = create_model(
     "SceneText",
     __base__=_AlwaysThere,
     __doc__="A whole scene file: the sections that are always there, and one optional section for each effect.",
-    **{effect.section: (Optional[effect.text], None) for effect in EFFECTS},
+    **{effect.section: (Optional[effect.text], None) for effect in top_level()},
 )

@@ -102,7 +102,7 @@ def test_a_misspelt_section_is_answered_with_the_right_one(refusal, section):
     assert "1 mistake in" in message
 
 
-@pytest.mark.parametrize("section", ["gears", "gears.pinion", "gears.wheel", "gears.material", "load", "motion"])
+@pytest.mark.parametrize("section", ["gears", "gears.pinion", "gears.wheel", "load", "motion"])
 def test_a_missing_section_is_named(refusal, section):
     """Sections that a scene always has."""
     headers = re.sub(rf"^\[{re.escape(section)}[\].].*?(?=^\[(?!{re.escape(section)}\.)|\Z)", "", DEMO, flags=re.M | re.S)

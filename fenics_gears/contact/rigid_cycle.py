@@ -1,0 +1,138 @@
+"""The mesh cycle of rigid flanks: the pair whose gap is smallest carries all, and its gap is the kinematic transmission error.
+
+All contact nodes of the drive flanks move alike with the gears, by the base radii and along the line of action; so do those of the coast
+flanks. Of either side only the node with the smallest gap can touch. Where several pairs have it, as true involutes do wherever two
+pairs are in mesh, their shares of the force are not determined; the step's solution puts all on the first of them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
+from fenics_gears.contact.interpolation import hat_integrals
+from fenics_gears.contact.ladder import StepProblem, StepSolution
+from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
+from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.operator import ContactOperator, involute_arms, over_nodes, rigid_rows
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
+from fenics_gears.contact.window import ContactGrid, node_offsets
+from fenics_gears.geometry.pair import GearPair
+
+# Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
+SAME_GAP = 1e-10
+
+
+class RigidCycle(Cycle):
+    """Contact nodes on flanks that do not give way; without friction.
+
+    `coordinates`: which centre coordinates are unknowns; `removal`: material removed from either drive flank.
+    """
+
+    divisible = False
+
+    def __init__(
+        self,
+        pair: GearPair,
+        removal: tuple[Removal | None, Removal | None],
+        grid: ContactGrid,
+        steps: int,
+        coordinates: list[int],
+        coast_flanks: bool,
+    ):
+        super().__init__(pair, grid, steps, coast_flanks)
+        self._removal, self._coordinates = removal, coordinates
+
+    def solve(self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
+        """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks.
+
+        Raises ContactNotConverged where none of them holds the load.
+        """
+        leaders = [node for node in leading_nodes(position.operator, problem.gap) if node >= 0]
+        for iterations, node in enumerate([None, *leaders], 1):
+            forces, coordinates = _solved(problem, node)
+            if forces is not None and _obeys(problem, leaders, node, forces, coordinates):
+                status = np.zeros(len(problem.gap), dtype=np.int8)
+                if node is not None:
+                    status[node] = SLIP_FORWARD
+                displacement = problem.rigid @ coordinates
+                return StepSolution(forces, coordinates, displacement, status, iterations, rung=0)
+        words = problem.free_words or "the load moves the drivetrain freely"
+        raise _no_equilibrium(f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}", len(problem.gap))
+
+    def _pair(self, place: Place) -> PairNodes | None:
+        offsets = node_offsets(self.pair, place.contact_rolls, self.grid)
+        if not len(offsets):
+            return None
+        if offsets[0] < 0.0 < offsets[-1]:
+            # True involutes touch on the line of action itself.
+            offsets = np.unique(np.append(offsets, 0.0))
+        removal = self._removal if place.flank == DRIVE else (None, None)
+        (pinion_roll, _), (x_1, x_2), gap = facing_points(self.pair, removal, place.contact_rolls, offsets)
+        return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
+
+    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
+        radii = (self.pair.pinion.base_radius, self.pair.wheel.base_radius)
+        arms, gap = involute_arms(pairs, radii), over_nodes(pairs, "gap")
+        operator = ContactOperator(
+            pairs=pairs,
+            base_radii=radii,
+            normal_arms=arms,
+            # Nothing gives way: one zero seen from everywhere.
+            compliance=np.broadcast_to(0.0, (len(gap), len(gap))),
+            rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, tangential=False)[:, self._coordinates]),
+            gap=gap,
+            sliding=None,
+            previous_compliance=None,
+            previous_rigid=None,
+        )
+        return Position(operator, carried)
+
+
+def leading_nodes(operator: ContactOperator, gap: np.ndarray) -> tuple[int, int]:
+    """The node with the smallest gap of the drive flanks and of the coast flanks, -1 where there is none."""
+    found = []
+    for side in (operator.on_drive_flanks, ~operator.on_drive_flanks):
+        nodes = np.flatnonzero(side)
+        found.append(int(nodes[np.argmin(gap[nodes])]) if len(nodes) else -1)
+    return found[0], found[1]
+
+
+def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:
+    """Positions in `operator.pairs` of those that touch where `node` does: of several the shares are not determined."""
+    side = operator.on_drive_flanks == operator.on_drive_flanks[node]
+    return np.unique(operator.node_pair[side & (operator.gap <= operator.gap[node] + SAME_GAP)])
+
+
+def _solved(problem: StepProblem, node: int | None) -> tuple[np.ndarray | None, np.ndarray]:
+    """Forces (n,) and coordinates (k,) with one node touching or none; forces None where the drivetrain cannot be solved so."""
+    k, forces = len(problem.load), np.zeros(len(problem.gap))
+    if node is None:
+        if len(problem.free_motion):
+            return None, np.zeros(k)
+        return forces, np.linalg.solve(problem.stiffness, problem.load)
+    row = problem.rigid[node]
+    # The force in units of the load's stiffness over a length, so that the matrix is not torn between magnitudes.
+    unit = np.abs(problem.stiffness).max(initial=0.0) or 1.0
+    matrix = np.zeros((k + 1, k + 1))
+    matrix[:k, :k], matrix[:k, k], matrix[k, :k] = problem.stiffness, unit * row, unit * row
+    try:
+        solution = np.linalg.solve(matrix, np.append(problem.load, unit * problem.gap[node]))
+    except np.linalg.LinAlgError:
+        return None, np.zeros(k)
+    forces[node] = unit * solution[k]
+    return forces, solution[:k]
+
+
+def _obeys(problem: StepProblem, leaders: list[int], node: int | None, forces: np.ndarray, coordinates: np.ndarray) -> bool:
+    """Whether nothing pulls and nothing penetrates."""
+    if node is not None and forces[node] < -problem.tolerance.force:
+        return False
+    displaced = problem.rigid[leaders] @ coordinates - problem.gap[leaders]
+    others = [value for leader, value in zip(leaders, displaced) if leader != node]
+    return max(others, default=-np.inf) <= problem.tolerance.length
+
+
+def _no_equilibrium(words: str, nodes: int) -> ContactNotConverged:
+    history, sets = np.zeros((1, 5)), np.full((1, nodes), OPEN, dtype=np.int8)
+    return NoStaticEquilibrium([("rigid flanks", "no solution", history, sets)], words)

@@ -1,0 +1,39 @@
+"""``[gears.material]``: teeth and gear bodies that give way (``elasticity``); without it the flanks are rigid (``contact.rigid_cycle``)."""
+
+from dataclasses import dataclass
+
+from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.scene.fields import Section, number, quantity
+
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic linear elasticity; Young's modulus in MPa."""
+
+    youngs_modulus: float
+    poissons_ratio: float
+
+
+class MaterialText(Section):
+    """``[gears.material]``."""
+
+    youngs_modulus: float = quantity("1 kPa", "1e9 GPa", "206 GPa")
+    poissons_ratio: float = number(0.3, above=-1, below=0.5)
+
+
+EFFECT = Effect(
+    section="tooth_elasticity",
+    within=("gears", "material"),
+    description="elastic teeth and gear bodies",
+    absent="rigid flanks: kinematic transmission error, and no pressures; forces of single pairs where only one leads",
+    text=MaterialText,
+    data=Material,
+    unknowns=("normal force of each closed contact node",),
+    terms=("compliance of the flanks",),
+    variables=(
+        ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
+        ResultVariable("contact_pressure", "MPa", "contact pressure"),
+        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion"),
+        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank"),
+    ),
+)

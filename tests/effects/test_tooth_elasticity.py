@@ -1,0 +1,125 @@
+"""Rigid flanks: a scene without `[gears.material]` has the kinematic transmission error of its geometry."""
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.rigid_cycle import SAME_GAP
+from fenics_gears.effects import result_variables, without
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.tip_relief import Relief, TipRelief
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.modification import removals
+from fenics_gears.scene.data import Accuracy, Load, Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+
+DEPTH = 0.031
+
+
+@pytest.fixture(scope="module")
+def rigid_scene(paper_scene):
+    """The paper's pair with rigid flanks, quasi-static, on rigid shafts and bearings."""
+    bare = without(paper_scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")
+    return replace(bare, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))
+
+
+def test_true_involutes_transmit_exactly(rigid_scene):
+    """Exact: conjugate rigid flanks have no transmission error, whatever the load; where two pairs touch, shares are not given."""
+    result = simulate(rigid_scene)
+    assert np.abs(result.transmission_error.values).max() <= 1e-12
+    force = rigid_scene.load.wheel_torque / result.attrs["base_radius_wheel"]
+    assert result.normal_force.values == pytest.approx(force, rel=1e-12)
+    pairs = result.pair_normal_force.values
+    undetermined = np.isnan(pairs).any(axis=1)
+    # Two pairs are in mesh for the contact ratio's part above 1.
+    assert undetermined.mean() == pytest.approx(0.46977, abs=0.01)
+    assert pairs[~undetermined].sum(axis=1) == pytest.approx(force, rel=1e-12)
+    assert "their shares of the force are not determined" in result.attrs["warnings"]
+
+
+def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene, paper_pair):
+    """Exact: the kinematic error is the smallest sum of both flanks' removals among the pairs on the path of contact, give or take what
+    a step of the window off the line of action gains (the relief's slope over the flanks' curvature: below 0.4 um here)."""
+    scene = replace(rigid_scene, tip_relief=TipRelief(Relief(DEPTH, None), Relief(DEPTH, None)))
+    result = simulate(scene)
+    pinion, wheel = removals(scene, paper_pair)
+    expected = []
+    for phase in result.mesh_phase.values % 1.0:
+        xi = paper_pair.path_start + (phase + np.arange(3)) * paper_pair.base_pitch
+        xi = xi[xi <= paper_pair.path_end]
+        removed = pinion(xi / paper_pair.pinion.base_radius) + wheel((paper_pair.line_of_action_length - xi) / paper_pair.wheel.base_radius)
+        expected.append(removed.min())
+    error = result.transmission_error.values * paper_pair.wheel.base_radius
+    assert np.abs(error - expected).max() <= 4e-4
+    assert error.max() > 0.3 * DEPTH
+    assert np.all(error <= np.array(expected) + SAME_GAP)
+
+
+def test_elastic_flanks_tend_to_rigid_ones(paper_scene, rigid_scene):
+    """Limit: with a stiffness 1e6 times that of steel the transmission error is that of rigid flanks, but for the averages over nodes."""
+    relief = TipRelief(Relief(DEPTH, None), Relief(DEPTH, None))
+    material = replace(paper_scene.gears.material, youngs_modulus=1e6 * paper_scene.gears.material.youngs_modulus)
+    stiff = replace(rigid_scene, gears=replace(paper_scene.gears, material=material), tip_relief=relief)
+    fine = Accuracy(element="P1", flank_element_size=0.12, contact_length=2.25, contact_nodes=91, steps_per_mesh_cycle=50)
+    elastic = simulate(replace(stiff, accuracy=fine))
+    rigid = simulate(replace(rigid_scene, tip_relief=relief, accuracy=Accuracy(steps_per_mesh_cycle=50)))
+    difference = (elastic.transmission_error - rigid.transmission_error) * rigid.attrs["base_radius_wheel"]
+    assert np.abs(difference.values).max() <= 3e-4
+
+
+@pytest.mark.parametrize("torque", [437e3, 1.0, 0.0, -437e3])
+def test_coast_flanks_stand_a_backlash_away(rigid_scene, paper_pair, torque):
+    """Exact: turned by the load to its coast flanks the wheel moves by the backlash along the line of action, and no more."""
+    result = simulate(replace(rigid_scene, coast_flanks=CoastFlanks(), load=Load(torque)))
+    moved = 0.0 if torque >= 0.0 else -paper_pair.backlash
+    assert result.transmission_error.values * paper_pair.wheel.base_radius == pytest.approx(moved, abs=1e-10)
+    sides = result.normal_force.values, result.coast_normal_force.values
+    assert sides[0 if torque >= 0.0 else 1] == pytest.approx(abs(torque) / paper_pair.wheel.base_radius, rel=1e-12)
+    assert not np.any(sides[1 if torque >= 0.0 else 0])
+
+
+def test_springs_give_way_as_they_are(rigid_scene, paper_scene, paper_pair):
+    """Exact: with rigid flanks only shafts and bearings are elastic: T_E = T (1/k2 + ratio^2/k1) of rotations and 2 F/(k_b rb) of centres."""
+    scene = replace(rigid_scene, shafts=paper_scene.shafts, bearings=paper_scene.bearings)
+    result = simulate(scene)
+    force = scene.load.wheel_torque / paper_pair.wheel.base_radius
+    pinion = force * paper_pair.pinion.base_radius / scene.shafts.torsional_stiffness
+    # The wheel follows the pinion's rotation back, and both centres' displacement along the line of action.
+    expected = 2.0 * force / scene.bearings.stiffness / paper_pair.wheel.base_radius
+    expected += (paper_pair.rotation_ratio - paper_pair.pinion.base_radius / paper_pair.wheel.base_radius) * pinion
+    assert result.transmission_error.values == pytest.approx(expected, rel=1e-9)
+
+
+def test_no_variable_of_elastic_teeth_is_left(rigid_scene, paper_scene):
+    """House rule 9: no pressures, no energy of teeth."""
+    gone = {variable.name for variable in result_variables(paper_scene)} - {variable.name for variable in result_variables(rigid_scene)}
+    assert {"contact_pressure", "contact_offset", "contact_roll_angle", "energy_teeth"} <= gone
+    result = simulate(rigid_scene)
+    assert set(result.data_vars) == {variable.name for variable in result_variables(rigid_scene)}
+
+
+def test_friction_needs_elastic_teeth(paper_scene):
+    """Between rigid flanks friction is not determined: refused in words."""
+    text = paper_scene.text.replace("[gears.material]\n", "").replace('youngs_modulus = "206 GPa"\n', "").replace("poissons_ratio = 0.3\n", "")
+    with pytest.raises(SceneError, match=r"\[friction\]\n    needs the section \[gears.material\], which is missing"):
+        scene_from_text(text)
+
+
+def test_neither_route_imports_the_other(tmp_path):
+    """House rule 9: a scene with rigid flanks loads no elasticity, one with elastic ones no rigid cycle."""
+    code = """
+import sys
+from fenics_gears import load_scene
+from fenics_gears.effects import without
+from fenics_gears.simulation import simulate
+scene = without(load_scene("demos/lundvall2004.toml"), "tooth_elasticity", "friction", "inertia", "damping")
+simulate(scene)
+assert "fenics_gears.contact.rigid_cycle" in sys.modules
+print([name for name in ("dolfinx", "gmsh", "petsc4py.PETSc", "fenics_gears.elasticity.ring") if name in sys.modules])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.strip() == "[]", done.stderr
