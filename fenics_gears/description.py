@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fenics_gears.contact.mesh_cycle import pair_places
+from fenics_gears.dynamics.frequencies import PERIOD_ERROR
+from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.model import Model, model
-from fenics_gears.resolution import EVERY_STEP, mesh_stiffness, natural_frequencies
+from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
 
 Rows = list[tuple[str, object, str]]
@@ -58,9 +60,15 @@ def _model_rows(built: Model) -> Rows:
     return [
         ("centre coordinates", len(built.drivetrain.coordinates), ", ".join(built.drivetrain.coordinates)),
         ("contact nodes of a tooth pair", grid.nodes, f"each a {each} where closed"),
-        ("equations in time", "average acceleration" if built.drivetrain.mass is not None else "quasi-static", ""),
+        ("equations in time", _method(built), ""),
         ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
     ]
+
+
+def _method(built: Model) -> str:
+    if built.drivetrain.mass is None:
+        return "quasi-static"
+    return "average acceleration" if built.pace.samples_vibration else "backward Euler, no vibration being sampled"
 
 
 def _accuracy_rows(built: Model) -> Rows:
@@ -83,15 +91,32 @@ def _accuracy_rows(built: Model) -> Rows:
 
 
 def _frequency_rows(built: Model) -> Rows:
-    frequencies = natural_frequencies(built.drivetrain, mesh_stiffness(built.scene))
-    nyquist = 0.5 / built.time_step
-    moving = [frequency for frequency in frequencies if frequency > 1e-3]
-    rows: Rows = [(f"mode {number}", frequency, "Hz") for number, frequency in enumerate(moving, 1)]
-    rows.append(("highest frequency a step resolves", nyquist, "Hz"))
+    """Each natural frequency with the steps that a period has, and the limits of what a step resolves and samples."""
+    rows: Rows = []
+    for number, vibration in enumerate(built.vibrations, 1):
+        steps, unmoved = vibration.steps_per_period(built.time_step), "" if vibration.excited else ", not excited by the mesh"
+        damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
+        rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps a period{damped}{unmoved}"))
+    rows.append(("resolved by the time step", resolved_frequency(built.time_step), f"Hz: periods right within {PERIOD_ERROR:.0%}"))
+    rows.append(("highest frequency that is sampled", 0.5 / built.time_step, "Hz: two steps a period"))
     return rows
 
 
 def _cost_rows(built: Model) -> Rows:
+    """Expected cost; where inertia hardly matters also that of the quasi-static scene, at its own number of steps."""
+    rows = _cost(built)
+    slowest = next((vibration for vibration in built.vibrations if vibration.excited), None)
+    if slowest is None or effect_of_inertia(slowest, built.scene.motion.mesh_frequency) >= NOTABLE:
+        return rows
+    static = model(replace(built.scene, inertia=None, damping=None))
+    cost = {label: (value, unit) for label, value, unit in _cost(static)}
+    return rows + [
+        ("quasi-static instead: steps per mesh cycle", static.resolution.steps_per_mesh_cycle, ""),
+        *((f"quasi-static instead: {label}", *cost[label]) for label in ("marching", "memory")),
+    ]
+
+
+def _cost(built: Model) -> Rows:
     order = 2 if built.resolution.element.endswith("2") else 1
     body, per_node = SECTOR_UNKNOWNS[built.resolution.element]
     unknowns, flank_dofs = [], []

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
-from fenics_gears.dynamics.frequencies import natural_frequencies
+from fenics_gears.dynamics.frequencies import Vibration, vibrations
+from fenics_gears.dynamics.guidance import time_step_warnings
+from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.modification import tip_reliefs
+from fenics_gears.geometry.modification import removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
-from fenics_gears.resolution import Resolution, mesh_stiffness, resolution_warnings, resolve
+from fenics_gears.resolution import Resolution, locking_warnings, mesh_stiffness, resolution_warnings, resolve
 from fenics_gears.scene.data import Scene
 
 
@@ -46,18 +50,28 @@ class Model:
         return 8.0 * 4.0 * self.stored_steps * pairs * self.resolution.contact_grid.nodes
 
     @property
-    def follows_statics(self) -> bool:
-        """Whether the mesh frequency lies below the lowest natural frequency that the mesh excites."""
+    def vibrations(self) -> list[Vibration]:
+        """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
         if self.drivetrain.mass is None:
-            return True
-        frequencies = natural_frequencies(self.drivetrain, mesh_stiffness(self.scene))
-        elastic = frequencies[frequencies > 1e-6 * frequencies[-1]]
-        return self.scene.motion.mesh_frequency < elastic[0]
+            return []
+        return vibrations(self.drivetrain, mesh_stiffness(self.scene), self.scene.friction is not None)
+
+    @property
+    def pace(self) -> Pace:
+        """How mesh frequency and time step compare with the drivetrain's vibrations."""
+        elastic = np.array([vibration.frequency for vibration in self.vibrations])
+        return pace(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
 
     @property
     def warnings(self) -> list[str]:
-        """What a user should know before the run: thin tips, contact not resolved."""
-        return [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
+        """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
+        found = [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
+        found += locking_warnings(self.resolution, self.scene.gears.material)
+        if self.vibrations:
+            steps = self.resolution.steps_per_mesh_cycle
+            found += time_step_warnings(self.vibrations, self.scene.motion.mesh_frequency, steps, self.pace)
+        return found
+
 
 MOST_STORED_BYTES = 4e9
 
@@ -68,8 +82,7 @@ def model(scene: Scene) -> Model:
     """
     pair = gear_pair(scene.gears)
     shafts = drivetrain(scene, pair)
-    removal = (None, None) if scene.tip_relief is None else tip_reliefs(pair, scene.tip_relief)
-    built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removal)
+    built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
     if built.stored_bytes > MOST_STORED_BYTES:
         raise SceneError(
             f"motion.recorded_cycles = {scene.motion.recorded_cycles}: the result would hold {built.stored_bytes / 1e9:.3g} GB, at most "

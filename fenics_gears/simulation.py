@@ -12,6 +12,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, tooth_span
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.dynamics.march import March, Marcher
+from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.gear_compliance import flank_compliance
@@ -51,7 +52,7 @@ def simulate(
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
     friction = scene.friction.coefficient if scene.friction else 0.0
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.follows_statics)
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace)
     progress.stage("march")
     try:
         march = marcher.run(built.steps, built.stored_steps, progress.update)
@@ -64,7 +65,7 @@ def simulate(
 def assist(scene: Scene, comm) -> None:
     """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
     built = model(scene)
-    if built.resolution.condensation == EVERY_STEP:
+    if built.resolution.condensation == EVERY_STEP and scene.tooth_elasticity is not None:
         from fenics_gears.reference_route import remeshed
 
         remeshed(built, SilentProgress(), None, comm)
@@ -72,6 +73,8 @@ def assist(scene: Scene, comm) -> None:
 
 def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
     """The gears' elasticity and the contact operators on it, by the route that the scene's condensation asks for."""
+    if built.scene.tooth_elasticity is None:
+        return (), rigid_cycle(built)
     if built.resolution.condensation == EVERY_STEP:
         # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
         from fenics_gears.reference_route import remeshed
@@ -112,15 +115,39 @@ def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) ->
     )
 
 
-def mesh_cycle(built: Model, compliances: Compliances) -> MeshCycle:
+def mesh_cycle(built: Model, compliances: Compliances) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
-    return MeshCycle(
+    cycle = MeshCycle(
         Flanks(built.pair, compliances, built.removal),
         built.resolution.contact_grid,
         built.resolution.steps_per_mesh_cycle,
         built.drivetrain.indices,
         tangential=built.scene.friction is not None,
     )
+    return deviating(built, cycle)
+
+
+def rigid_cycle(built: Model) -> Cycle:
+    """The contact of one mesh cycle between flanks that do not give way."""
+    from fenics_gears.contact.rigid_cycle import RigidCycle
+
+    resolution = built.resolution
+    coast = built.scene.coast_flanks is not None
+    cycle = RigidCycle(
+        built.pair, built.removal, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.drivetrain.indices, coast
+    )
+    return deviating(built, cycle)
+
+
+def deviating(built: Model, cycle: Cycle) -> Cycle:
+    """The cycle with what the scene's effects add to its gaps from step to step."""
+    scene = built.scene
+    effects = [effect for effect in effects_on(scene) if effect.gaps is not None]
+    if not effects:
+        return cycle
+    from fenics_gears.contact.deviating_cycle import DeviatingCycle
+
+    return DeviatingCycle(cycle, [effect.gaps(getattr(scene, effect.section), built) for effect in effects])
 
 
 def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:

@@ -17,7 +17,10 @@ from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
+from fenics_gears.dynamics.backward_euler import BackwardEuler
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.mean_equilibrium import mean_equilibrium
+from fenics_gears.dynamics.pace import FOLLOWING, Pace
 
 SECONDS_BETWEEN_REPORTS = 0.1
 NO_SLIP = np.empty(0)
@@ -74,15 +77,12 @@ def smallest_opening(record: Record, flank: int = DRIVE) -> float:
 class Marcher:
     """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
 
-    `follows_statics`: the gears start with the velocity at which static equilibrium moves. A mesh frequency above the drivetrain's
-    leaves them no time to follow it; they then start at rest in the frame of the nominal motion, and do not throw each other off.
+    `pace`: how mesh and step compare with the drivetrain's vibrations; it decides on the method in time and on the start.
     """
 
-    def __init__(
-        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, follows_statics: bool = True
-    ):
+    def __init__(self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, pace: Pace = FOLLOWING):
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
-        self.dynamic = AverageAcceleration(drivetrain, time_step)
+        self.dynamic = (AverageAcceleration if pace.samples_vibration else BackwardEuler)(drivetrain, time_step)
         self._static_drivetrain = Drivetrain(
             drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
         )
@@ -91,7 +91,7 @@ class Marcher:
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
         # Friction's arm is longest at the wheel's tip; below this coefficient it never outweighs the normal force there.
         self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
-        self._follows_statics = follows_statics
+        self._pace = pace
 
     def run(self, steps: int, kept: int, report: Callable[[int, int], None] | None = None) -> March:
         """March `steps` steps from step 0 and keep the last `kept` of those done, wherever the march ends.
@@ -131,15 +131,21 @@ class Marcher:
         return march
 
     def start(self) -> Record:
-        """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the equations of motion."""
+        """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the equations of motion.
+
+        A mesh frequency above the drivetrain's lowest leaves the gears no time to follow: they start at rest in the frame of the nominal
+        motion, and do not throw each other off. Above the highest they stand where the forces of a whole cycle balance.
+        """
         neighbours = [self._static_start(-1)]
         for step in (0, 1) if self.dynamic.inert else (0,):
             neighbours.append(self.step(self.static, neighbours[-1], step))
         middle = neighbours[1]
         if not self.dynamic.inert:
             return middle
+        if self._pace.outruns_vibration:
+            return self._mean_start(middle)
         velocity = np.zeros(len(self.drivetrain.coordinates))
-        if self._follows_statics:
+        if self._pace.follows_statics:
             velocity = (neighbours[2].state.position - neighbours[0].state.position) / (2.0 * self.time_step)
         # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
         damping = self.drivetrain.damping
@@ -148,7 +154,18 @@ class Marcher:
             acceleration = -np.linalg.solve(self.drivetrain.mass, damping @ velocity)
         return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
 
-    def step(self, scheme: AverageAcceleration, last: Record, step: int) -> Record:
+    def _mean_start(self, static: Record) -> Record:
+        mean = mean_equilibrium(
+            self.cycle, self.drivetrain, self.time_step, self.friction, self.tolerance, static.state.position, STEPS_SLID_BEFORE_START
+        )
+        drivetrain, rigid = self.drivetrain, static.position.operator.rigid
+        left = drivetrain.load - drivetrain.stiffness @ mean.position - rigid.T @ mean.solution.forces
+        if drivetrain.damping is not None:
+            left = left - drivetrain.damping @ mean.velocity
+        state = State(mean.position, mean.velocity, np.linalg.solve(drivetrain.mass, left))
+        return Record(0, state, static.position, mean.solution)
+
+    def step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
         """One step of `scheme` from `last`; divided where it has no solution as a whole."""
         try:
             return self._part(scheme, last, step, self.cycle.position(step))

@@ -1,0 +1,45 @@
+"""Backward Euler: the method for steps too long to hold any vibration of the drivetrain.
+
+Average acceleration neither damps nor follows a vibration whose period is shorter than two steps: it turns its sign at every step, and
+every kink of the static solution adds to it. Backward Euler forgets it within a step. With
+
+    x'_1 = (x_1 - x_0)/dt,   x''_1 = (x'_1 - x'_0)/dt
+
+the equation of motion at the end of the step reads
+
+    (M/dt^2 + D/dt + K) x_1 + G^T p = F + M (x_0/dt^2 + x'_0/dt) + D x_0/dt.
+
+First order in the terms of inertia and damping, which are small there; the static part is exact. E. Hairer and G. Wanner, Solving
+Ordinary Differential Equations II, 1996, section IV.3: L-stable.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.dynamics.average_acceleration import State
+from fenics_gears.dynamics.drivetrain import Drivetrain
+
+
+class BackwardEuler:
+    """Effective stiffness and load of one step of length `step` (s) of a drivetrain with inertia."""
+
+    inert = True
+
+    def __init__(self, drivetrain: Drivetrain, step: float):
+        self.step = step
+        mass = drivetrain.mass
+        damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
+        self.stiffness = drivetrain.stiffness + mass / step**2 + damping / step
+        self._load = drivetrain.load
+        # M (x/dt^2 + x'/dt) + D x/dt as one product with the stacked state.
+        self._history = np.hstack([mass / step**2 + damping / step, mass / step])
+
+    def load(self, state: State) -> np.ndarray:
+        """Right-hand side (k,), N, of the step that starts from `state`."""
+        return self._load + self._history @ np.concatenate((state.position, state.velocity))
+
+    def advance(self, state: State, position: np.ndarray) -> State:
+        """The state at the end of the step, from its position (k,), mm."""
+        velocity = (position - state.position) / self.step
+        return State(position, velocity, (velocity - state.velocity) / self.step)

@@ -1,0 +1,87 @@
+"""What to say about a time step and a mesh frequency beside the drivetrain's vibrations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil
+
+from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
+from fenics_gears.dynamics.pace import Pace
+
+# Effects on the transmission error below this part of its peak-to-peak value are not worth a word.
+NOTABLE = 0.01
+
+
+def resolved_frequency(time_step: float) -> float:
+    """Highest frequency (Hz) whose period average acceleration has within PERIOD_ERROR."""
+    return 1.0 / (STEPS_OF_A_RESOLVED_PERIOD * time_step)
+
+
+def steps_to_resolve(frequency: float, mesh_frequency: float) -> int:
+    """Steps per mesh cycle that resolve a frequency (both Hz)."""
+    return ceil(STEPS_OF_A_RESOLVED_PERIOD * frequency / mesh_frequency)
+
+
+def effect_of_the_step(vibration: Vibration, mesh_frequency: float, time_step: float) -> float:
+    """About the part of the peak-to-peak transmission error that a mode's false period changes.
+
+    The mesh's harmonics fall as the square of their number; the one that meets the mode is amplified by the resonance, which the
+    false frequency shifts by a part of its width. Within a factor of three of the error measured on the paper's pair.
+    """
+    harmonic = max(vibration.frequency / mesh_frequency, 1.0)
+    amplification = vibration.amplification
+    shifted = min(1.0, 2.0 * amplification * vibration.period_error(time_step))
+    return shifted * min(1.0, amplification / harmonic**2)
+
+
+def effect_of_inertia(slowest: Vibration, mesh_frequency: float) -> float:
+    """About the part of its peak-to-peak value by which inertia and damping change the quasi-static transmission error.
+
+    r^2 by inertia and 2 zeta r by damping, with r the mesh frequency over the slowest natural frequency; without damping r, by the
+    vibrations that hand-over leaves.
+    """
+    ratio = mesh_frequency / slowest.frequency
+    return ratio**2 + 2.0 * slowest.damping_ratio * ratio if slowest.damping_ratio > 0.0 else max(ratio, ratio**2)
+
+
+def time_step_warnings(elastic: Sequence[Vibration], mesh_frequency: float, steps_per_mesh_cycle: int, pace: Pace) -> list[str]:
+    """Sentences on vibrations that the step does not resolve, and on inertia that does not matter; `elastic`: modes by frequency."""
+    time_step = 1.0 / (mesh_frequency * steps_per_mesh_cycle)
+    excited = [vibration for vibration in elastic if vibration.excited] or list(elastic)
+    slowest, inertia = excited[0], effect_of_inertia(excited[0], mesh_frequency)
+    if inertia < NOTABLE:
+        said = [
+            f"inertia hardly matters: the mesh frequency of {mesh_frequency:.4g} Hz is {slowest.frequency / mesh_frequency:.3g} times below the lowest "
+            f"natural frequency of about {slowest.frequency:.4g} Hz, and the transmission error differs from the quasi-static one by about {inertia:.1g} of its "
+            "peak-to-peak value; leave out [inertia] and [damping] to solve without them, at any number of steps"
+        ]
+        return said if pace.samples_vibration else [f"{said[0]}. {_not_sampled(slowest, time_step)}"]
+    if not pace.samples_vibration:
+        return [
+            f"vibrations are not resolved, and the result is about the quasi-static one though inertia matters. {_not_sampled(slowest, time_step)}: "
+            + _remedy(excited[-1], mesh_frequency, steps_per_mesh_cycle)
+        ]
+    missed = [
+        vibration for vibration in excited
+        if vibration.period_error(time_step) > PERIOD_ERROR and effect_of_the_step(vibration, mesh_frequency, time_step) > NOTABLE
+    ]  # fmt: skip
+    if not missed:
+        return []
+    each = ", ".join(f"{each.frequency:.4g} Hz ({each.steps_per_period(time_step):.3g} steps a period)" for each in missed)
+    return [
+        f"the time step does not resolve natural frequencies that the mesh excites, about {each}; periods are right within {PERIOD_ERROR:.0%} up to "
+        f"{resolved_frequency(time_step):.4g} Hz: {_remedy(missed[-1], mesh_frequency, steps_per_mesh_cycle)}"
+    ]
+
+
+def _not_sampled(slowest: Vibration, time_step: float) -> str:
+    return (
+        f"A step of {time_step:.3g} s is {slowest.frequency * time_step:.3g} periods of the lowest natural frequency of about {slowest.frequency:.4g} Hz "
+        f"(periods are right within {PERIOD_ERROR:.0%} up to {resolved_frequency(time_step):.4g} Hz), so that backward Euler steps "
+        "instead of average acceleration and nothing rings"
+    )
+
+
+def _remedy(vibration: Vibration, mesh_frequency: float, steps: int) -> str:
+    needed = steps_to_resolve(vibration.frequency, mesh_frequency)
+    return f"accuracy.steps_per_mesh_cycle = {needed} instead of {steps} resolves them up to {vibration.frequency:.4g} Hz"

@@ -1,0 +1,97 @@
+"""Where gears stand whose teeth pass faster than the drivetrain can follow: the forces of a whole mesh cycle balance on the average.
+
+Held at centre coordinates q, the contact at each position of the cycle gives forces p_i(q). The mean position solves
+
+    K q + mean(G_i^T p_i(q)) = F
+
+by Newton's method, with G^T C^-1 G over the closed nodes as the contact's stiffness. What is left of the balance at each position
+accelerates the gears; its integral over the cycle, less its mean, is the velocity at which the steady motion passes that position.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.ladder import StepProblem, StepSolution, cold_start
+from fenics_gears.contact.laws import OPEN, Tolerance
+from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.dynamics.drivetrain import Drivetrain
+
+ITERATIONS = 20
+# The start of a run, not its solution: what is left of the balance rings, in proportion.
+BALANCE = 1e-9
+
+Held = Callable[[Position, np.ndarray], StepSolution]
+
+
+@dataclass(frozen=True)
+class MeanEquilibrium:
+    """Mean centre coordinates (k,), mm, the velocity (k,), mm/s, of the steady motion at step 0, and the contact there."""
+
+    position: np.ndarray
+    velocity: np.ndarray
+    solution: StepSolution
+
+
+def mean_equilibrium(
+    cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, tolerance: Tolerance, first: np.ndarray, slid: float
+) -> MeanEquilibrium:
+    """Mean equilibrium of a drivetrain with inertia, sought from coordinates `first` (k,); `slid`: steps of sliding before each position.
+
+    Raises ContactNotConverged.
+    """
+    positions = [cycle.position(step) for step in range(cycle.steps)]
+    held = _holder(cycle, friction, tolerance, slid)
+    coordinates = first
+    largest = np.abs(drivetrain.load).max(initial=0.0)
+    for _ in range(ITERATIONS):
+        solutions = [held(position, coordinates) for position in positions]
+        left = np.array([_balance(drivetrain, *each, coordinates) for each in zip(positions, solutions)])
+        missing = left.mean(axis=0)
+        if np.abs(missing).max() <= BALANCE * largest:
+            break
+        stiffness = np.mean([_contact_stiffness(*each) for each in zip(positions, solutions)], axis=0)
+        coordinates = coordinates + np.linalg.lstsq(drivetrain.stiffness + stiffness, missing, rcond=None)[0]
+    return MeanEquilibrium(coordinates, _velocity(drivetrain, left, time_step), held(positions[0], coordinates))
+
+
+def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) -> Held:
+    """The contact of a position with the gears held at coordinates (k,): nothing of the drivetrain moves."""
+    unit, nothing = np.eye(1), np.empty(0)
+
+    def held(position: Position, coordinates: np.ndarray) -> StepSolution:
+        operator = position.operator
+        moved, nodes = operator.rigid @ coordinates, operator.nodes
+        slip_before = nothing if operator.sliding is None else slid * operator.sliding + moved[nodes:]
+        gap = operator.gap - moved[:nodes]
+        problem = StepProblem(
+            unit, np.zeros(1), operator.compliance, np.zeros((len(operator.rigid), 1)), gap, slip_before, friction, nothing, tolerance
+        )
+        solution = cycle.solve(position, problem, cold_start(gap, operator.node_pair), None)
+        return StepSolution(
+            solution.forces, coordinates, solution.displacement + moved, solution.status, solution.iterations, solution.rung
+        )
+
+    return held
+
+
+def _balance(drivetrain: Drivetrain, position: Position, solution: StepSolution, coordinates: np.ndarray) -> np.ndarray:
+    """Force (k,), N, that load, springs and contact leave to accelerate the drivetrain."""
+    return drivetrain.load - drivetrain.stiffness @ coordinates - position.operator.rigid.T @ solution.forces
+
+
+def _contact_stiffness(position: Position, solution: StepSolution) -> np.ndarray:
+    """Stiffness (k, k), N/mm, of the contact along its normals."""
+    closed = np.flatnonzero(solution.status != OPEN)
+    rigid = position.operator.rigid[closed]
+    return rigid.T @ np.linalg.solve(position.operator.compliance[np.ix_(closed, closed)], rigid)
+
+
+def _velocity(drivetrain: Drivetrain, left: np.ndarray, time_step: float) -> np.ndarray:
+    """Velocity (k,), mm/s, at the first of the positions whose unbalanced forces (n, k), N, are `left`; its mean over the cycle is zero."""
+    acceleration = np.linalg.solve(drivetrain.mass, (left - left.mean(axis=0)).T).T
+    gained = np.cumsum(0.5 * time_step * (acceleration + np.roll(acceleration, -1, axis=0)), axis=0)
+    return -gained.mean(axis=0)
