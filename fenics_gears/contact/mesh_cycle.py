@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fenics_gears.contact.corner import CornerContact, corner_pair, pair_reaches
 from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
 from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
@@ -25,14 +26,19 @@ class Position:
     carried_from: np.ndarray
 
 
-def pair_places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False) -> list[Place]:
+def pair_places(
+    pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False, corner: CornerContact | None = None
+) -> list[Place]:
     """Every pair of flanks whose window is not empty at `phase` (0 <= phase < 1): drive flanks, then coast flanks if asked for.
 
-    Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come.
+    Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips touch by
+    their edges too; places are theoretical ones all the same.
     """
     half = 0.5 * grid.length
 
     def can_touch(place: Place) -> bool:
+        if corner is not None:
+            return pair_reaches(pair, grid, corner, place)
         lowest, highest = flank_limits(pair, place.contact_rolls)
         return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
 
@@ -44,11 +50,13 @@ def pair_places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: b
     return [place for place in places if can_touch(place)]
 
 
-def tooth_span(pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False) -> int:
+def tooth_span(
+    pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
+) -> int:
     """Pitches between the outermost teeth whose flanks interact, from one step to the next included."""
     spans = [0]
     for step in range(steps):
-        teeth = [place.teeth for place in pair_places(pair, grid, step / steps, coast_flanks)]
+        teeth = [place.teeth for place in pair_places(pair, grid, step / steps, coast_flanks, corner)]
         spans += [max(of_gear) - min(of_gear) for of_gear in zip(*teeth)]
     return max(spans) + 1
 
@@ -57,13 +65,16 @@ class Cycle:
     """Contact equations over one mesh cycle of `steps` positions of a gear pair, each built when it is first asked for.
 
     A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond; `solve` is how a
-    step at a position is solved; `divisible`: whether there are positions between the steps.
+    step at a position is solved; `divisible`: whether there are positions between the steps; `corner`: tip edges that touch off the
+    line of action.
     """
 
     divisible = False
 
-    def __init__(self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False):
-        self.pair, self.grid, self.steps, self.coast_flanks = pair, grid, steps, coast_flanks
+    def __init__(
+        self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
+    ):
+        self.pair, self.grid, self.steps, self.coast_flanks, self.corner = pair, grid, steps, coast_flanks, corner
         self._pairs: dict[int, tuple[PairNodes, ...]] = {}
         self._positions: dict[int, Position] = {}
 
@@ -115,7 +126,8 @@ class Cycle:
         return self.pairs_at(int(index)) if index == int(index) else self._pairs_of(index)
 
     def _pairs_of(self, index: float) -> tuple[PairNodes, ...]:
-        built = (self._pair(place) for place in pair_places(self.pair, self.grid, index / self.steps, self.coast_flanks))
+        places = pair_places(self.pair, self.grid, index / self.steps, self.coast_flanks, self.corner)
+        built = (self._pair(place) for place in places)
         return tuple(pair for pair in built if pair is not None)
 
     def _pair(self, place: Place) -> PairNodes | None:
@@ -129,17 +141,28 @@ class Cycle:
 class MeshCycle(Cycle):
     """Contact nodes that see either gear's one flank compliance through interpolation.
 
-    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.
+    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts; `corner`: how tips touch off the line of
+    action, along it where None.
     """
 
     divisible = True
 
-    def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, coordinates: list[int], tangential: bool):
-        super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2)
+    def __init__(
+        self,
+        flanks: Flanks,
+        grid: ContactGrid,
+        steps: int,
+        coordinates: list[int],
+        tangential: bool,
+        corner: CornerContact | None = None,
+    ):
+        super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2, corner=corner)
         self.flanks, self._coordinates, self._tangential = flanks, coordinates, tangential
         self._pairing = CompliancePairing(flanks)
 
     def _pair(self, place: Place) -> ToothPair | None:
+        if self.corner is not None:
+            return corner_pair(self.flanks, self.grid, self.corner, place)
         return tooth_pair(self.flanks, self.grid, place)
 
     def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> Position:

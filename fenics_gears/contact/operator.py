@@ -85,13 +85,17 @@ def _axes(pairs: tuple[PairNodes, ...]) -> tuple[np.ndarray, np.ndarray, np.ndar
 
 
 def involute_arms(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Arms (n,), mm, of the normal forces: the base radii.
+    """Arms (n,), mm, of the normal forces: the base radii, and at a tip's edge those of the mate's normal.
 
     An involute turned by phi moves by rb phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds
     exactly without friction.
     """
-    nodes = sum(len(pair.offsets) for pair in pairs)
-    return np.full(nodes, base_radii[0]), np.full(nodes, base_radii[1])
+    arms = per_node(pairs, np.array([_line_arms(pair, base_radii) for pair in pairs]).reshape(len(pairs), 2))
+    return arms[:, 0].copy(), arms[:, 1].copy()
+
+
+def _line_arms(pair: PairNodes, base_radii: tuple[float, float]) -> tuple[float, float]:
+    return base_radii if pair.place.line is None else pair.place.line.arms
 
 
 def rigid_rows(
@@ -246,7 +250,8 @@ def earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
     rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
     offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_arm", "wheel_arm"))
-    height_1, height_2 = radii[0] - offsets, radii[1] + offsets
+    line_1, line_2 = involute_arms(pairs, radii)
+    height_1, height_2 = line_1 - offsets, line_2 + offsets
     _, tangent, turn = _axes(pairs)
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
     rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * np.cos(turned[0]) - turn * height_1 * np.sin(turned[0])) / radii[0]

@@ -38,11 +38,20 @@ DRIVE, COAST = 0, 1
 
 
 @dataclass(frozen=True)
+class Line:
+    """A line along which flanks are seen: its distances `arms` (mm) from both centres, `length` (mm) between the centres' feet on it."""
+
+    arms: tuple[float, float]
+    length: float
+
+
+@dataclass(frozen=True)
 class Place:
     """Where a pair of flanks stands: `index` of the pinion's tooth, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
 
     Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of action's
-    direction and the one across it in space, `turn` the sign of rotations.
+    direction and the one across it in space, `turn` the sign of rotations. `line`: where the flanks are seen along another line
+    than that of action, see `contact.corner`; its direction is in `axes`, and `contact_rolls` are measured from it.
     """
 
     index: int
@@ -50,6 +59,11 @@ class Place:
     contact_rolls: tuple[float, float]
     axes: tuple[tuple[float, float], tuple[float, float]] = ((1.0, 0.0), (0.0, 1.0))
     turn: float = 1.0
+    line: Line | None = None
+
+    def line_in(self, pair: GearPair) -> Line:
+        """The line along which the flanks are seen, the line of action unless said otherwise."""
+        return self.line or Line((pair.pinion.base_radius, pair.wheel.base_radius), pair.line_of_action_length)
 
     @property
     def teeth(self) -> tuple[int, int]:

@@ -77,8 +77,12 @@ def node_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: Conta
 
     `contact_rolls` (rad): of either gear on the line of action.
     """
+    return offsets_between(*flank_limits(pair, contact_rolls), grid)
+
+
+def offsets_between(lowest: float, highest: float, grid: ContactGrid) -> np.ndarray:
+    """Offsets (n,), mm, increasing, of the contact nodes where the flanks exist between two offsets (mm)."""
     half = 0.5 * grid.length
-    lowest, highest = flank_limits(pair, contact_rolls)
     start, end = max(lowest, -half), min(highest, half)
     length = end - start
     if length <= 1e-9 * grid.length:

@@ -1,0 +1,156 @@
+"""Corner contact: a tip's edge on the mate's flank, before and after the theoretical path of contact.
+
+There the tip touches off the line of action, along the mate's own normal. That normal is tangent to the mate's base circle and
+passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the theoretical one, at the
+base radius from the mate's centre and at another arm from the tip's. Seen along it, a pair has contact nodes, gaps and compliance as any
+other pair, the tip standing at its window's edge. Where the edge leaves the path of contact both lines are one: nothing jumps,
+and no contact is counted twice.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fenics_gears.contact.interpolation import flank_interpolation, hat_average, hat_integrals, quadrature_offsets
+from fenics_gears.contact.tooth_pair import DRIVE, Flanks, Line, Place, ToothPair
+from fenics_gears.contact.window import ContactGrid, offsets_between
+from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.tip_edge import TipEdge, tip_edge
+
+SENSES = (-1.0, 1.0)  # of offsets: towards the pinion's centre, away from the wheel's
+
+
+@dataclass(frozen=True)
+class CornerContact:
+    """The tip edges of pinion and wheel."""
+
+    edges: tuple[TipEdge, TipEdge]
+
+    def edge_beyond(self, place: Place) -> int | None:
+        """The gear, 0 or 1, whose tip edge has left the path of contact at a place; None where its flanks touch."""
+        for gear, edge in enumerate(self.edges):
+            if place.contact_rolls[gear] > edge.flank_roll:
+                return gear
+        return None
+
+
+def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.0) -> CornerContact:
+    """Corner contact of a pair whose tips have edges of `edge_radius` (mm, one or pinion's and wheel's; 0: sharp).
+
+    Raises GeometryError for a radius that does not fit the tip.
+    """
+    radii = edge_radius if isinstance(edge_radius, tuple) else (edge_radius, edge_radius)
+    return CornerContact((tip_edge(pair.pinion, radii[0]), tip_edge(pair.wheel, radii[1])))
+
+
+def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
+    """The place of a pair, seen along the mate's normal where a tip edge is beyond the path of contact; else as it is."""
+    tip = corner.edge_beyond(place)
+    if tip is None:
+        return place
+    radii = (pair.pinion.base_radius, pair.wheel.base_radius)
+    mate = 1 - tip
+    x, height = edge_position(corner.edges[tip], place.contact_rolls[tip])
+    # The same point from the mate's tangent point and centre.
+    x, height = pair.line_of_action_length - x, sum(radii) - height
+    tangent = np.sqrt(x**2 + height**2 - radii[mate] ** 2)
+    lean = np.arctan2(x, height) - np.arctan2(tangent, radii[mate])
+    cosine, sine = np.cos(lean), np.sin(lean)
+    across = pair.line_of_action_length * sine + sum(radii) * cosine
+    arms = (across - radii[1], radii[1]) if tip == 0 else (radii[0], across - radii[0])
+    line = Line(arms, pair.line_of_action_length * cosine - sum(radii) * sine)
+    return replace(
+        place,
+        contact_rolls=tuple(float(roll - lean) for roll in place.contact_rolls),
+        axes=_turned(place.axes, cosine, sine),
+        line=line,
+    )
+
+
+def _turned(axes, cosine: float, sine: float):
+    along, across = np.array(axes)
+    return tuple(tuple(float(v) for v in axis) for axis in (cosine * along + sine * across, cosine * across - sine * along))
+
+
+def edge_position(edge: TipEdge, contact_roll: float, point: np.ndarray | None = None) -> tuple[float, float]:
+    """Position (x, h), mm as in flank_point, of the arc's centre, or of another `point` (2,) of the tooth's body frame."""
+    x, y = edge.centre if point is None else point
+    cosine, sine = np.cos(contact_roll), np.sin(contact_roll)
+    return float(cosine * x - sine * y), float(-(sine * x + cosine * y))
+
+
+def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> ToothPair | None:
+    """The contact nodes of the flanks at a theoretical place, tip edges included, or None where their window is empty."""
+    pair = flanks.pair
+    place = corner_place(pair, corner, theoretical)
+    gears, line = (pair.pinion, pair.wheel), place.line_in(pair)
+    offsets = offsets_between(*edge_limits(pair, corner, place), grid)
+    if not len(offsets):
+        return None
+    at = quadrature_offsets(offsets)
+    removals = flanks.removal if place.flank == DRIVE else (None, None)
+    surfaces = [
+        _surface(gear, edge, roll, line.arms[side] + SENSES[side] * at, removals[side])
+        for side, (gear, edge, roll) in enumerate(zip(gears, corner.edges, place.contact_rolls))
+    ]
+    x_1, x_2 = surfaces
+    meeting = 0.5 * (hat_average(offsets, x_1 - x_2) + line.length)
+    rolls = [
+        roll_angle_at_height(gear.base_radius, roll, arm + sense * offsets)
+        for gear, roll, arm, sense in zip(gears, place.contact_rolls, line.arms, SENSES)
+    ]
+    interpolation = tuple(
+        flank_interpolation(
+            # That function measures offsets from the line at the gear's own base radius.
+            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense, flank.roll_angle, flank.element_order,
+        )
+        for gear, own, roll, arm, sense, flank in zip(gears, rolls, place.contact_rolls, line.arms, SENSES, flanks.compliance)
+    )  # fmt: skip
+    return ToothPair(
+        place=place,
+        offsets=offsets,
+        lengths=hat_integrals(offsets),
+        gap=hat_average(offsets, line.length - x_1 - x_2),
+        pinion_arm=meeting,
+        wheel_arm=line.length - meeting,
+        pinion_roll=rolls[0],
+        interpolation=interpolation,
+    )
+
+
+def edge_limits(pair: GearPair, corner: CornerContact, place: Place) -> tuple[float, float]:
+    """Offsets (mm) between which both flanks exist, seen along the place's line: tip edges' ends on one side, form circles on the other."""
+    line, ends = place.line_in(pair), []
+    for gear, edge, roll, arm, sense in zip((pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.arms, SENSES):
+        tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
+        form = flank_point(gear.base_radius, gear.form_roll_angle, roll)[1]
+        ends.append((sense * (tip - arm), sense * (form - arm)))
+    (pinion_tip, pinion_form), (wheel_tip, wheel_form) = ends
+    return max(pinion_tip, wheel_form), min(pinion_form, wheel_tip)
+
+
+def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
+    """Distance (mm, shape of `height`) from the foot of the line to a tooth's surface at heights (mm): involute, then the edge's arc."""
+    roll = roll_angle_at_height(gear.base_radius, contact_roll, height)
+    x = flank_point(gear.base_radius, roll, contact_roll)[0]
+    if edge.radius > 0.0:
+        centre_x, centre_height = edge_position(edge, contact_roll)
+        arc = centre_x + np.sqrt(np.maximum(edge.radius**2 - (height - centre_height) ** 2, 0.0))
+        x = np.where(roll > edge.flank_roll, arc, x)
+    return x if removal is None else x - removal(roll)
+
+
+def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> bool:
+    """Whether a pair's flanks can touch: its window is not empty, and its tip no further than the window's half beyond the path."""
+    tip = corner.edge_beyond(theoretical)
+    if tip is not None:
+        edge, gear = corner.edges[tip], (pair.pinion, pair.wheel)[tip]
+        if gear.base_radius * (theoretical.contact_rolls[tip] - edge.flank_roll) > 0.5 * grid.length:
+            return False
+    half = 0.5 * grid.length
+    lowest, highest = edge_limits(pair, corner, corner_place(pair, corner, theoretical))
+    return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
+

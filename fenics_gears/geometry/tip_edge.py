@@ -1,0 +1,57 @@
+"""The rounded edge between a tooth's flank and its tip circle, in the tooth's body frame (see involute.py)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import canonical_normal, canonical_point
+
+
+@dataclass(frozen=True)
+class TipEdge:
+    """An arc of `radius` (mm) tangent to the involute and to the tip circle; radius 0 is the sharp edge where the two meet.
+
+    `centre` (2,), mm, of the arc; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and `tip_normal`
+    (2,): outward unit normals at its two ends, on the flank and on the tip circle.
+    """
+
+    radius: float
+    centre: np.ndarray
+    flank_roll: float
+    flank_normal: np.ndarray
+    tip_normal: np.ndarray
+
+    def points(self, shares) -> np.ndarray:
+        """Points (..., 2), mm, at shares (...) of the arc's angle, 0 on the flank and 1 on the tip circle."""
+        start = np.angle(complex(*self.flank_normal))
+        turn = np.angle(complex(*self.tip_normal) / complex(*self.flank_normal))
+        angles = start + np.asarray(shares, dtype=float) * turn
+        return self.centre + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+
+
+def tip_edge(gear: Gear, radius: float) -> TipEdge:
+    """The tip edge of the drive flank.
+
+    The curve parallel to an involute is an involute of the same base circle: the arc's centre, `radius` inside the flank and inside
+    the tip circle, is at rb^2 + (rb v - radius)^2 = (ra - radius)^2. Raises GeometryError for a radius that leaves no tip or flank.
+    """
+    largest = 0.5 * gear.tip_thickness
+    if not 0.0 <= radius <= largest:
+        raise GeometryError(
+            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth: it must lie between 0 and half the tooth's "
+            f"thickness at the tip, {largest:.4g} mm; change corner_contact.edge_radius"
+        )
+    base, inner = gear.base_radius, gear.tip_radius - radius
+    roll = (radius + np.sqrt(max(inner**2 - base**2, 0.0))) / base if radius else gear.tip_roll_angle
+    if inner <= base or roll <= gear.form_roll_angle:
+        raise GeometryError(
+            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth leaves no involute below it; "
+            "lower corner_contact.edge_radius"
+        )
+    normal = canonical_normal(roll)
+    centre = canonical_point(base, roll) - radius * normal
+    return TipEdge(radius, centre, float(roll), normal, centre / np.linalg.norm(centre))
