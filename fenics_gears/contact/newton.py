@@ -150,12 +150,18 @@ def measure(residual, stiffness, load, rigid, gap, slip_before, friction, status
 
 
 @njit(cache=True)
-def _within(residual, length_tolerance, force_tolerance, load, coordinates):
-    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it. Likewise a gap is the
-    # difference of displacements and cannot be known better than their round-off.
-    length_tolerance = length_tolerance + 1e-14 * np.max(np.abs(coordinates))
+def _within(residual, length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
+    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it, without load that of what
+    # springs and teeth make of the lengths. Likewise a gap is the difference of displacements and cannot be known better than
+    # their round-off.
+    length = np.max(np.abs(coordinates))
+    terms = np.max(np.abs(load)) + np.max(np.abs(stiffness) @ np.abs(coordinates))
+    if len(gap):
+        terms += 1e-2 * max(length, np.max(np.abs(gap))) / compliance[0, 0]
+    round_off = 1e-12 * terms
+    length_tolerance = length_tolerance + 1e-14 * length
     return (
-        residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + 1e-12 * np.max(np.abs(load))
+        residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + round_off
         and residual[PENETRATION] <= length_tolerance
         and residual[STICK_SLIP] <= length_tolerance
         and residual[TENSION] <= force_tolerance
@@ -208,14 +214,14 @@ def newton(
             new[first_node(gap, displacement, rigid, free_motion)] = SLIP_FORWARD
             changed = np.any(new != status)
         if not changed:
-            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates):
+            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
                 return CONVERGED, iteration + 1, forces, coordinates, displacement
             return SINGULAR, iteration + 1, forces, coordinates, displacement
         repeated = False
         for earlier in range(iteration + 1):
             repeated = repeated or np.all(sets[earlier] == new)
         if repeated:
-            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates):
+            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
                 # The sets alternate between solutions that are the same within the tolerance.
                 return CONVERGED, iteration + 1, forces, coordinates, displacement
             return CYCLED, iteration + 1, forces, coordinates, displacement

@@ -22,14 +22,17 @@ def decades(lowest: float, highest: float) -> st.SearchStrategy[float]:
 
 
 @st.composite
-def valid_scenes(draw) -> Scene:
-    """A scene whose text any file could have; torque over six decades, springs over nine, 0.01 Hz to 20 kHz, any set of effects."""
+def valid_scenes(draw, torques=decades(1e-4, 1e2)) -> Scene:
+    """A scene whose text any file could have; torque over six decades, springs over nine, 0.01 Hz to 20 kHz, any set of effects.
+
+    `torques`: in parts of the usual one.
+    """
     pair = draw(valid_pairs(teeth=(12, 120), modules=(1.0, 10.0), addenda=(0.6, 1.45)))
     assume(CONTACT_RATIOS[0] <= pair.contact_ratio <= CONTACT_RATIOS[1])
     module, width = pair.pinion.module, pair.pinion.module * draw(st.floats(1.0, 20.0))
     coast = draw(st.booleans())
     radius = pair.wheel.base_radius
-    torque = draw(decades(1e-4, 1e2)) * USUAL_LOAD * module * width * radius
+    torque = draw(torques) * USUAL_LOAD * module * width * radius
     if coast:
         torque *= draw(st.sampled_from((1, -1)))
     sections = [_gears(pair, width), f'[load]\nwheel_torque = "{torque!r} N mm"', _motion(draw)]

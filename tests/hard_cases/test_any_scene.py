@@ -7,10 +7,12 @@ residual is the difference of.
 
 import pytest
 from hypothesis import event, given, settings
+from hypothesis import strategies as st
 from tests.hard_cases.invariants import run_of, worst_of
 from tests.hard_cases.random_scenes import valid_scenes
 from tests.stand_in import stand_in_compliance
 
+from fenics_gears.contact.errors import MoreThanOneSolution, SelfLocking
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
@@ -29,7 +31,6 @@ LAWS = {
     "couples_by_base_radii": (3, "T1/rb1 - T2/rb2 without friction", 1e-12, ""),
     "equilibrium": (3, "springs, load and contact out of balance, quasi-static", 1e-6, ""),
 }
-REASONS = ("no equilibrium", "self-locking", "more than one solution")
 
 
 class Tally:
@@ -50,7 +51,8 @@ class Tally:
         for name, value in residuals.items():
             assert value <= LAWS[name][2], f"{name}: {value}\n{scene.text}"
         if run.failure is not None:
-            assert scene.friction is not None and run.failure.reason.startswith(REASONS), f"{run.failure}\n{scene.text}"
+            assert scene.friction is not None, f"{run.failure}\n{scene.text}"
+            assert isinstance(run.failure, (SelfLocking, MoreThanOneSolution)), f"{run.failure}\n{scene.text}"
 
     def tell(self, measured, gears):
         """A line of the table for each law."""
@@ -72,11 +74,11 @@ def on_elements(cache):
     return lambda built: gear_compliances(built, SilentProgress(), cache)
 
 
-def judged(tally, measured, gears, compliances_of, examples):
+def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes()):
     """Draw scenes, judge each, and tell the worst also where one fails."""
 
     @settings(max_examples=examples)
-    @given(valid_scenes())
+    @given(scenes)
     def every_scene(scene):
         tally.judge(scene, compliances_of)
 
@@ -88,12 +90,19 @@ def judged(tally, measured, gears, compliances_of, examples):
 
 def test_every_step_of_any_scene_on_stand_in_teeth(measured):
     """Authority: the contact laws and Newton's third law, from the equations; teeth without finite elements, so that many can be drawn."""
-    judged(Tally(), measured, "stand-in teeth", on_stand_ins, 60)
+    judged(Tally(), measured, "stand-in teeth", on_stand_ins, 40)
 
 
 def test_every_step_of_any_scene(measured, tmp_path):
     """Authority: as above, on finite elements of the drawn gears."""
-    judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 12)
+    judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 10)
+
+
+def test_every_step_of_any_frictionless_scene_without_load(measured):
+    """Authority: as above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and teeth was taken
+    for a force that nothing balances."""
+    scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
+    judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, 30, scenes)
 
 
 @pytest.mark.nightly
