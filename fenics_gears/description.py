@@ -57,9 +57,10 @@ def _contact_rows(built: Model) -> float:
 def _model_rows(built: Model) -> Rows:
     grid = built.resolution.contact_grid
     each = "normal and tangential force" if built.scene.friction is not None else "normal force"
+    touching = f"each a {each} where closed" if built.scene.tooth_elasticity is not None else "the first to touch carries all"
     return [
         ("centre coordinates", len(built.drivetrain.coordinates), ", ".join(built.drivetrain.coordinates)),
-        ("contact nodes of a tooth pair", grid.nodes, f"each a {each} where closed"),
+        ("contact nodes of a tooth pair", grid.nodes, touching),
         ("equations in time", _method(built), ""),
         ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
     ]
@@ -68,7 +69,9 @@ def _model_rows(built: Model) -> Rows:
 def _method(built: Model) -> str:
     if built.drivetrain.mass is None:
         return "quasi-static"
-    return "average acceleration" if built.pace.samples_vibration else "backward Euler, no vibration being sampled"
+    if built.pace.averages_acceleration:
+        return "average acceleration"
+    return "backward Euler, " + ("forces of rigid flanks being impulsive" if built.pace.impulsive else "no vibration being sampled")
 
 
 def _accuracy_rows(built: Model) -> Rows:
@@ -77,13 +80,17 @@ def _accuracy_rows(built: Model) -> Rows:
     def origin(value) -> str:
         return "" if value is None else ", from the scene"
 
-    return [
+    elastic: Rows = [
         ("Hertz half-width at full load", resolution.half_width, "mm"),
         ("element", resolution.element, origin(asked.element).lstrip(", ")),
         ("flank element size", resolution.flank_element_size, "mm" + origin(asked.flank_element_size)),
+    ]
+    condensation: Rows = [("condensation", resolution.condensation, origin(asked.condensation).lstrip(", "))]
+    return [
+        *(elastic if built.scene.tooth_elasticity is not None else []),
         ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
         ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
-        ("condensation", resolution.condensation, origin(asked.condensation).lstrip(", ")),
+        *(condensation if built.scene.tooth_elasticity is not None else []),
         ("steps per mesh cycle", resolution.steps_per_mesh_cycle, origin(asked.steps_per_mesh_cycle).lstrip(", ")),
         ("time step", built.time_step, "s"),
         ("steps", built.steps, f"the last {built.stored_steps} stored"),
@@ -117,6 +124,9 @@ def _cost_rows(built: Model) -> Rows:
 
 
 def _cost(built: Model) -> Rows:
+    if built.scene.tooth_elasticity is None:
+        memory = BYTES_OF_PROGRAM + built.stored_bytes
+        return [("marching", f"{built.steps * SECONDS_PER_STEP:.1f}", "s"), ("memory", f"{memory / 1e6:.0f}", "MB")]
     order = 2 if built.resolution.element.endswith("2") else 1
     body, per_node = SECTOR_UNKNOWNS[built.resolution.element]
     unknowns, flank_dofs = [], []

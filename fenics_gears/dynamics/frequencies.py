@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import atan, inf, pi, sqrt
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import eigh, null_space
 
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
@@ -53,6 +53,9 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
     frequencies, shapes = _modes(drivetrain, mesh_stiffness)
     directions = [MESH_DIRECTION, ACROSS_DIRECTION] if friction else [MESH_DIRECTION]
     moved = np.abs([[direction.get(name, 0.0) for name in drivetrain.coordinates] for direction in directions] @ shapes).max(axis=0)
+    if np.isinf(mesh_stiffness):
+        # Tied flanks do not move apart, whatever the mode; their errors drive all that moves them together.
+        moved = np.full(len(frequencies), np.inf)
     damping = np.zeros_like(drivetrain.stiffness) if drivetrain.damping is None else drivetrain.damping
     damped = np.einsum("ci,cd,di->i", shapes, damping, shapes)
     return [
@@ -65,6 +68,17 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
 def _modes(drivetrain: Drivetrain, mesh_stiffness: float) -> tuple[np.ndarray, np.ndarray]:
     """Natural frequencies (k,), Hz, and shapes (k, k), one a column, of modal mass 1."""
     normal = np.array([MESH_DIRECTION.get(name, 0.0) for name in drivetrain.coordinates])
+    if np.isinf(mesh_stiffness):
+        return _tied_modes(drivetrain, normal)
     stiffness = drivetrain.stiffness + mesh_stiffness * np.outer(normal, normal)
     squares, shapes = eigh(stiffness, drivetrain.mass)
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), shapes
+
+
+def _tied_modes(drivetrain: Drivetrain, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The modes (k - 1 of them) of a drivetrain whose flanks are rigid and stay together: nothing moves along `normal` (k,)."""
+    free = null_space(normal[None, :])
+    if not free.shape[1]:
+        return np.empty(0), free
+    squares, shapes = eigh(free.T @ drivetrain.stiffness @ free, free.T @ drivetrain.mass @ free)
+    return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), free @ shapes

@@ -12,12 +12,19 @@ class Pace:
     """What the time step samples and the mesh leaves time for.
 
     `samples_vibration`: two steps or more in a period of the slowest vibration, below which no sampling can hold one.
+    `impulsive`: flanks are rigid and forces jump; average acceleration would turn their sign at every step from then on.
     `follows_statics`: the mesh is slower than the slowest vibration. `outruns_vibration`: it is faster than the fastest.
     """
 
     samples_vibration: bool = True
     follows_statics: bool = True
     outruns_vibration: bool = False
+    impulsive: bool = False
+
+    @property
+    def averages_acceleration(self) -> bool:
+        """Whether average acceleration is the method in time, else backward Euler."""
+        return self.samples_vibration and not self.impulsive
 
 
 FOLLOWING = Pace()

@@ -129,7 +129,9 @@ def load_sharing(dataset: xr.Dataset) -> Figure | None:
     figure, (axes,) = panels(dataset, "Load sharing between tooth pairs", [4.6])
     phase = dataset["mesh_phase"].values
     forces = in_unit(dataset["pair_normal_force"].transpose("time", "pair"), "N")
-    total = forces.sum(axis=1)
+    total = in_unit(dataset["normal_force"], "N")
+    if np.isnan(forces).any():
+        axes.set_title("Rigid flanks: where two pairs touch at once their shares are not determined")
     axes.plot(phase, total, color=DARK, linewidth=1.4, linestyle=(0, (4, 2)), label="all pairs", zorder=3)
     for number, force in zip(dataset["pair"].values, forces.T):
         if np.any(force != 0.0):
@@ -137,7 +139,7 @@ def load_sharing(dataset: xr.Dataset) -> Figure | None:
     lowest = 0.0
     if "pair_coast_normal_force" in dataset:
         coast = in_unit(dataset["pair_coast_normal_force"].transpose("time", "pair"), "N")
-        lowest = -float(coast.sum(axis=1).max())
+        lowest = -float(in_unit(dataset["coast_normal_force"], "N").max())
         for number, force in zip(dataset["pair"].values, coast.T):
             if np.any(force != 0.0):
                 axes.plot(phase, -_while_carrying(force), color=PALETTE[number % len(PALETTE)], linestyle=":", label=f"coast flank {number}")

@@ -123,3 +123,20 @@ print([name for name in ("dolfinx", "gmsh", "petsc4py.PETSc", "fenics_gears.elas
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.strip() == "[]", done.stderr
+
+
+def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):
+    """Newton's law: with one moving coordinate the mesh force is (T + J phi2'')/rb2, phi2 the kinematic error; backward Euler's own
+    second difference, exact while no flank lifts off."""
+    slow = Motion(20.0, 3, 1)
+    scene = replace(rigid_scene, inertia=paper_scene.inertia, motion=slow, tip_relief=TipRelief(Relief(DEPTH, None), Relief(DEPTH, None)))
+    scene = replace(scene, accuracy=Accuracy(steps_per_mesh_cycle=100))
+    result = simulate(scene)
+    radius, step = result.attrs["base_radius_wheel"], float(result.time[1] - result.time[0])
+    turned = result.rotation.sel(gear="wheel").values
+    assert turned == pytest.approx(simulate(replace(scene, inertia=None)).transmission_error.values, abs=1e-12)
+    acceleration = (turned[2:] - 2.0 * turned[1:-1] + turned[:-2]) / step**2
+    expected = (scene.load.wheel_torque - scene.inertia.moment_of_inertia * acceleration) / radius
+    forces = result.normal_force.values[2:]
+    assert np.all(forces > 0.0)
+    assert forces == pytest.approx(expected, rel=1e-6)
