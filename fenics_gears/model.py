@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
+from fenics_gears.effects import effects_on
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.modification import removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
@@ -30,8 +33,19 @@ class Model:
 
     @property
     def time_step(self) -> float:
-        """Length of a step, s."""
-        return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
+        """Length of a step, s; of the longest where they are not all as long."""
+        return 1.0 / (self.scene.mesh_frequencies[0] * self.resolution.steps_per_mesh_cycle)
+
+    @property
+    def clock(self) -> Clock:
+        """When a step is."""
+        clocks = [effect.clock(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.clock is not None]
+        return clocks[0] if clocks else SteadyClock(self.time_step)
+
+    @property
+    def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
+        """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
+        return tuple(effect.load(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.load is not None)
 
     @property
     def steps(self) -> int:
@@ -60,7 +74,11 @@ class Model:
     def pace(self) -> Pace:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
         elastic = np.array([vibration.frequency for vibration in self.vibrations])
-        return pace(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        found = pace(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
+            return found
+        # Above its drivetrain's vibrations a pair with rigid flanks still moves as its geometry says.
+        return replace(found, impulsive=True, outruns_vibration=False)
 
     @property
     def warnings(self) -> list[str]:
