@@ -52,7 +52,7 @@ def simulate(
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
     friction = scene.friction.coefficient if scene.friction else 0.0
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace)
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace, built.clock, built.loads)
     progress.stage("march")
     try:
         march = marcher.run(built.steps, built.stored_steps, progress.update)
@@ -151,7 +151,7 @@ def deviating(built: Model, cycle: Cycle) -> Cycle:
 
 
 def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
-    result = dataset(built.scene, cycle, built.drivetrain, march, built.time_step)
+    result = dataset(built.scene, cycle, built.drivetrain, march, built.clock, built.loads)
     resolution = built.resolution
     return result.assign_attrs(
         complete=int(complete),

@@ -9,7 +9,7 @@ friction takes, p1 slip1, as backward Euler has it; what the changing geometry (
 of the prescribed rotation; and the algorithm's own term at changes of contact, 1/2 sum(p0 gap1 - p1 gap0) and its like for friction.
 A node that only one end of the step has keeps there the compliance and the arms of the other end.
 
-The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load times nominal
+F is the mean of the loads at both ends of the step, where they vary. The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load times nominal
 speed, is added to input and output alike.
 """
 
@@ -20,8 +20,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.march import Record, VaryingLoad
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,10 @@ class Account:
     defect: np.ndarray
 
 
-def account(drivetrain: Drivetrain, time_step: float, records: Sequence[Record], energy: np.ndarray) -> Account:
-    """The account of consecutive records, whose elastic and kinetic `energy` (records,) is in N mm."""
+def account(
+    drivetrain: Drivetrain, clock: Clock, records: Sequence[Record], energy: np.ndarray, loads: Sequence[VaryingLoad] = ()
+) -> Account:
+    """The account of consecutive records, whose elastic and kinetic `energy` (records,) is in N mm; `loads` as the march had them."""
     # A step that was divided is accounted for part by part.
     ends = [record.parts or (record,) for record in records[1:]]
     ended = np.cumsum([0] + [len(parts) for parts in ends])
@@ -58,10 +61,10 @@ def account(drivetrain: Drivetrain, time_step: float, records: Sequence[Record],
     damping = np.zeros(len(steps))
     if drivetrain.damping is not None:
         damping = np.einsum("ti,ij,tj->t", moved, drivetrain.damping, moved)
-        damping /= time_step * np.array([record.step - last.step for last, record in steps])
+        damping /= np.array([clock.duration(last.step, record.step) for last, record in steps])
     parts = {
         "rotation": _summed([work.rotation for work in contact]),
-        "load": _summed(moved @ drivetrain.load),
+        "load": _summed(np.einsum("ti,ti->t", moved, mean_load(drivetrain, loads, [record.step for record in passed]))),
         "damping": _summed(damping),
         "friction": _summed([work.friction for work in contact]),
         "changes": _summed([work.changes for work in contact]),
@@ -69,6 +72,14 @@ def account(drivetrain: Drivetrain, time_step: float, records: Sequence[Record],
     parts = {name: work[ended][: len(records)] for name, work in parts.items()}
     gained = parts["rotation"] + parts["load"] + parts["changes"] - parts["damping"] - parts["friction"]
     return Account(**parts, defect=energy - energy[:1] - gained if len(energy) else energy)
+
+
+def mean_load(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], steps: Sequence[float]) -> np.ndarray:
+    """Forces (n, k), N, on the centre coordinates from each of n + 1 steps to the next, the mean of both."""
+    forces = np.tile(drivetrain.load, (len(steps), 1))
+    for load in loads:
+        forces = forces + [load(step) for step in steps]
+    return 0.5 * (forces[:-1] + forces[1:])
 
 
 def _summed(steps) -> np.ndarray:

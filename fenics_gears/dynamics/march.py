@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.backward_euler import BackwardEuler
+from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.mean_equilibrium import mean_equilibrium
 from fenics_gears.dynamics.pace import FOLLOWING, Pace
@@ -26,6 +27,8 @@ SECONDS_BETWEEN_REPORTS = 0.1
 NO_SLIP = np.empty(0)
 # The start assumes long sliding before it: as much slip as this many steps bring.
 STEPS_SLID_BEFORE_START = 1e6
+# What acts on the centre coordinates besides the constant load: forces (k,), N, at a step.
+VaryingLoad = Callable[[float], np.ndarray]
 # A step is divided in two this often: the shortest is 1/64 of a step.
 MOST_HALVINGS = 6
 
@@ -78,16 +81,22 @@ class Marcher:
     """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
 
     `pace`: how mesh and step compare with the drivetrain's vibrations; it decides on the method in time and on the start.
+    `clock`: when a step is, every `time_step` (s), the longest, unless given; `loads`: forces that vary, besides the drivetrain's own.
     """
 
-    def __init__(self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, pace: Pace = FOLLOWING):
+    def __init__(
+        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, pace: Pace = FOLLOWING,
+        clock: Clock | None = None, loads: Sequence[VaryingLoad] = (),
+    ):  # fmt: skip
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
-        self.dynamic = (AverageAcceleration if pace.samples_vibration else BackwardEuler)(drivetrain, time_step)
+        self.clock, self.loads = clock or SteadyClock(time_step), tuple(loads)
+        self.dynamic = (AverageAcceleration if pace.averages_acceleration else BackwardEuler)(drivetrain, time_step)
         self._static_drivetrain = Drivetrain(
             drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
         )
         self.static = AverageAcceleration(self._static_drivetrain, time_step)
-        self.tolerance = Tolerance.of_load(float(np.abs(drivetrain.load).max()))
+        varying = [load(step) for load in self.loads for step in range(cycle.steps)]
+        self.tolerance = Tolerance.of_load(float(np.abs([drivetrain.load, *varying]).max()))
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
         # Friction's arm is longest at the wheel's tip; below this coefficient it never outweighs the normal force there.
         self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
@@ -109,7 +118,7 @@ class Marcher:
             record = self.start()
             march.records.append(record)
             for step in range(1, steps + 1):
-                record = self.step(self.dynamic, record, step)
+                record = self.step(self.scheme(step), record, step)
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
                 march.rungs[RUNGS[record.solution.rung]] += 1
                 march.records.append(record)
@@ -130,6 +139,17 @@ class Marcher:
             march.seconds = time.perf_counter() - begun
         return march
 
+    def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
+        """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
+        duration = self.clock.duration(step - 1, step)
+        if duration != self.dynamic.step:
+            self.dynamic = type(self.dynamic)(self.drivetrain, duration)
+        return self.dynamic
+
+    def load(self, step: float) -> np.ndarray:
+        """All forces (k,), N, on the centre coordinates at `step`."""
+        return sum((load(step) for load in self.loads), self.drivetrain.load)
+
     def start(self) -> Record:
         """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the equations of motion.
 
@@ -146,7 +166,7 @@ class Marcher:
             return self._mean_start(middle)
         velocity = np.zeros(len(self.drivetrain.coordinates))
         if self._pace.follows_statics:
-            velocity = (neighbours[2].state.position - neighbours[0].state.position) / (2.0 * self.time_step)
+            velocity = (neighbours[2].state.position - neighbours[0].state.position) / self.clock.duration(-1, 1)
         # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
         damping = self.drivetrain.damping
         acceleration = np.zeros_like(velocity)
@@ -156,10 +176,11 @@ class Marcher:
 
     def _mean_start(self, static: Record) -> Record:
         mean = mean_equilibrium(
-            self.cycle, self.drivetrain, self.time_step, self.friction, self.tolerance, static.state.position, STEPS_SLID_BEFORE_START
-        )
+            self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance, static.state.position,
+            STEPS_SLID_BEFORE_START, self.load,
+        )  # fmt: skip
         drivetrain, rigid = self.drivetrain, static.position.operator.rigid
-        left = drivetrain.load - drivetrain.stiffness @ mean.position - rigid.T @ mean.solution.forces
+        left = self.load(0) - drivetrain.stiffness @ mean.position - rigid.T @ mean.solution.forces
         if drivetrain.damping is not None:
             left = left - drivetrain.damping @ mean.velocity
         state = State(mean.position, mean.velocity, np.linalg.solve(drivetrain.mass, left))
@@ -188,8 +209,8 @@ class Marcher:
             raise failure
         record, parts = last, ()
         drivetrain = self.drivetrain if scheme.inert else self._static_drivetrain
-        finer = type(scheme)(drivetrain, 0.5 * scheme.step)
         for end in (0.5 * (last.step + step), step):
+            finer = type(scheme)(drivetrain, self.clock.duration(record.step, end))
             try:
                 record = self._part(finer, record, end, self.cycle.between(end, record.step))
             except ContactNotConverged as failed:
@@ -211,14 +232,18 @@ class Marcher:
         status = np.zeros(operator.nodes, dtype=np.int8)
         known = carried >= 0
         status[known] = last.solution.status[carried[known]]
-        solution = self._solve(scheme, scheme.load(last.state), position, slip_before, status, step, last.solution)
+        solution = self._solve(scheme, self._right_side(scheme, last.state, step), position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
+
+    def _right_side(self, scheme, state: State, step: float) -> np.ndarray:
+        """Right-hand side (k,), N, of the step of `scheme` from `state` to `step`."""
+        return sum((load(step) for load in self.loads), scheme.load(state))
 
     def _locks(self, record: Record) -> bool:
         """Whether friction at a closed node works against the load by more than its normal force holds."""
         motion = np.zeros(len(self.drivetrain.coordinates))
         wheel = self.drivetrain.coordinates.index("rotation_2")
-        motion[wheel] = np.sign(self.drivetrain.load[wheel])
+        motion[wheel] = np.sign(self.load(record.step)[wheel])
         return bool(locked_nodes(working(record.position.operator.rigid, motion, record.solution.forces)).any())
 
     def _static_start(self, step: int) -> Record:
@@ -228,17 +253,23 @@ class Marcher:
         rest = np.zeros(len(self.drivetrain.coordinates))
         status = cold_start(operator.gap, operator.node_pair)
         state = State(rest, rest, rest)
-        solution = self._solve(self.static, self.static.load(state), position, slip_before, status, step)
+        solution = self._solve(self.static, self._right_side(self.static, state, step), position, slip_before, status, step)
         return Record(step, State(solution.coordinates, rest, rest), position, solution)
 
     def _solve(self, scheme, load, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
         operator = position.operator
         problem = StepProblem(
             scheme.stiffness, load, operator.compliance, operator.rigid, operator.gap, slip_before,
-            self.friction, np.empty(0) if scheme.inert else self._free_motion, self.tolerance, self._free_words,
+            self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words,
         )  # fmt: skip
         try:
             return self.cycle.solve(position, problem, status, last)
         except ContactNotConverged as failure:
-            failure.time, failure.step = step * self.time_step, step
+            failure.time, failure.step = self.clock.time(step), step
             raise
+
+    def _moved_freely(self, scheme, load: np.ndarray) -> np.ndarray:
+        """How a load (k,) moves the drivetrain where only contact holds it; a load that varies may turn its sign."""
+        if scheme.inert or not len(self._free_motion):
+            return np.empty(0)
+        return -self._free_motion if self._free_motion @ load < 0.0 else self._free_motion

@@ -37,19 +37,22 @@ class MeanEquilibrium:
 
 
 def mean_equilibrium(
-    cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, tolerance: Tolerance, first: np.ndarray, slid: float
-) -> MeanEquilibrium:
-    """Mean equilibrium of a drivetrain with inertia, sought from coordinates `first` (k,); `slid`: steps of sliding before each position.
+    cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, tolerance: Tolerance, first: np.ndarray, slid: float,
+    load: Callable[[float], np.ndarray],
+) -> MeanEquilibrium:  # fmt: skip
+    """Mean equilibrium of a drivetrain with inertia, sought from coordinates `first` (k,); `slid`: steps of sliding before each position;
+    `load`: forces (k,), N, at a step.
 
     Raises ContactNotConverged.
     """
     positions = [cycle.position(step) for step in range(cycle.steps)]
     held = _holder(cycle, friction, tolerance, slid)
     coordinates = first
-    largest = np.abs(drivetrain.load).max(initial=0.0)
+    loads = [load(step) for step in range(cycle.steps)]
+    largest = np.abs(loads).max(initial=0.0)
     for _ in range(ITERATIONS):
         solutions = [held(position, coordinates) for position in positions]
-        left = np.array([_balance(drivetrain, *each, coordinates) for each in zip(positions, solutions)])
+        left = np.array([_balance(drivetrain, *each, coordinates) for each in zip(loads, positions, solutions)])
         missing = left.mean(axis=0)
         if np.abs(missing).max() <= BALANCE * largest:
             break
@@ -78,9 +81,9 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
     return held
 
 
-def _balance(drivetrain: Drivetrain, position: Position, solution: StepSolution, coordinates: np.ndarray) -> np.ndarray:
+def _balance(drivetrain: Drivetrain, load: np.ndarray, position: Position, solution: StepSolution, coordinates: np.ndarray) -> np.ndarray:
     """Force (k,), N, that load, springs and contact leave to accelerate the drivetrain."""
-    return drivetrain.load - drivetrain.stiffness @ coordinates - position.operator.rigid.T @ solution.forces
+    return load - drivetrain.stiffness @ coordinates - position.operator.rigid.T @ solution.forces
 
 
 def _contact_stiffness(position: Position, solution: StepSolution) -> np.ndarray:

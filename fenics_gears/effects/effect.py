@@ -39,6 +39,7 @@ class Effect:
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or None.
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
+    ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``results(data, scene, cycle, records)``: the effect's own variables, name to (dimensions, values).
     """
 
@@ -58,6 +59,7 @@ class Effect:
     removal: Callable | None = None
     gaps: Callable | None = None
     load: Callable | None = None
+    clock: Callable | None = None
     results: Callable | None = None
 
     @property

@@ -6,14 +6,17 @@ belongs to an effect is there only when the scene names that effect.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray as xr
 
 import fenics_gears
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.pressure import peak_pressure
+from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import March, Record
+from fenics_gears.dynamics.march import March, Record, VaryingLoad
 from fenics_gears.effects import effects_on, result_variables
 from fenics_gears.results.contact_variables import mesh_variables, pair_variables
 from fenics_gears.results.energy_variables import energy_variables, work_variables
@@ -23,15 +26,17 @@ from fenics_gears.validity import warnings_of
 GEARS = ("pinion", "wheel")
 
 
-def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, time_step: float) -> xr.Dataset:
-    """The stored steps of a march as a dataset; every variable with units and long name."""
+def dataset(
+    scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock, loads: Sequence[VaryingLoad] = ()
+) -> xr.Dataset:
+    """The stored steps of a march as a dataset; every variable with units and long name. `loads`: those that vary."""
     records = list(march.records)
     values = _centre_variables(scene, drivetrain, records)
     values |= mesh_variables(scene, records)
     pairs = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
     values |= pair_variables(scene, cycle, records, pairs)
     values |= energy_variables(scene, drivetrain, records)
-    values |= work_variables(scene, drivetrain, records, time_step, values["energy"][1])
+    values |= work_variables(scene, cycle, drivetrain, clock, loads, records, values["energy"][1])
     for effect in effects_on(scene):
         if effect.results is not None:
             values |= effect.results(getattr(scene, effect.section), scene, cycle, records)
@@ -40,7 +45,7 @@ def dataset(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, ti
     result = xr.Dataset(
         {name: (dims, data, _labels(described[name])) for name, (dims, data) in values.items()},
         coords={
-            "time": ("time", steps * time_step, {"units": "s", "long_name": "time"}),
+            "time": ("time", np.array([clock.time(step) for step in steps]), {"units": "s", "long_name": "time"}),
             "mesh_phase": ("time", steps / cycle.steps, {"units": "1", "long_name": "mesh cycles since the start"}),
             "gear": ("gear", list(GEARS), {"long_name": "gear"}),
             "pair": ("pair", np.array(pairs, dtype=np.int64), {"long_name": "tooth pair, counted through the run"}),

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi
 
 import numpy as np
 
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
-from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.energy_account import account, mean_load
+from fenics_gears.dynamics.march import Record, VaryingLoad
 from fenics_gears.scene.data import Scene
 
 
@@ -35,15 +38,15 @@ def _quadratic(states: np.ndarray, matrix: np.ndarray) -> np.ndarray:
     return 0.5 * np.einsum("ti,ij,tj->t", states, matrix, states)
 
 
-def work_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record], time_step: float, energy: np.ndarray) -> dict:
+def work_variables(
+    scene: Scene, cycle: Cycle, drivetrain: Drivetrain, clock: Clock, loads: Sequence[VaryingLoad], records: list[Record], energy: np.ndarray
+) -> dict:
     """Work since the first stored step (N mm), which with the `energy` (time,) adds up to nothing but round-off:
 
     energy - energy[0] = work_input - work_output - work_damping - work_friction + work_contact_changes + energy_defect.
     """
-    work = account(drivetrain, time_step, records, energy)
-    turned = 2.0 * pi * scene.motion.mesh_frequency / scene.gears.wheel.teeth * time_step * np.arange(len(records))
-    # The nominal motion turns the wheel backwards, against a positive couple.
-    carried = scene.load.wheel_torque * turned
+    work = account(drivetrain, clock, records, energy, loads)
+    carried = _carried(drivetrain, loads, records, 2.0 * pi / (scene.gears.wheel.teeth * cycle.steps))
     values = {
         "work_input": carried + work.rotation,
         "work_output": carried - work.load,
@@ -55,3 +58,19 @@ def work_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record], 
     if scene.friction is not None:
         values["work_friction"] = work.friction
     return {name: (("time",), value) for name, value in values.items()}
+
+
+def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], records: list[Record], angle: float) -> np.ndarray:
+    """Work (records,), N mm, that the nominal motion does against the loads; it turns the wheel by `angle` (rad) a step.
+
+    Both gears' arcs are as long. The wheel turns backwards, against a positive couple.
+    """
+    steps = [record.step for record in records]
+    turned = np.zeros(len(drivetrain.coordinates))
+    wheel = drivetrain.coordinates.index("rotation_2")
+    arc = drivetrain.radii[wheel] * angle
+    turned[wheel] = -arc
+    if "rotation_1" in drivetrain.coordinates:
+        turned[drivetrain.coordinates.index("rotation_1")] = arc
+    done = -(mean_load(drivetrain, loads, steps) @ turned) * np.diff(steps)
+    return np.concatenate(([0.0], np.cumsum(done)))[: len(records)]

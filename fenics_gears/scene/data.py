@@ -76,6 +76,11 @@ class _AlwaysThere:
     name: str = "scene"
 
     @property
+    def mesh_frequencies(self) -> tuple[float, float]:
+        """The lowest and the highest mesh frequency of the run, Hz."""
+        return self.motion.mesh_frequency, self.motion.mesh_frequency
+
+    @property
     def tooth_elasticity(self) -> Material | None:
         """What makes the flanks elastic; None for rigid ones."""
         return self.gears.material

@@ -34,12 +34,12 @@ def run_of(built: Model, compliances: Compliances) -> Run:
     """March a scene on given gears and keep every step; its result is made too, and must hold no NaN where nodes stand."""
     cycle = mesh_cycle(built, compliances)
     friction = built.scene.friction.coefficient if built.scene.friction else 0.0
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace)
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace, built.clock, built.loads)
     try:
         march = marcher.run(built.steps, built.steps + 1)
     except ContactNotConverged as failure:
         return Run(built, marcher, list(failure.partial.records), failure)
-    result = dataset(built.scene, cycle, built.drivetrain, march, built.time_step)
+    result = dataset(built.scene, cycle, built.drivetrain, march, built.clock, built.loads)
     for name, variable in result.data_vars.items():
         assert np.all(np.isfinite(variable)) or name.endswith(("contact_offset", "contact_roll_angle", "_opening")), name
     return Run(built, marcher, list(march.records))
