@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 
-from fenics_gears.effects import bearings, coast_flanks, damping, friction, inertia, shafts, tip_relief, tooth_elasticity
+from fenics_gears.effects import bearings, coast_flanks, damping, friction, inertia, root_relief, shafts, tip_relief, tooth_elasticity
 from fenics_gears.effects.effect import Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
@@ -20,6 +20,7 @@ EFFECTS: tuple[Effect, ...] = (
     damping.EFFECT,
     friction.EFFECT,
     tip_relief.EFFECT,
+    root_relief.EFFECT,
     coast_flanks.EFFECT,
 )
 

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.modification import tip_reliefs
-from fenics_gears.effects.tip_relief import Relief, TipRelief
+from fenics_gears.effects.relief import Relief
+from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.geometry.relief import tip_reliefs
 
 
 def test_relief_from_the_highest_point_of_single_tooth_contact(paper_pair):

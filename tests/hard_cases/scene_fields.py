@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.scene import units
-from fenics_gears.scene.fields import Allowed, allowed_in
+from fenics_gears.scene.fields import Allowed, AllowedEither, AllowedList, allowed_in
 from fenics_gears.scene.schema import SceneText
 from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
 
@@ -55,9 +55,15 @@ class Field:
         (lowest, highest), (above, below) = self.bounds, self.excluded
         return (lowest < number if above else lowest <= number) and (number < highest if below else number <= highest)
 
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds of quantity that the field takes; none for one without unit."""
+        return tuple(self.allowed.ranges) if isinstance(self.allowed, AllowedEither) else (self.allowed.kind,) if self.allowed.kind else ()
+
     def literal(self, number: Any) -> str:
-        """A number as this field's text in TOML."""
-        return f'"{number} {self.unit}"' if self.allowed.kind else f"{number}"
+        """A number as this field's text in TOML; a list of it alone where the field takes lists."""
+        text = f'"{number} {self.unit}"' if self.allowed.kind else f"{number}"
+        return f"[{text}]" if isinstance(self.allowed, AllowedList) else text
 
 
 def fields() -> list[Field]:
@@ -76,14 +82,23 @@ def _fields() -> Iterator[Field]:
         info = section.model_fields[path[-1]]
         limits = {key: getattr(item, key) for item in info.metadata for key in ("ge", "gt", "le", "lt") if getattr(item, key, None) is not None}
         low, high = limits.get("ge", limits.get("gt")), limits.get("le", limits.get("lt"))
-        bounds = None if low is None else (low, high)
-        yield Field(path, allowed_in(section, path[-1]), info.is_required(), bounds, ("gt" in limits, "lt" in limits))
+        allowed = allowed_in(section, path[-1])
+        bounds = _own_bounds(allowed) if low is None else (low, high)
+        yield Field(path, allowed, info.is_required(), bounds, ("gt" in limits, "lt" in limits))
+
+
+def _own_bounds(allowed: Allowed) -> tuple[float, float] | None:
+    """The bounds that a list's entries have, or a quantity of the first of several kinds."""
+    if isinstance(allowed, AllowedList):
+        return allowed.bounds
+    return allowed.ranges[allowed.kind] if isinstance(allowed, AllowedEither) else None
 
 
 def whole_scene() -> dict[str, Any]:
     """The demonstration scene with every section and every field."""
     tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
     tree["tip_relief"] = {**RELIEF, "pinion": RELIEF, "wheel": RELIEF}
+    tree["root_relief"] = {"depth": "5 um", "start": "LPSTC"}
     tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
     tree["gears"]["pinion"]["rack_tip_radius"] = tree["gears"]["wheel"]["rack_tip_radius"] = 0.38
     return tree | {"coast_flanks": {}}

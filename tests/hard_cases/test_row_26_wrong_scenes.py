@@ -83,7 +83,7 @@ def zero(field: Field) -> list[str]:
 def wrong_unit(field: Field) -> list[str]:
     if not field.allowed.kind:
         return [f'"3 {unit}"' for unit in ("mm", "1/s")] if field.path[-1] != "title" else []
-    others = [f'"3 {unit}"' for kind, unit in UNITS.items() if kind != field.allowed.kind]
+    others = [f'"3 {unit}"' for kind, unit in UNITS.items() if kind not in field.kinds]
     return [*others, f'"3 {field.unit}x"', '"3"', "3.5", "3", "nan", f'"3,5 {field.unit}"', f'"3 {field.unit} {field.unit}"', f'"{field.unit}"']
 
 

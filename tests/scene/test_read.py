@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import fenics_gears
-from fenics_gears.effects.tip_relief import Relief, TipRelief
+from fenics_gears.effects.relief import Relief
+from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.scene import data
 from fenics_gears.scene.read import load_scene, scene_from_text
 

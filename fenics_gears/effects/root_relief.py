@@ -1,0 +1,57 @@
+"""``[root_relief]``: material removed towards the roots (``geometry.relief``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Optional
+
+from fenics_gears.effects.effect import Effect
+from fenics_gears.effects.relief import Relief, RootReliefOfGearText, incomplete, of_gear
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree
+
+
+@dataclass(frozen=True)
+class RootRelief:
+    """Root relief of the pair; a gear without relief has None."""
+
+    pinion: Relief | None
+    wheel: Relief | None
+
+
+class RootReliefText(RootReliefOfGearText):
+    """``[root_relief]``: depth at the form circle, start and shape for both gears."""
+
+    pinion: Optional[RootReliefOfGearText] = None
+    wheel: Optional[RootReliefOfGearText] = None
+
+
+def read(text: RootReliefText) -> RootRelief:
+    """Each gear's own relief before that of both."""
+    return RootRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
+
+
+def relief_is_complete(tree: Tree) -> Iterator[Problem]:
+    """A relief has a depth and a start."""
+    return incomplete(tree, "root_relief", "LPSTC")
+
+
+def removal(relief: RootRelief, pair):
+    """Material removed from pinion and wheel."""
+    from fenics_gears.geometry.relief import root_reliefs
+
+    return root_reliefs(pair, relief)
+
+
+EFFECT = Effect(
+    section="root_relief",
+    description="material removed towards the roots, linear or parabolic in the roll angle",
+    absent="true involutes down to the form circle",
+    text=RootReliefText,
+    data=RootRelief,
+    terms=("initial gaps",),
+    read=read,
+    rules=relief_is_complete,
+    removal=removal,
+)

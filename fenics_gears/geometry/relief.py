@@ -1,0 +1,124 @@
+"""Relief of the flanks towards tip and root: how much material is gone at each roll angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees, isfinite
+
+import numpy as np
+
+from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
+from fenics_gears.effects.root_relief import RootRelief
+from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.pair import GearPair
+
+POWERS = {LINEAR: 1, PARABOLIC: 2}
+
+
+@dataclass(frozen=True)
+class ReliefCurve:
+    """Material removed along the flank's normal: nothing up to the start, ``depth`` (mm) at the end; roll angles in rad.
+
+    ``depth ((v - start)/(end - start))^power``, whichever way the end lies; ``power`` 1 or 2.
+    """
+
+    depth: float
+    start_roll_angle: float
+    end_roll_angle: float
+    power: int = 1
+
+    def __call__(self, roll_angle) -> np.ndarray:
+        """Removal (mm, not negative) at roll angles (rad, any shape); it goes on growing beyond the end."""
+        length = self.end_roll_angle - self.start_roll_angle
+        return self.depth * np.maximum((np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / length, 0.0) ** self.power
+
+
+@dataclass(frozen=True)
+class _Side:
+    """One end of a gear's flank: of which gear, named in which section, at which roll angle (rad), and where relief usually starts (rad)."""
+
+    gear: Gear
+    name: str
+    section: str
+    end: float
+    usual_start: float
+
+    @property
+    def field(self) -> str:
+        """The gear's section."""
+        return f"{self.section}.{self.name}"
+
+    @property
+    def words(self) -> str:
+        """The section's name in a sentence."""
+        return self.section.replace("_", " ")
+
+
+def tip_reliefs(pair: GearPair, reliefs: TipRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
+    """Relief of pinion and wheel from HPSTC, unless said otherwise, to the tip; None for a gear that has none.
+
+    Raises GeometryError as ``relief_curve`` does.
+    """
+    pinion = _Side(pair.pinion, "pinion", "tip_relief", pair.pinion.tip_roll_angle, pair.pinion_hpstc_roll_angle)
+    wheel = _Side(pair.wheel, "wheel", "tip_relief", pair.wheel.tip_roll_angle, pair.wheel_hpstc_roll_angle)
+    return _curve(reliefs.pinion, pinion), _curve(reliefs.wheel, wheel)
+
+
+def root_reliefs(pair: GearPair, reliefs: RootRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
+    """Relief of pinion and wheel from LPSTC, unless said otherwise, to the form circle; None for a gear that has none.
+
+    Raises GeometryError as ``relief_curve`` does.
+    """
+    pinion = _Side(pair.pinion, "pinion", "root_relief", pair.pinion.form_roll_angle, pair.pinion_lpstc_roll_angle)
+    wheel = _Side(pair.wheel, "wheel", "root_relief", pair.wheel.form_roll_angle, pair.wheel_lpstc_roll_angle)
+    return _curve(reliefs.pinion, pinion), _curve(reliefs.wheel, wheel)
+
+
+def _curve(relief: Relief | None, side: _Side) -> ReliefCurve | None:
+    return None if relief is None else relief_curve(relief, side)
+
+
+def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:
+    """Relief at one end of a gear's flank.
+
+    Raises GeometryError when it would start off the involute or at its own end, or when its depth is no length or more than the
+    tooth has.
+    """
+    _check_depth(relief, side)
+    start, gear = _start(relief, side), side.gear
+    lowest, highest = gear.form_roll_angle, gear.tip_roll_angle
+    if not lowest <= start <= highest or start == side.end:
+        raise GeometryError(
+            f"{side.name}: {side.words} starts at {_written_start(relief, start)}, but its involute runs from "
+            f"{degrees(lowest):.4g} deg (form circle) to {degrees(highest):.4g} deg (tip), diameters "
+            f"{2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm: change {side.field}.start"
+        )
+    return ReliefCurve(relief.depth, start, side.end, POWERS[relief.shape])
+
+
+def _check_depth(relief: Relief, side: _Side) -> None:
+    if not (isfinite(relief.depth) and relief.depth >= 0.0):
+        raise GeometryError(f"{side.name}: {side.section} depth {relief.depth} mm; it must be zero or a positive length")
+    thickness = float(side.gear.tooth_thickness(side.gear.radius(side.end)))
+    if relief.depth > 0.5 * thickness:
+        end = "tip" if side.section == "tip_relief" else "form circle"
+        left = "no tip would be left" if end == "tip" else "nothing of the tooth would be left there"
+        raise GeometryError(
+            f"{side.name}: {side.section} depth {relief.depth:.4g} mm is more than half the tooth's thickness at the {end}, "
+            f"{thickness:.4g} mm: {left}; lower {side.field}.depth"
+        )
+
+
+def _start(relief: Relief, side: _Side) -> float:
+    """Roll angle (rad) of the start; below the form circle for a diameter that has no involute."""
+    if relief.start_diameter is None:
+        return side.usual_start if relief.start_roll_angle is None else relief.start_roll_angle
+    radius = 0.5 * relief.start_diameter
+    return float(side.gear.roll_angle(radius)) if radius >= side.gear.base_radius else -1.0
+
+
+def _written_start(relief: Relief, start: float) -> str:
+    return f"roll angle {degrees(start):.4g} deg" if relief.start_diameter is None else f"diameter {relief.start_diameter:.6g} mm"
+
