@@ -18,6 +18,40 @@ def print_rows(heading: str, rows: Sequence[Row]) -> None:
         _print_plain(heading, cells)
 
 
+def print_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]]) -> None:
+    """Print rows of cells in columns under a heading; `headings`: lines above the columns, which are left out where they are empty."""
+    if sys.stdout.isatty():
+        _print_rich_table(heading, headings, rows)
+    else:
+        _print_plain_table(heading, headings, rows)
+
+
+def _print_rich_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]]) -> None:
+    from rich.console import Console
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for place, words in enumerate(zip(*headings)):
+        table.add_column(Text("\n".join(words)), justify="left" if place == 0 else "right", no_wrap=place == 0)
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row))
+    console = Console(highlight=False)
+    console.print(Text(heading, style="bold"))
+    console.print(Padding(table, (0, 0, 1, 2)))
+
+
+def _print_plain_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]]) -> None:
+    lines = [*headings, *rows]
+    widths = [max(len(cell) for cell in column) for column in zip(*lines)]
+    print(heading)
+    for line in lines:
+        first, *others = (cell.ljust(width) if place == 0 else cell.rjust(width) for place, (cell, width) in enumerate(zip(line, widths)))
+        print("  " + "  ".join([first, *others]).rstrip())
+    print()
+
+
 def _print_rich(heading: str, cells: Sequence[tuple[str, str, str]]) -> None:
     from rich.console import Console
     from rich.padding import Padding

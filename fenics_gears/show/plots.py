@@ -31,7 +31,7 @@ def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     written: list[Path] = []
     with written_aside(Path(directory), written) as aside:
         for name, figure in figures.items():
-            _save(figure, aside / name)
+            save_figure(figure, aside / name)
     return written
 
 
@@ -54,6 +54,7 @@ def _check_steps(dataset: xr.Dataset) -> None:
 
 
 @styled
-def _save(figure: Figure, path: Path) -> None:
+def save_figure(figure: Figure, path: Path) -> None:
+    """Save a figure as PNG."""
     FigureCanvasAgg(figure)
     figure.savefig(path, dpi=DOTS_PER_INCH, metadata={"Software": None})

@@ -1,0 +1,102 @@
+"""The picture of `gears effects`: what each effect costs and what it changes, a line for each subset of the scene's effects."""
+
+from __future__ import annotations
+
+import textwrap
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
+from fenics_gears.show.run_scene import conditions
+from fenics_gears.studies.effect_lattice.measured import Report, Row
+from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
+from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_percent
+
+COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
+WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
+LINE_HEIGHT = 0.36
+LABEL = {"va": "center", "fontsize": 10.5, "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.4}}
+
+
+@styled
+def effect_costs(report: Report) -> Figure:
+    """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds' least and most."""
+    rows = report.rows
+    figure = Figure(figsize=(15.0, 2.6 + LINE_HEIGHT * len(rows)), layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.05, 1, 0.95))
+    axes = figure.subplots(1, 4, sharey=True, gridspec_kw={"width_ratios": (1.0, 1.1, 1.1, 1.1)})
+    places = _places(rows)
+    _unknowns(axes[0], rows, places)
+    _bars(axes[1], report, places, "step_time", MICRO, "Time a step (µs, median)")
+    _whiskers(axes[1], rows, places)
+    _bars(axes[2], report, places, "transmission_error", MILLI, "Transmission error, peak to peak (µm)")
+    _bars(axes[3], report, places, "peak_force", 1.0, "Peak contact force (N)")
+    axes[0].set_yticks(places, [row.subset.name + ("*" if row.remarks else "") for row in rows])
+    axes[0].set_ylim(max(places) + 0.8, -0.8)
+    for panel in axes:
+        panel.grid(axis="y", visible=False)
+        panel.tick_params(axis="y", length=0)
+        panel.spines["right"].set_visible(False)
+    _heading(figure, report)
+    return figure
+
+
+def _places(rows: tuple[Row, ...]) -> np.ndarray:
+    """Where each row stands, with room between the kinds."""
+    steps = [0.0] + [1.0 if before.subset.kind == row.subset.kind else 1.5 for before, row in zip(rows, rows[1:])]
+    return np.cumsum(steps)
+
+
+def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
+    centres = np.array([row.coordinates for row in rows])
+    contact = np.array([row.contact_rows for row in rows])
+    axes.barh(places, centres, color=PALETTE[0], label="centre coordinates", height=0.7)
+    axes.barh(places, contact, left=centres, color=PALETTE[4], label="contact rows", height=0.7)
+    for place, total in zip(places, centres + contact):
+        axes.text(total, place, f" {total:.0f}", **LABEL)
+    axes.set_xlim(0, 1.15 * (centres + contact).max())
+    axes.set_title("Unknowns")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), ncol=2, handlelength=1.2, columnspacing=1.0, fontsize=10.5)
+
+
+def _bars(axes: Axes, report: Report, places: np.ndarray, name: str, factor: float, title: str) -> None:
+    """One number of every row, with its change, and the bare and the full scene's as lines to compare with."""
+    rows = report.rows
+    values = np.array([getattr(row, name) for row in rows]) * factor
+    axes.barh(places, values, color=[COLOURS.get(row.subset.kind, GREY) for row in rows], height=0.7)
+    for kind, style in ((BARE, ":"), (ALL, "--")):
+        row = report.row(kind)
+        if row is not None:
+            axes.axvline(getattr(row, name) * factor, color=GREY, linestyle=style, linewidth=1.2, zorder=0.5)
+    ends = np.array([max(row.step_times) for row in rows]) * factor if name == "step_time" else values
+    for place, value, end, row in zip(places, values, ends, rows):
+        changed = change(report, row, name)
+        axes.text(end, place, f" {_number(value, values.max())}" + ("" if changed is None else f"  {in_percent(changed)}"), **LABEL)
+    axes.set_xlim(0, 1.6 * max(ends.max(), 1e-300))
+    axes.set_title(title)
+
+
+def _number(value: float, largest: float) -> str:
+    """A value with three digits or more; round-off beside the largest is zero."""
+    if abs(value) < 1e-9 * abs(largest):
+        return "0"
+    return f"{value:,.0f}" if value >= 1e3 else f"{value:.3g}"
+
+
+def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
+    least, most = (np.array([of(row.step_times) for row in rows]) * MICRO for of in (min, max))
+    axes.hlines(places, least, most, color=GREY, linewidth=1.6)
+
+
+def _heading(figure: Figure, report: Report) -> None:
+    title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
+    figure.suptitle(
+        f"What the effects cost and change: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False
+    )
+    entries = [f"green: {WORDS[ALONE]}", f"orange: {WORDS[LEFT_OUT]}", "dotted line: bare, dashed: all", "grey whiskers: fastest and slowest round"]
+    if any(row.remarks for row in report.rows):
+        entries.append("* with a remark, see effects.csv")
+    where = report.machine
+    figure.text(0.008, 0.008, f"{'; '.join(entries)}\n{where['processor']}; threads: {where['threads']}; {where['versions']}", fontsize=9.5, color=DARK)

@@ -1,0 +1,80 @@
+"""What the unknowns of two scenes lead one to expect of the times of their steps.
+
+An iteration of `contact.newton` sets up and solves one dense system of N = closed nodes + centre coordinates (a slipping node's
+tangential force is inserted, only a sticking one's is an unknown) and multiplies out the displacement of all m contact rows:
+
+    W = 2/3 N^3 + 2 N^2  (elimination, substitution)  +  N^2 + 2 c^2 with friction  (assembly)  +  2 m (l + k)  (displacement)
+
+with c closed nodes, l loaded rows (c, or 2 c with friction) and k centre coordinates. With friction a step multiplies out once the
+displacement that the material points had before, H = m (m + k). The arithmetic of a step of i iterations is i W + H.
+
+Small systems cost what their calls cost: a step takes a time of its own whatever its size, more of it with equations of motion and
+with friction. t = own + own of inertia + own of friction + (i W + H) / rate is fitted to the other subsets of the same run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class StepWork:
+    """Size of a scene's steps, all on the average: centre coordinates, contact rows, closed nodes, Newton iterations a step."""
+
+    coordinates: int
+    contact_rows: float
+    closed_nodes: float
+    iterations: float
+    inertia: bool
+    friction: bool
+
+    @property
+    def operations(self) -> float:
+        """Floating-point operations of a step."""
+        size, closed, rows = self.closed_nodes + self.coordinates, self.closed_nodes, self.contact_rows
+        solving = 2.0 / 3.0 * size**3 + 2.0 * size**2
+        assembling = size**2 + (2.0 * closed**2 if self.friction else 0.0)
+        loaded = 2.0 * closed if self.friction else closed
+        history = rows * (rows + self.coordinates) if self.friction else 0.0
+        return self.iterations * (solving + assembling + 2.0 * rows * (loaded + self.coordinates)) + history
+
+    @property
+    def terms(self) -> tuple[float, float, float, float]:
+        """What the constants of the model are multiplied by."""
+        return 1.0, float(self.inertia), float(self.friction), self.operations
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """Ratio of the times of two steps.
+
+    `arithmetic`: of their operations alone. `fitted`: with what a step takes whatever its size, None where too few subsets tell;
+    `small` and `large`: the two times that it consists of, s; `rate`: operations a second.
+    """
+
+    arithmetic: float
+    fitted: float | None = None
+    small: float | None = None
+    large: float | None = None
+    rate: float | None = None
+
+
+def expected_ratio(small: StepWork, large: StepWork, others: Sequence[tuple[StepWork, float]]) -> Expectation:
+    """Time of a `large` step by that of a `small` one; `others`: work and seconds of the steps that the constants are fitted to."""
+    arithmetic = large.operations / small.operations
+    terms = np.array([work.terms for work, _ in others]).reshape(len(others), 4)
+    asked = np.array([small.terms, large.terms])
+    # A term that neither of the two has needs no constant, and where the others do not tell it apart there is none.
+    used = np.flatnonzero(asked.any(axis=0))
+    if len(others) <= len(used) or np.linalg.matrix_rank(terms[:, used] / np.abs(terms[:, used]).max(axis=0).clip(1e-300)) < len(used):
+        return Expectation(arithmetic)
+    seconds = np.array([time for _, time in others])
+    # Relative errors count: each row is divided by its time.
+    constants = np.linalg.lstsq(terms[:, used] / seconds[:, None], np.ones(len(others)), rcond=None)[0]
+    times = asked[:, used] @ constants
+    if constants[-1] <= 0.0 or times.min() <= 0.0:
+        return Expectation(arithmetic)
+    return Expectation(arithmetic, float(times[1] / times[0]), float(times[0]), float(times[1]), float(1.0 / constants[-1]))

@@ -1,0 +1,47 @@
+"""Where a time was measured: processor, threads and the versions of what computes."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import platform
+from pathlib import Path
+
+import fenics_gears
+
+PACKAGES = ("numpy", "numba", "fenics-dolfinx", "petsc4py")
+
+
+def machine() -> dict[str, str]:
+    """Processor, threads, versions, in words."""
+    return {"processor": processor(), "threads": "1 in the march, " + threads() + " elsewhere", "versions": versions()}
+
+
+def processor() -> str:
+    """The processor's name and how many of it this process may use."""
+    name = platform.processor() or platform.machine()
+    description = Path("/proc/cpuinfo")
+    if description.is_file():
+        lines = (line.partition(":") for line in description.read_text(encoding="utf-8", errors="replace").splitlines())
+        name = next((value.strip() for label, _, value in lines if label.strip() == "model name"), name)
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return f"{name}, {usable} cores"
+
+
+def threads() -> str:
+    """Threads that BLAS may use."""
+    from threadpoolctl import threadpool_info
+
+    counts = [pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"]
+    return str(max(counts, default=1))
+
+
+def versions() -> str:
+    """Versions of this program, Python and the packages that compute."""
+    found = [f"fenics_gears {fenics_gears.__version__}", f"Python {platform.python_version()}"]
+    for package in PACKAGES:
+        try:
+            found.append(f"{package.removeprefix('fenics-')} {importlib.metadata.version(package)}")
+        except importlib.metadata.PackageNotFoundError:
+            continue
+    return ", ".join(found)

@@ -1,0 +1,128 @@
+"""Which subsets of a scene's effects are worth a run: none, each alone, all but each, all. Only those that make a valid scene."""
+
+from __future__ import annotations
+
+import functools
+import tomllib
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+from fenics_gears.effects import EFFECTS, effect, effects_on, without
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.rules import broken_rules
+from fenics_gears.scene.written import WrittenFloat
+
+NOTHING, BARE, ALONE, LEFT_OUT, ALL = "nothing", "bare", "alone", "left out", "all"
+# What all other effects act on: a scene that has it is bare with it and nothing else.
+BASE = "tooth_elasticity"
+# How many further effects may be added or left out to make a subset valid.
+MOST_FURTHER = 2
+
+Sections = frozenset[str]
+Valid = Callable[[Sections], str]
+
+
+@dataclass(frozen=True)
+class Subset:
+    """A scene with some of its effects: `kind` of subset, the `effect` in question ("" where there is none), the `sections` that
+    are on, and those `beside` the effect that had to come or go with it."""
+
+    kind: str
+    effect: str
+    sections: Sections
+    scene: Scene
+    beside: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What the subset is called in tables."""
+        changed = ", ".join([self.effect, *self.beside])
+        return {NOTHING: "rigid flanks, no effect", BARE: "bare", ALONE: f"+ {changed}", LEFT_OUT: f"all - {changed}", ALL: "all"}[self.kind]
+
+    @property
+    def note(self) -> str:
+        """Why further effects came or went; empty where none did."""
+        others = " and ".join(self.beside)
+        if not others:
+            return ""
+        return f"{self.effect} needs {others}" if self.kind == ALONE else f"{others} cannot stand without {self.effect}"
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """A subset that is no scene, and why."""
+
+    name: str
+    reason: str
+
+
+def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
+    """The subsets of a scene's effects that are run, and those that make no scene; no set of effects comes twice.
+
+    The scene must have been read from its text: the rules between sections are the text's.
+    """
+    every = frozenset(each.section for each in effects_on(scene))
+    base = every & {BASE}
+    problem = functools.cache(functools.partial(_problem, scene))
+    wanted = [(NOTHING, "", frozenset())] if base else []
+    wanted += [(BARE, "", base)]
+    wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in _in_order(every - base)]
+    wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in _in_order(every)]
+    wanted += [(ALL, "", every)]
+    return _without_repetition(scene, wanted, every, problem)
+
+
+def _without_repetition(scene: Scene, wanted, every: Sections, problem: Valid) -> tuple[list[Subset], list[Skipped]]:
+    """The valid ones among the wanted sets; where a set comes again, the plainest name stays: bare and all before the others."""
+    first = {sections: (kind, name) for kind, name, sections in reversed(wanted) if sections is not None}
+    first |= {sections: (kind, name) for kind, name, sections in wanted if kind in (NOTHING, BARE)}
+    first[every] = (ALL, "")
+    subsets, skipped = [], []
+    for kind, name, sections in wanted:
+        if sections is not None and not problem(sections):
+            if first[sections] == (kind, name):
+                left = every - sections
+                subsets.append(Subset(kind, name, sections, without(scene, *_in_order(left)), _beside(kind, name, sections, left)))
+            continue
+        asked = sections if sections is not None else every - {name} if kind == LEFT_OUT else every & {BASE, name}
+        skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
+    return subsets, skipped
+
+
+def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:
+    """What came or went with an effect."""
+    return tuple(_in_order({ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())))
+
+
+def smallest_valid(wanted: Sections, every: Sections, problem: Valid) -> Sections | None:
+    """The smallest valid set of effects that holds the `wanted` ones, among `every`; None where there is none near."""
+    closed = wanted
+    while missing := {need for each in closed for need in effect(each).needs if need in every} - closed:
+        closed = closed | missing
+    further = _in_order(every - closed)
+    candidates = (closed | set(added) for count in range(MOST_FURTHER + 1) for added in combinations(further, count))
+    return next((each for each in candidates if not problem(each)), None)
+
+
+def largest_valid(left: Sections, problem: Valid) -> Sections | None:
+    """The largest valid set of effects within those that are `left`; None where there is none near."""
+    while lost := {each for each in left if not set(effect(each).needs) <= left}:
+        left = left - lost
+    candidates = (left - set(gone) for count in range(MOST_FURTHER + 1) for gone in combinations(_in_order(left), count))
+    return next((each for each in candidates if not problem(each)), None)
+
+
+def _problem(scene: Scene, sections: Sections) -> str:
+    """What is wrong with the scene's text when only those effects are left in it; empty where nothing is."""
+    tree = tomllib.loads(scene.text, parse_float=WrittenFloat)
+    for each in EFFECTS:
+        if each.section not in sections:
+            *homes, name = each.within or (each.section,)
+            functools.reduce(lambda table, home: table.get(home, {}), homes, tree).pop(name, None)
+    return "; ".join(f"{'.'.join(problem.path)}: {problem.message}" for problem in broken_rules(tree))
+
+
+def _in_order(sections: Iterable[str]) -> list[str]:
+    """Sections in the order of the list of effects."""
+    return [each.section for each in EFFECTS if each.section in sections]

@@ -1,0 +1,125 @@
+"""A report as a table for people, in words, and as CSV."""
+
+from __future__ import annotations
+
+import csv
+import statistics
+from collections.abc import Sequence
+from pathlib import Path
+
+from fenics_gears.studies.effect_lattice.measured import Report, Row
+from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
+
+MICRO, MILLI = 1e6, 1e3
+HEADINGS = (
+    "effects", "unknowns", "closed nodes", "Newton a step", "time a step", "operators", "condensing", "T_EPP", "peak force", "",
+)  # fmt: skip
+UNITS = ("", "centre + contact", "mean (most)", "", "us", "s", "s", "um", "N", "remark")
+
+
+def table_rows(report: Report) -> list[tuple[str, ...]]:
+    """A row of cells for each subset; changes are against the bare scene for one effect more, against all for one less."""
+    numbers = {remark: place for place, remark in enumerate(remarks(report), 1)}
+    return [_cells(report, row, numbers) for row in report.rows]
+
+
+def _cells(report: Report, row: Row, numbers: dict[str, int]) -> tuple[str, ...]:
+    return (
+        row.subset.name,
+        f"{row.coordinates} + {row.contact_rows:.1f}",
+        f"{row.closed_nodes:.2f} ({row.most_closed_nodes})",
+        f"{row.iterations:.2f}",
+        f"{row.step_time * MICRO:.1f}",
+        f"{row.operators:.2f}",
+        f"{row.condense:.2f}" if row.elastic else "none",
+        _with_change(row.transmission_error * MILLI, report, row, "transmission_error", 3),
+        _with_change(row.peak_force, report, row, "peak_force", 0),
+        " ".join(f"[{numbers[remark]}]" for remark in row.remarks),
+    )
+
+
+def _with_change(value: float, report: Report, row: Row, name: str, digits: int) -> str:
+    changed = change(report, row, name)
+    return f"{value:.{digits}f}" + ("" if changed is None else f" ({in_percent(changed)})")
+
+
+def change(report: Report, row: Row, name: str) -> float | None:
+    """Relative change of "transmission_error", "peak_force" or "step_time" against what the row is compared with; None without that."""
+    reference = report.reference(row)
+    if reference is None or reference is row or not getattr(reference, name):
+        return None
+    return getattr(row, name) / getattr(reference, name) - 1.0
+
+
+def in_percent(changed: float) -> str:
+    """A relative change as people read it."""
+    return "same" if abs(changed) < 5e-4 else f"{changed:+.1%}" if abs(changed) < 0.1 else f"{changed:+.0%}"
+
+
+def remarks(report: Report) -> list[str]:
+    """Every remark once, in order."""
+    return list(dict.fromkeys(remark for row in report.rows for remark in row.remarks))
+
+
+def ratio_in_words(report: Report) -> list[tuple[str, str, str]]:
+    """Rows of label, value, unit: bare against full scene, measured and expected."""
+    bare, full = report.row(BARE), report.row(ALL)
+    if report.expected is None:
+        return []
+    low, high = min(report.ratios), max(report.ratios)
+    expected = report.expected
+    rows = [
+        ("unknowns", f"{bare.unknowns:.1f} and {full.unknowns:.1f}, ratio {full.unknowns / bare.unknowns:.2f}", ""),
+        ("time a step", f"{bare.step_time * MICRO:.1f} and {full.step_time * MICRO:.1f}", "us"),
+        ("ratio measured", f"{statistics.median(report.ratios):.2f}, {low:.2f} to {high:.2f} in {len(report.ratios)} rounds", ""),
+        ("ratio expected of the arithmetic alone", f"{expected.arithmetic:.2f}, as if a step were nothing else", ""),
+    ]
+    if expected.fitted is not None:
+        words = f"{expected.fitted:.2f} ({expected.small * MICRO:.1f} and {expected.large * MICRO:.1f} us, fitted to the other rows)"
+        rows.append(("ratio expected with the own time of a step", words, ""))
+    return rows
+
+
+def needs_in_words(report: Report) -> list[tuple[str, str, str]]:
+    """Rows of label, value, unit: what leaving an effect out changes and saves, the largest change of either answer first."""
+    found = []
+    for row in report.rows:
+        if row.subset.kind != LEFT_OUT:
+            continue
+        error, force, time = (change(report, row, name) for name in ("transmission_error", "peak_force", "step_time"))
+        if None in (error, force, time):
+            continue
+        words = f"T_EPP {in_percent(error)}, peak force {in_percent(force)}, time a step {in_percent(time)}"
+        label = f"without {' and '.join([row.subset.effect, *row.subset.beside])}"
+        found.append((max(abs(error), abs(force)), (label, words, "")))
+    return [words for _, words in sorted(found, key=lambda each: -each[0])]
+
+
+CSV_COLUMNS = (
+    "effects", "sections", "centre_coordinates", "contact_rows", "closed_nodes_mean", "closed_nodes_max", "newton_iterations_per_step",
+    "operations_per_step", "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
+    "transmission_error_peak_to_peak_mm", "peak_force_N", "change_of_transmission_error", "change_of_peak_force", "compared_with",
+    "remarks", "processor", "threads", "versions",
+)  # fmt: skip
+
+
+def write_csv(report: Report, file: Path) -> None:
+    """All numbers of a report, a line for each subset and each one that was skipped; changes are relative."""
+    with open(file, "w", encoding="utf-8", newline="") as opened:
+        writer = csv.writer(opened)
+        writer.writerow(CSV_COLUMNS)
+        for row in report.rows:
+            writer.writerow([*_values(report, row), *report.machine.values()])
+        for each in report.skipped:
+            writer.writerow([each.name, *[""] * 17, f"skipped: {each.reason}", *report.machine.values()])
+
+
+def _values(report: Report, row: Row) -> Sequence:
+    reference = report.reference(row)
+    changes = [change(report, row, name) for name in ("transmission_error", "peak_force")]
+    return [
+        row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes, row.most_closed_nodes,
+        row.iterations, row.work.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators, row.condense,
+        row.transmission_error, row.peak_force, *["" if each is None else each for each in changes],
+        "" if reference is None or row.subset.kind not in (ALONE, LEFT_OUT) else reference.subset.name, "; ".join(row.remarks),
+    ]  # fmt: skip
