@@ -1,0 +1,132 @@
+"""What deviations of single teeth add to the gaps of the contact nodes, step by step.
+
+The gap of a node is linear in the deviations of the two teeth that meet there. What multiplies them depends on the position in the mesh
+cycle alone and is kept; a step then picks the teeth that it finds there. Where displacements are averaged over a node's hat
+function, so are deviations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.interpolation import hat_average, quadrature_offsets
+from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
+from fenics_gears.effects.flank_errors import FlankErrors
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
+from fenics_gears.geometry.involute import roll_angle_at_height
+from fenics_gears.geometry.pair import GearPair
+
+# A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the pinion's.
+SENSES = (1.0, -1.0)
+FEWEST_STEPS_A_WAVE = 2
+
+
+@dataclass(frozen=True)
+class _Nodes:
+    """The contact nodes of one pair at a position: where they stand among all; for either gear its tooth's index and the gap (n, m)
+    that a unit of each of its deviations makes."""
+
+    nodes: slice
+    teeth: tuple[int, int]
+    shapes: tuple[np.ndarray, np.ndarray]
+
+
+class FlankGaps:
+    """Gaps (n,), mm, that deviations of the teeth add at a step and its position; `steps` of a mesh cycle."""
+
+    def __init__(self, pair: GearPair, deviations: tuple[FlankDeviations, FlankDeviations], steps: int):
+        self._pair, self._deviations, self._steps = pair, deviations, steps
+        gears = (pair.pinion, pair.wheel)
+        self._amounts = tuple(_amounts(own, gear.angular_pitch, sense) for own, gear, sense in zip(deviations, gears, SENSES))
+        self._teeth = tuple(gear.teeth for gear in gears)
+        self._kept: dict[int, list[_Nodes]] = {}
+
+    def __call__(self, step: float, position: Position) -> np.ndarray:
+        """The additional gaps (n,), mm, positive when they open."""
+        cycle, index = divmod(step, self._steps)
+        gap = np.empty(position.operator.nodes)
+        first, second = self._amounts
+        for each in self._nodes(index, position):
+            # Tooth 0 is the one that reaches the start of contact at the beginning of cycle 0.
+            one, two = (int(cycle - tooth) % teeth for tooth, teeth in zip(each.teeth, self._teeth))
+            shapes_1, shapes_2 = each.shapes
+            gap[each.nodes] = shapes_1 @ first[one, : shapes_1.shape[1]] + shapes_2 @ second[two, : shapes_2.shape[1]]
+        return gap
+
+    def _nodes(self, index: float, position: Position) -> list[_Nodes]:
+        if index in self._kept:
+            return self._kept[index]
+        found, start = [], 0
+        arms = position.operator.normal_arms
+        for pair in position.operator.pairs:
+            nodes = slice(start, start + len(pair.offsets))
+            start = nodes.stop
+            own_arms = float(arms[0][nodes.start]), float(arms[1][nodes.start])
+            found.append(_Nodes(nodes, pair.place.teeth, tuple(self._shapes(gear, pair, own_arms[gear]) for gear in range(2))))
+        if index == int(index):
+            self._kept[index] = found
+        return found
+
+    def _shapes(self, gear: int, pair: PairNodes, arm: float) -> np.ndarray:
+        """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form and both parts of the waviness.
+
+        Profiles of coast flanks are true; but a tooth out of place has both its flanks there.
+        """
+        own, body = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear]
+        displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
+        if pair.place.flank != DRIVE:
+            return displaced[:, None]
+
+        def at(offsets):
+            return roll_angle_at_height(body.base_radius, pair.place.contact_rolls[gear], arm - SENSES[gear] * offsets)
+
+        excess = profile_shapes(own, at, pair)
+        return np.stack([displaced, *(-each for each in excess)], axis=1)
+
+
+def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes) -> list[np.ndarray]:
+    """Excess of material (n,) at a pair's nodes for a unit of slope, form, and of the cosine and the sine of the waviness.
+
+    `roll_at`: roll angle (rad) at offsets (mm, any shape).
+    """
+    start, end = deviations.active_profile
+    # Nodes that average displacements over their hats average the flank as well.
+    averaged = isinstance(pair, ToothPair)
+    roll = roll_at(quadrature_offsets(pair.offsets) if averaged else pair.offsets)
+    along = (roll - start) / (end - start)
+    shapes = [along - 0.5, -0.5 * np.cos(2.0 * np.pi * along)]
+    if deviations.waviness is not None:
+        waves = deviations.waviness.waves * roll
+        shapes += [np.cos(waves), -np.sin(waves)]
+    return [hat_average(pair.offsets, each) for each in shapes] if averaged else shapes
+
+
+def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) -> np.ndarray:
+    """The deviations of each tooth (z, m), mm, in the order of the shapes.
+
+    Waves go on from tooth to tooth: the pinion's line of action meets roll angle v of tooth i when the gear has turned by v + i times
+    the angular pitch; on the wheel, where roll angles fall, by the latter less v.
+    """
+    columns = [deviations.index, deviations.slope, deviations.form]
+    if deviations.waviness is not None:
+        waves = deviations.waviness
+        phase = waves.phase + sense * waves.waves * angular_pitch * np.arange(len(deviations.index))
+        columns += [waves.amplitude * np.cos(phase), waves.amplitude * np.sin(phase)]
+    return np.ascontiguousarray(np.stack(columns, axis=1))
+
+
+def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int) -> FlankGaps:
+    """The gaps that flank errors add, in a run of so many steps a mesh cycle. Raises SceneError for waves that the steps do not sample."""
+    deviations = flank_deviations(errors, pair)
+    for own, gear, name in zip(deviations, (pair.pinion, pair.wheel), ("pinion", "wheel")):
+        waves = 0 if own.waviness is None else own.waviness.waves
+        if waves * FEWEST_STEPS_A_WAVE > steps * gear.teeth:
+            raise SceneError(
+                f"flank_errors.{name}.waviness.waves = {waves}: a turn of the {name} has {steps * gear.teeth} steps, fewer than "
+                f"{FEWEST_STEPS_A_WAVE} a wave; raise accuracy.steps_per_mesh_cycle to {-(-FEWEST_STEPS_A_WAVE * waves // gear.teeth)} or more"
+            )
+    return FlankGaps(pair, deviations, steps)

@@ -1,0 +1,57 @@
+"""What eccentric gears add to the gaps: base circles that are carried around their axes.
+
+A gear whose base circle is displaced by c stays an involute gear: to first order in c its flanks move by c along their normal, the
+direction of the line of action on which they touch. Coast flanks have their own line of action, and lose what drive flanks gain
+only where both directions are opposite. What c changes of the pressure angle is of second order and left out.
+"""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+
+from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.operator import per_node
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
+from fenics_gears.geometry.pair import GearPair
+
+
+class RunOut:
+    """Gaps (n,), mm, that eccentricity adds at a step and its position; `steps` of a mesh cycle."""
+
+    def __init__(self, pair: GearPair, eccentricity: Eccentricity, steps: int):
+        self._steps = steps
+        # The pinion turns counter-clockwise, the wheel clockwise.
+        self._offsets = [
+            (offset, sense, gear.teeth)
+            for offset, sense, gear in ((eccentricity.pinion, 1.0, pair.pinion), (eccentricity.wheel, -1.0, pair.wheel))
+            if offset is not None
+        ]
+        self._normals: dict[int, np.ndarray] = {}
+
+    def __call__(self, step: float, position: Position) -> np.ndarray:
+        """The additional gaps (n,), mm, positive when they open."""
+        across, along = 0.0, 0.0
+        for offset, sense, teeth in self._offsets:
+            x, y = displacement(offset, sense, 2.0 * pi * step / (self._steps * teeth))
+            # What brings the pinion nearer along the normal closes, what takes the wheel away opens.
+            along, across = along - sense * x, across - sense * y
+        normals = self._normals_at(step % self._steps, position)
+        return normals[:, 0] * along + normals[:, 1] * across
+
+    def _normals_at(self, index: float, position: Position) -> np.ndarray:
+        """Direction (n, 2) of each node's line of action in space, from pinion to wheel."""
+        if index in self._normals:
+            return self._normals[index]
+        pairs = position.operator.pairs
+        normals = per_node(pairs, np.array([pair.place.axes[0] for pair in pairs]).reshape(len(pairs), 2))
+        if index == int(index):
+            self._normals[index] = normals
+        return normals
+
+
+def displacement(offset: Offset, sense: float, turned: float) -> tuple[float, float]:
+    """Where a base circle's centre lies from its axis (x along the line of action, y across it), mm, when the gear has turned (rad)."""
+    angle = sense * (turned + offset.phase)
+    return offset.distance * cos(angle), offset.distance * sin(angle)

@@ -1,0 +1,79 @@
+"""``[eccentricity]``: run-out of either gear (``contact.run_out``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Optional
+
+from fenics_gears.effects.effect import Effect
+from fenics_gears.scene.fields import Section, quantity
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, table
+
+
+@dataclass(frozen=True)
+class Offset:
+    """Where the centre of a gear's base circle lies from its axis of rotation: distance, mm, and phase, rad.
+
+    The phase is the angle from the line of action's direction, pinion to wheel, at the start of the first mesh cycle, counted in
+    the gear's own sense of rotation.
+    """
+
+    distance: float
+    phase: float
+
+
+@dataclass(frozen=True)
+class Eccentricity:
+    """Run-out of the pair; a gear that runs true has None."""
+
+    pinion: Offset | None
+    wheel: Offset | None
+
+
+class OffsetText(Section):
+    """``[eccentricity.pinion]`` and ``[eccentricity.wheel]``."""
+
+    distance: float = quantity("1e-6 um", "100 mm", "10 um", below="For a gear that runs true, leave its section out.")
+    phase: Optional[float] = quantity("-360 deg", "360 deg", "90 deg", optional=True)
+
+
+class EccentricityText(Section):
+    """``[eccentricity]``: a section for either gear or both."""
+
+    pinion: Optional[OffsetText] = None
+    wheel: Optional[OffsetText] = None
+
+
+def read(text: EccentricityText) -> Eccentricity:
+    """The data of a validated section; the phase is zero unless given."""
+    return Eccentricity(*(each and Offset(each.distance, each.phase or 0.0) for each in (text.pinion, text.wheel)))
+
+
+def some_gear_has_one(tree: Tree) -> Iterator[Problem]:
+    """A section without a gear says nothing."""
+    section = table(tree, "eccentricity")
+    if section is not None and not section:
+        message = "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the section out."
+        yield Problem(("eccentricity",), "", message)
+
+
+def gaps(eccentricity: Eccentricity, model):
+    """What the displaced base circles add to the gaps."""
+    from fenics_gears.contact.run_out import RunOut
+
+    return RunOut(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
+
+
+EFFECT = Effect(
+    section="eccentricity",
+    description="run-out of either gear",
+    absent="gears run true",
+    text=EccentricityText,
+    data=Eccentricity,
+    terms=("gaps that change once a turn of the gear",),
+    read=read,
+    rules=some_gear_has_one,
+    gaps=gaps,
+)

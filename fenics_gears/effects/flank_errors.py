@@ -1,0 +1,198 @@
+"""``[flank_errors]``: pitch, profile and waviness deviations of single teeth (``geometry.flank_deviations``, ``contact.flank_gaps``).
+
+Signs are those of ISO 1328-1. A pitch deviation is positive where the pitch is too long; a profile slope where the flank has material
+in excess towards the tip; a profile form, which the standard gives no sign, where the middle of the flank stands out. Teeth are counted
+in the order in which they mesh, from the tooth of either gear that meshes first; a pitch is that from the tooth before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Optional
+
+from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.scene.fields import Section, quantities, quantity, whole_number
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, quantity_in, table
+from fenics_gears.scene.written import as_written
+
+GEARS = ("pinion", "wheel")
+LISTS = ("pitch", "profile_slope", "profile_form")
+# Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
+PITCH_ROUNDING = 0.05e-3
+# Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
+DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
+
+
+@dataclass(frozen=True)
+class Waviness:
+    """Undulation of all flanks of a gear, ``amplitude`` mm, ``waves`` a turn, ``phase`` in rad."""
+
+    amplitude: float
+    waves: int
+    phase: float
+
+
+@dataclass(frozen=True)
+class GearErrors:
+    """What is given of one gear's errors, mm, a value for each tooth; None for what is not given."""
+
+    pitch: tuple[float, ...] | None = None
+    profile_slope: tuple[float, ...] | None = None
+    profile_form: tuple[float, ...] | None = None
+    waviness: Waviness | None = None
+
+
+@dataclass(frozen=True)
+class FlankErrors:
+    """Errors of both gears' drive flanks; what is not given is drawn within a flank tolerance class, zero without one."""
+
+    pinion: GearErrors = GearErrors()
+    wheel: GearErrors = GearErrors()
+    tolerance_class: int | None = None
+    seed: int = 1
+
+
+class WavinessText(Section):
+    """``[flank_errors.pinion.waviness]`` and the wheel's."""
+
+    amplitude: float = quantity("1e-6 um", "100 mm", "1 um", below="For flanks without waviness, leave the section out.")
+    waves: int = whole_number(1, 1_000_000, 37)
+    phase: Optional[float] = quantity("-360 deg", "360 deg", "90 deg", optional=True)
+
+
+class GearErrorsText(Section):
+    """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: lists with a value for each tooth."""
+
+    pitch: Optional[tuple[float, ...]] = quantities("-100 mm", "100 mm", "3.5 um")
+    profile_slope: Optional[tuple[float, ...]] = quantities("-100 mm", "100 mm", "4 um")
+    profile_form: Optional[tuple[float, ...]] = quantities("-100 mm", "100 mm", "3 um")
+    waviness: Optional[WavinessText] = None
+
+
+class FlankErrorsText(Section):
+    """``[flank_errors]``: the class within which is drawn what is not given, and the seed of the drawing (1 unless given)."""
+
+    tolerance_class: Optional[int] = whole_number(1, 11, 6, optional=True)
+    seed: Optional[int] = whole_number(0, 2**31 - 1, 1, optional=True)
+    pinion: Optional[GearErrorsText] = None
+    wheel: Optional[GearErrorsText] = None
+
+
+def read(text: FlankErrorsText) -> FlankErrors:
+    """The data of a validated section."""
+    seed = 1 if text.seed is None else text.seed
+    return FlankErrors(_gear_errors(text.pinion), _gear_errors(text.wheel), text.tolerance_class, seed)
+
+
+def _gear_errors(text: GearErrorsText | None) -> GearErrors:
+    if text is None:
+        return GearErrors()
+    waves = text.waviness
+    waviness = None if waves is None else Waviness(waves.amplitude, waves.waves, waves.phase or 0.0)
+    return GearErrors(text.pitch, text.profile_slope, text.profile_form, waviness)
+
+
+def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
+    """There are errors; lists have a value for each tooth; pitches close over a turn; the tolerance class is for gears of this size."""
+    errors = table(tree, "flank_errors")
+    if errors is None:
+        return
+    if "seed" in errors and "tolerance_class" not in errors:
+        message = "draws nothing without a tolerance_class. Add one, or leave the seed out."
+        yield Problem(("flank_errors", "seed"), as_written(errors["seed"]), message)
+    if "tolerance_class" in errors:
+        yield from _class_is_for_the_gears(tree, errors)
+    elif not any(table(errors, gear) for gear in GEARS):
+        message = "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list. For true flanks, leave the section out."
+        yield Problem(("flank_errors",), "", message)
+    for gear in GEARS:
+        yield from _lists_fit_the_teeth(table(errors, gear) or {}, _teeth(tree, gear), gear)
+
+
+def _teeth(tree: Tree, gear: str) -> int | None:
+    teeth = (table(table(tree, "gears") or {}, gear) or {}).get("teeth")
+    return teeth if type(teeth) is int else None
+
+
+def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Iterator[Problem]:
+    for name in LISTS:
+        values = errors.get(name)
+        if not isinstance(values, list) or teeth is None or not values:
+            continue
+        path = ("flank_errors", gear, name)
+        if len(values) != teeth:
+            message = f"has {len(values)} values, but the {gear} has {teeth} teeth. Allowed: a value for each tooth."
+            yield Problem(path, as_written(values), message)
+        elif name == "pitch":
+            yield from _pitches_close(values, path)
+
+
+def _pitches_close(values: list, path: tuple[str, ...]) -> Iterator[Problem]:
+    """The single pitch deviations of a whole turn sum to zero; the last tooth would not meet the first otherwise."""
+    numbers = [quantity_in(value) for value in values]
+    if None in numbers:
+        return
+    total = sum(numbers)
+    if not abs(total) <= PITCH_ROUNDING * len(numbers):
+        message = f"sums to {1e3 * total:.4g} um over the whole turn. Allowed: pitch deviations that sum to zero, rounding to 0.1 um apart."
+        yield Problem(path, as_written(values), message)
+
+
+def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
+    module = quantity_in((table(tree, "gears") or {}).get("module"))
+    path, written = ("flank_errors", "tolerance_class"), as_written(errors["tolerance_class"])
+    if module is None:
+        return
+    if not MODULES[0] <= module <= MODULES[1]:
+        message = f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists of errors instead."
+        yield Problem(path, written, message)
+    for gear in GEARS:
+        diameter = module * (_teeth(tree, gear) or 100)
+        if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
+            message = f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of errors instead."
+            yield Problem(path, written, message)
+
+
+def gaps(errors: FlankErrors, model):
+    """What the errors of the teeth that meet add to the gaps."""
+    from fenics_gears.contact.flank_gaps import flank_gaps
+
+    return flank_gaps(errors, model.pair, model.resolution.steps_per_mesh_cycle)
+
+
+def results(errors: FlankErrors, scene, cycle, records) -> dict[str, Any]:
+    """The deviations of every tooth, given and drawn."""
+    from fenics_gears.geometry.flank_deviations import flank_deviations
+
+    values = {}
+    for gear, found in zip(GEARS, flank_deviations(errors, cycle.pair)):
+        dimension = (f"{gear}_tooth",)
+        values[f"{gear}_index_deviation"] = dimension, found.index
+        values[f"{gear}_profile_slope"] = dimension, found.slope
+        values[f"{gear}_profile_form"] = dimension, found.form
+    return values
+
+
+EFFECT = Effect(
+    section="flank_errors",
+    description="pitch, profile and waviness deviations of single teeth, given or drawn from a flank tolerance class",
+    absent="all teeth alike and where they should be",
+    text=FlankErrorsText,
+    data=FlankErrors,
+    terms=("gaps that differ from tooth to tooth, over a hunting tooth period",),
+    variables=tuple(
+        ResultVariable(f"{gear}_{name}", "mm", f"{words} of each tooth of the {gear}")
+        for gear in GEARS
+        for name, words in (
+            ("index_deviation", "cumulative pitch deviation"),
+            ("profile_slope", "profile slope deviation"),
+            ("profile_form", "profile form deviation"),
+        )
+    ),
+    read=read,
+    rules=errors_fit_the_gears,
+    gaps=gaps,
+    results=results,
+)

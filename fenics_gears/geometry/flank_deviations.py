@@ -1,0 +1,86 @@
+"""Deviations of every tooth of a gear: as a scene gives them, or drawn within a flank tolerance class.
+
+A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part, from the start of
+active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value from one end to the
+other, form is one wave over that length, as wide as its value.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.effects.flank_errors import FlankErrors, GearErrors, Waviness
+from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.pair import GearPair
+
+PITCH, SLOPE, FORM = range(3)  # each drawn by itself, so that giving one of them leaves the others as they are
+
+
+@dataclass(frozen=True)
+class FlankDeviations:
+    """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
+
+    ``index``: cumulative pitch deviation, how much later than it should a tooth arrives, on the reference circle; zero for the last
+    tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in the middle over that at
+    both ends. ``active_profile``: roll angles (rad) of its start and its end.
+    """
+
+    index: np.ndarray
+    slope: np.ndarray
+    form: np.ndarray
+    waviness: Waviness | None
+    active_profile: tuple[float, float]
+
+    @property
+    def single_pitch(self) -> np.ndarray:
+        """Deviation (z,), mm, of the pitch from the tooth before to each tooth."""
+        return np.diff(self.index, prepend=self.index[-1])
+
+
+def flank_deviations(errors: FlankErrors, pair: GearPair) -> tuple[FlankDeviations, FlankDeviations]:
+    """Deviations of pinion and wheel."""
+    starts = pair.pinion_sap_roll_angle, pair.wheel_sap_roll_angle
+    gears = (pair.pinion, errors.pinion), (pair.wheel, errors.wheel)
+    return tuple(_of_gear(gear, own, errors, number, starts[number]) for number, (gear, own) in enumerate(gears))
+
+
+def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, start: float) -> FlankDeviations:
+    tolerance = None
+    if errors.tolerance_class is not None:
+        tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.module, errors.tolerance_class)
+
+    def dice(kind: int) -> np.ndarray:
+        return np.random.default_rng((errors.seed, number, kind)).uniform(-1.0, 1.0, gear.teeth)
+
+    def values(given: tuple[float, ...] | None, drawn) -> np.ndarray:
+        if given is not None:
+            return np.array(given, dtype=float)
+        return np.zeros(gear.teeth) if tolerance is None else drawn(tolerance)
+
+    pitch = values(own.pitch, lambda limits: drawn_pitch(limits, dice(PITCH)))
+    return FlankDeviations(
+        # What rounding has left of the sum is shared out: the last tooth meets the first.
+        index=_closed(np.cumsum(pitch - pitch.mean())),
+        slope=values(own.profile_slope, lambda limits: limits.profile_slope * dice(SLOPE)),
+        form=values(own.profile_form, lambda limits: limits.profile_form * dice(FORM)),
+        waviness=own.waviness,
+        active_profile=(start, gear.tip_roll_angle),
+    )
+
+
+def drawn_pitch(limits: FlankTolerance, dice: np.ndarray) -> np.ndarray:
+    """Single pitch deviations (z,), mm, of a gear just within its class: the single or the cumulative one reaches its tolerance.
+
+    ``dice`` (z,): numbers between -1 and 1.
+    """
+    pitch = dice - dice.mean()
+    cumulative = np.ptp(np.cumsum(pitch))
+    return pitch * min(limits.single_pitch / np.abs(pitch).max(), limits.cumulative_pitch / cumulative)
+
+
+def _closed(index: np.ndarray) -> np.ndarray:
+    """The cumulative deviation with its last value, zero but for round-off, taken away."""
+    return index - index[-1]
