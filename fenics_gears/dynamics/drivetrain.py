@@ -82,15 +82,17 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
         _add_torsion(stiffness, names, scene.shafts.torsional_stiffness)
     if scene.inertia is not None:
         mass = _mass(names, scene.inertia)
-    load = np.zeros(len(names))
-    # The couple turns the output shaft's end, which moves with the wheel and with the twist.
-    load[[names.index(name) for name in ("rotation_2", "shaft_twist") if name in names]] = scene.load.wheel_torque
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
     damping = None
     if scene.damping is not None and mass is not None:
         damping = scene.damping.stiffness_proportional * stiffness + scene.damping.mass_proportional * mass
-    return Drivetrain(names, radii, stiffness, load / radii, mass, damping)
+    return Drivetrain(names, radii, stiffness, of_couple(names, radii, scene.load.wheel_torque), mass, damping)
+
+
+def of_couple(names: tuple[str, ...], radii: np.ndarray, couple: float) -> np.ndarray:
+    """Forces (k,), N, of a couple (N mm) on the output shaft's end, which moves with the wheel and with the twist."""
+    return np.array([couple if name in ("rotation_2", "shaft_twist") else 0.0 for name in names]) / radii
 
 
 def _moving_coordinates(scene: Scene) -> tuple[str, ...]:

@@ -9,7 +9,21 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 
-from fenics_gears.effects import bearings, coast_flanks, damping, friction, inertia, root_relief, shafts, tip_relief, tooth_elasticity
+from fenics_gears.effects import (
+    bearings,
+    coast_flanks,
+    damping,
+    eccentricity,
+    flank_errors,
+    friction,
+    inertia,
+    root_relief,
+    shafts,
+    speed_ramp,
+    tip_relief,
+    tooth_elasticity,
+    torque_ripple,
+)
 from fenics_gears.effects.effect import Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
@@ -21,7 +35,11 @@ EFFECTS: tuple[Effect, ...] = (
     friction.EFFECT,
     tip_relief.EFFECT,
     root_relief.EFFECT,
+    flank_errors.EFFECT,
+    eccentricity.EFFECT,
     coast_flanks.EFFECT,
+    torque_ripple.EFFECT,
+    speed_ramp.EFFECT,
 )
 
 # What every run has, whatever its effects.

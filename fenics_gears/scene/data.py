@@ -78,7 +78,8 @@ class _AlwaysThere:
     @property
     def mesh_frequencies(self) -> tuple[float, float]:
         """The lowest and the highest mesh frequency of the run, Hz."""
-        return self.motion.mesh_frequency, self.motion.mesh_frequency
+        ends = [self.motion.mesh_frequency] + ([self.speed_ramp.end_frequency] if self.speed_ramp is not None else [])
+        return min(ends), max(ends)
 
     @property
     def tooth_elasticity(self) -> Material | None:

@@ -1,0 +1,74 @@
+"""A mesh frequency that changes linearly in time: the time of each step, and the inertia forces of the nominal motion.
+
+Steps stand at equal phases n = step / steps_per_mesh_cycle. With f' constant, n = (f^2 - f_0^2)/(2 f'): the square of the frequency
+is linear in the phase, and from one phase to another passes the time 2 (n_1 - n_0)/(f_0 + f_1).
+
+The frame of the nominal motion turns with the gears. Where it accelerates, every mass in it feels the force -M X'' of the nominal
+motion X: on arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing for the twist of a shaft.
+Damping is that of the motion relative to the nominal one, as at a steady speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+
+from fenics_gears.dynamics.drivetrain import Drivetrain
+
+
+@dataclass(frozen=True)
+class RampClock:
+    """Mesh frequency `start` (Hz) up to step `held`, then linear in time to `end` at step `last`; steady before and after."""
+
+    start: float
+    end: float
+    held: int
+    last: int
+    steps_per_mesh_cycle: int
+
+    @property
+    def acceleration(self) -> float:
+        """Change of the mesh frequency during the ramp, Hz/s."""
+        cycles = (self.last - self.held) / self.steps_per_mesh_cycle
+        return (self.end - self.start) * (self.end + self.start) / (2.0 * cycles)
+
+    def mesh_frequency(self, step: float) -> float:
+        """Mesh frequency at a step, Hz."""
+        part = min(max((step - self.held) / (self.last - self.held), 0.0), 1.0)
+        return sqrt((1.0 - part) * self.start**2 + part * self.end**2)
+
+    def time(self, step: float) -> float:
+        """Time of a step, s."""
+        return self.duration(0, step) if step >= 0 else -self.duration(step, 0)
+
+    def duration(self, first: float, last: float) -> float:
+        """Time from one step to a later one, s."""
+        ends = [first, *(end for end in (self.held, self.last) if first < end < last), last]
+        passed = 0.0
+        for begin, end in zip(ends[:-1], ends[1:]):
+            passed += 2.0 * (end - begin) / (self.steps_per_mesh_cycle * (self.mesh_frequency(begin) + self.mesh_frequency(end)))
+        return passed
+
+    def acceleration_at(self, step: float) -> float:
+        """Change of the mesh frequency at a step, Hz/s; where a ramp begins after steady cycles half of it, the mean of both sides.
+
+        A ramp that begins with the run has been going on before.
+        """
+        if step == self.held and self.held > 0:
+            return 0.5 * self.acceleration
+        return self.acceleration if self.held == 0 or step > self.held else 0.0
+
+
+def inertia_forces(clock: RampClock, drivetrain: Drivetrain, wheel_teeth: int) -> Callable[[float], np.ndarray]:
+    """Forces (k,), N, of the accelerating nominal motion at a step."""
+    base_pitch = 2.0 * pi * drivetrain.radii[drivetrain.coordinates.index("rotation_2")] / wheel_teeth
+    nominal = np.array([{"rotation_1": base_pitch, "rotation_2": -base_pitch}.get(name, 0.0) for name in drivetrain.coordinates])
+    unit = -drivetrain.mass @ nominal
+
+    def load(step: float) -> np.ndarray:
+        return unit * clock.acceleration_at(step)
+
+    return load

@@ -1,0 +1,92 @@
+"""``[speed_ramp]``: a mesh frequency that rises or falls during the run (``dynamics.speed_ramp``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Optional
+
+from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.scene.fields import Section, quantity, whole_number
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, quantity_in, table
+from fenics_gears.scene.written import as_written
+
+
+@dataclass(frozen=True)
+class SpeedRamp:
+    """Mesh frequency (Hz) at the end of the run, reached linearly in time after `hold_cycles` mesh cycles at that of the motion."""
+
+    end_frequency: float
+    hold_cycles: int = 0
+
+
+class SpeedRampText(Section):
+    """``[speed_ramp]``."""
+
+    end_frequency: float = quantity("1e-6 Hz", "1e6 Hz", "260 Hz")
+    hold_cycles: Optional[int] = whole_number(0, 1_000_000, 20, optional=True)
+
+
+def read(text: SpeedRampText) -> SpeedRamp:
+    """The ramp begins at once unless the section says otherwise."""
+    return SpeedRamp(text.end_frequency, text.hold_cycles or 0)
+
+
+def speed_changes(tree: Tree) -> Iterator[Problem]:
+    """A ramp leads to another frequency, and leaves time for it."""
+    ramp, motion = table(tree, "speed_ramp"), table(tree, "motion") or {}
+    if ramp is None:
+        return
+    start, end = quantity_in(motion.get("mesh_frequency")), quantity_in(ramp.get("end_frequency"))
+    if start is not None and start == end:
+        message = "is the frequency at the start, motion.mesh_frequency. For a steady speed, leave the section [speed_ramp] out. Allowed: any other."
+        yield Problem(("speed_ramp", "end_frequency"), as_written(ramp["end_frequency"]), message)
+    held, run = ramp.get("hold_cycles"), motion.get("mesh_cycles")
+    if type(held) is int and type(run) is int and held >= run > 0:
+        message = f"leaves no cycle of motion.mesh_cycles = {as_written(run)} for the ramp. Allowed: fewer than are run."
+        yield Problem(("speed_ramp", "hold_cycles"), as_written(held), message)
+
+
+def clock(ramp: SpeedRamp, model):
+    """When a step is."""
+    return _clock(ramp, model.scene, model.resolution.steps_per_mesh_cycle)
+
+
+def load(ramp: SpeedRamp, model):
+    """Inertia forces of the nominal motion."""
+    from fenics_gears.dynamics.speed_ramp import inertia_forces
+
+    return inertia_forces(clock(ramp, model), model.drivetrain, model.scene.gears.wheel.teeth)
+
+
+def results(ramp: SpeedRamp, scene, cycle, records) -> dict:
+    """The mesh frequency (time,), Hz."""
+    import numpy as np
+
+    ramped = _clock(ramp, scene, cycle.steps)
+    return {"mesh_frequency": (("time",), np.array([ramped.mesh_frequency(record.step) for record in records]))}
+
+
+def _clock(ramp: SpeedRamp, scene, steps_per_mesh_cycle: int):
+    from fenics_gears.dynamics.speed_ramp import RampClock
+
+    held, steps = ramp.hold_cycles * steps_per_mesh_cycle, scene.motion.mesh_cycles * steps_per_mesh_cycle
+    return RampClock(scene.motion.mesh_frequency, ramp.end_frequency, held, steps, steps_per_mesh_cycle)
+
+
+EFFECT = Effect(
+    section="speed_ramp",
+    description="mesh frequency that rises or falls linearly in time",
+    absent="constant speed",
+    text=SpeedRampText,
+    data=SpeedRamp,
+    terms=("inertia forces of the accelerating nominal motion", "time steps at equal phases, not at equal times"),
+    variables=(ResultVariable("mesh_frequency", "Hz", "mesh frequency"),),
+    needs=("inertia",),
+    read=read,
+    rules=speed_changes,
+    load=load,
+    clock=clock,
+    results=results,
+)

@@ -1,0 +1,152 @@
+"""``[torque_ripple]``: harmonics of the wheel shaft's turn on the couple (``dynamics.torque_ripple``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import isfinite, pi
+from typing import Any
+
+from pydantic import Field
+from pydantic_core import PydanticCustomError
+
+from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.scene import units
+from fenics_gears.scene.fields import Allowed, Section, out_of_range, refused
+from fenics_gears.scene.names import did_you_mean
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, quantity_in, table
+from fenics_gears.scene.written import as_written
+
+HIGHEST_ORDER = 1e6
+MOST_HARMONICS = 1000
+# Bounds of amplitude and phase, and what they are written like.
+QUANTITIES = {"amplitude": ("1e-12 N m", "1e12 N m", "20 N m"), "phase": ("-360 deg", "360 deg", "30 deg")}
+
+
+@dataclass(frozen=True)
+class Harmonic:
+    """amplitude cos(order theta + phase), N mm and rad, with theta the angle that the wheel's shaft has turned since the start."""
+
+    order: float
+    amplitude: float
+    phase: float = 0.0
+
+
+@dataclass(frozen=True)
+class TorqueRipple:
+    """What adds to the couple on the wheel's shaft."""
+
+    harmonics: tuple[Harmonic, ...]
+
+
+@dataclass(frozen=True)
+class AllowedHarmonics(Allowed):
+    """A list of tables with order, amplitude and phase."""
+
+    def convert(self, value: Any) -> tuple[Harmonic, ...]:
+        """The harmonics in N mm and rad. Raises PydanticCustomError, which names the first that is wrong."""
+        if not isinstance(value, list):
+            raise refused("is not a list.")
+        if not 0 < len(value) <= MOST_HARMONICS:
+            raise refused(f"has {len(value)} entries." if value else "is empty. For a steady couple, leave the section [torque_ripple] out.")
+        return tuple(_harmonic(place, entry) for place, entry in enumerate(value, 1))
+
+
+def _harmonic(place: int, entry: Any) -> Harmonic:
+    """One harmonic; raises PydanticCustomError that names its `place` in the list."""
+    if not isinstance(entry, Mapping):
+        raise refused(f"has the entry {as_written(entry)} at place {place}, which is no table of order, amplitude and phase.")
+    for name in entry:
+        if name not in ("order", *QUANTITIES):
+            raise refused(f'has "{name}" at place {place}, which no harmonic has.{did_you_mean(name, ("order", *QUANTITIES))}')
+    for name in ("order", "amplitude"):
+        if name not in entry:
+            raise refused(f"has no {name} at place {place}.")
+    values = {"order": _order(place, entry["order"])}
+    for name in QUANTITIES:
+        if name in entry:
+            values[name] = _quantity(place, name, entry[name])
+    return Harmonic(**values)
+
+
+def _order(place: int, value: Any) -> float:
+    number = value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
+    if number is None or not isfinite(number) or not 0 < number <= HIGHEST_ORDER:
+        raise refused(f"has order = {as_written(value)} at place {place}, which is not a number above 0 and up to {HIGHEST_ORDER:g}.")
+    return float(number)
+
+
+def _quantity(place: int, name: str, value: Any) -> float:
+    lowest, highest, example = QUANTITIES[name]
+    (low, kind), (high, _) = units.quantity(lowest), units.quantity(highest)
+    try:
+        converted = Allowed("", kind, units.unit_of(example)).convert(value)
+        reason = out_of_range(converted, low, high)
+    except PydanticCustomError as error:
+        reason = error.context["reason"]
+    if reason:
+        raise refused(f"has {name} = {as_written(value)} at place {place}, which {reason} From {lowest} to {highest} are allowed.")
+    return converted
+
+
+_HARMONICS = AllowedHarmonics(
+    f"a list of harmonics, each with its order (turns of the wheel's shaft, above 0 up to {HIGHEST_ORDER:g}), an amplitude and, if any, "
+    'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]'
+)
+
+
+class TorqueRippleText(Section):
+    """``[torque_ripple]``."""
+
+    harmonics: tuple = Field(..., json_schema_extra={"allowed": _HARMONICS})
+
+
+def couple_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
+    """A couple that turns its sign needs the coast flanks."""
+    ripple, torque = table(tree, "torque_ripple"), quantity_in((table(tree, "load") or {}).get("wheel_torque"))
+    written = ripple.get("harmonics") if ripple else None
+    if torque is None or "coast_flanks" in tree or not isinstance(written, list):
+        return
+    amplitudes = [quantity_in(each.get("amplitude")) for each in written if isinstance(each, Mapping)]
+    total = sum(amplitude for amplitude in amplitudes if amplitude is not None)
+    if isfinite(total) and total > abs(torque):
+        message = (
+            f"has amplitudes of {total * 1e-3:.6g} N m together, more than load.wheel_torque: the couple can turn its sign and drive the pair "
+            f"from the wheel. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any with the section [coast_flanks]."
+        )
+        yield Problem(("torque_ripple", "harmonics"), as_written(written), message)
+
+
+def load(ripple: TorqueRipple, model):
+    """The varying part of the couple on the centre coordinates."""
+    from fenics_gears.dynamics.torque_ripple import varying_load
+
+    return varying_load(ripple, model.drivetrain, shaft_step(model.scene, model.resolution.steps_per_mesh_cycle))
+
+
+def results(ripple: TorqueRipple, scene, cycle, records) -> dict:
+    """The couple on the wheel's shaft (time,), N mm."""
+    from fenics_gears.dynamics.torque_ripple import couple
+
+    angle = shaft_step(scene, cycle.steps)
+    return {"wheel_couple": (("time",), scene.load.wheel_torque + couple(ripple, [angle * record.step for record in records]))}
+
+
+def shaft_step(scene, steps_per_mesh_cycle: int) -> float:
+    """Angle (rad) that the wheel's shaft turns in a step."""
+    return 2.0 * pi / (scene.gears.wheel.teeth * steps_per_mesh_cycle)
+
+
+EFFECT = Effect(
+    section="torque_ripple",
+    description="harmonics of the wheel shaft's turn on its couple",
+    absent="constant couple",
+    text=TorqueRippleText,
+    data=TorqueRipple,
+    terms=("varying couple",),
+    variables=(ResultVariable("wheel_couple", "N mm", "couple on the wheel's shaft"),),
+    rules=couple_keeps_its_sign,
+    load=load,
+    results=results,
+)
