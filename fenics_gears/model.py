@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
-from fenics_gears.dynamics.frequencies import Vibration, vibrations
-from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import SceneError
@@ -19,6 +18,9 @@ from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.resolution import Resolution, locking_warnings, mesh_stiffness, resolution_warnings, resolve
 from fenics_gears.scene.data import Scene
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.frequencies import Vibration
 
 
 @dataclass(frozen=True)
@@ -68,6 +70,8 @@ class Model:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
         if self.drivetrain.mass is None:
             return []
+        from fenics_gears.dynamics.frequencies import vibrations
+
         return vibrations(self.drivetrain, mesh_stiffness(self.scene), self.scene.friction is not None)
 
     @property
@@ -86,6 +90,8 @@ class Model:
         found = [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.material)
         if self.vibrations:
+            from fenics_gears.dynamics.guidance import time_step_warnings
+
             steps = self.resolution.steps_per_mesh_cycle
             found += time_step_warnings(self.vibrations, self.scene.motion.mesh_frequency, steps, self.pace)
         return found

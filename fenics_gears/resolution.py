@@ -14,7 +14,6 @@ import numpy as np
 
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Material, Scene
 
@@ -125,6 +124,8 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
     """Steps that resolve the mesh cycle and, with inertia, the drivetrain's highest frequency."""
     if drivetrain.mass is None:
         return STEPS_PER_MESH_CYCLE
+    from fenics_gears.dynamics.frequencies import natural_frequencies
+
     highest = natural_frequencies(drivetrain, mesh_stiffness(scene))[-1]
     wanted = ceil(STEPS_PER_PERIOD * highest / scene.motion.mesh_frequency)
     return int(np.clip(wanted, STEPS_PER_MESH_CYCLE, MOST_STEPS_PER_MESH_CYCLE))

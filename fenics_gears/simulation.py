@@ -15,7 +15,6 @@ from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance
-from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
@@ -79,7 +78,8 @@ def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
         # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
         from fenics_gears.reference_route import remeshed
 
-        return remeshed(built, progress, cache, comm)
+        gears, cycle = remeshed(built, progress, cache, comm)
+        return gears, deviating(built, cycle)
     compliances = gear_compliances(built, progress, cache)
     return compliances, mesh_cycle(built, compliances)
 
@@ -103,6 +103,9 @@ def tooth_reach(built: Model) -> int:
 
 def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) -> FlankCompliance:
     """Flank compliance of the "pinion" or the "wheel" over `reach` pitches, from the cache where it is there."""
+    # Imported here: rigid flanks have none.
+    from fenics_gears.elasticity.gear_compliance import flank_compliance
+
     resolution = built.resolution
     return flank_compliance(
         getattr(built.pair, name),

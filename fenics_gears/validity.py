@@ -7,7 +7,6 @@ import numpy as np
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import over_nodes
-from fenics_gears.contact.uniqueness import uncertified
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record
 
@@ -16,13 +15,16 @@ LARGEST_ROTATION = 0.05
 ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 
 
-def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March) -> list[str]:
+def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock) -> list[str]:
     """Sentences on where a march leaves what the model assumes; empty where it does not.
 
-    Window, rank, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
+    Window, sharp edges, rank, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
     """
     records = list(march.records)
-    return [*_window(cycle, records), *_rank(records), *_rotation(drivetrain, records), *_separation(cycle, march), *_locking(cycle, march), *_uniqueness(march)]
+    return [
+        *_window(cycle, records), *_sharp_edge(cycle, records), *_rank(records), *_rotation(drivetrain, records),
+        *_separation(cycle, march, clock), *_locking(cycle, march), *_uniqueness(march),
+    ]  # fmt: skip
 
 
 def _window(cycle: Cycle, records: list[Record]) -> list[str]:
@@ -66,23 +68,63 @@ def _rotation(drivetrain: Drivetrain, records: list[Record]) -> list[str]:
     return found
 
 
-def _separation(cycle: Cycle, march: March) -> list[str]:
-    """Loss of contact: how often, how far; beyond the backlash the coast flanks, which the scene does not have, would have touched."""
-    if not march.separations:
+def _sharp_edge(cycle: Cycle, records: list[Record]) -> list[str]:
+    """Contact on the edge of a tip, where the flank ends in a corner: linear elasticity has infinite pressure there."""
+    touched = [_on_tips(cycle, record) for record in records]
+    steps = sum(bool(tips) for tips in touched)
+    if not steps:
         return []
-    backlash, widest = cycle.pair.backlash, max(opening for _, opening in march.separations)
-    first, last = (march.separations[place][0] / cycle.steps for place in (0, -1))
+    named = " and ".join(f"the {gear}'s" for gear in ("pinion", "wheel") if any(gear in tips for tips in touched))
+    return [
+        f"contact reaches the sharp edge of {named} tip in {steps} of {len(records)} stored steps: the pressure there does not converge with "
+        "the mesh, forces and transmission error do; [tip_relief] takes the load off the edge"
+    ]
+
+
+def _on_tips(cycle: Cycle, record: Record) -> set[str]:
+    """The gears whose tip edge carries force in a record: the end node of a tooth pair stands on the edge that ends its flank."""
+    found, start, half = set(), 0, 0.5 * cycle.grid.length * (1.0 - 1e-9)
+    for pair in record.position.operator.pairs:
+        closed = record.solution.status[start : start + len(pair.offsets)] != OPEN
+        start += len(pair.offsets)
+        if pair.place.line is not None or not (closed[0] or closed[-1]):
+            continue
+        below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
+        if closed[0] and below[0] >= below[1] and below[0] > -half:
+            found.add("pinion")
+        if closed[-1] and above[1] <= above[0] and above[1] < half:
+            found.add("wheel")
+    return found
+
+
+def _separation(cycle: Cycle, march: March, clock: Clock) -> list[str]:
+    """Loss of contact: how often, when, how long, how far; beyond the backlash the coast flanks, which the scene does not have, would touch."""
+    losses = contact_losses(march.separations)
+    if not losses:
+        return []
+    backlash, widest = cycle.pair.backlash, max(loss.opening for loss in losses)
+    longest = max(losses, key=lambda loss: loss.duration(clock))
+    share = sum(loss.duration(clock) for loss in losses) / clock.duration(0, march.steps)
+    times = "once" if len(losses) == 1 else f"{len(losses)} times"
     lost = (
-        f"the {'drive flanks' if cycle.coast_flanks else 'teeth'} lose contact in {len(march.separations)} of {march.steps} steps, between mesh cycles {first:.2f} and {last:.2f}, "
-        f"by up to {widest * 1e3:.4g} um"
+        f"the {'drive flanks' if cycle.coast_flanks else 'teeth'} lose contact {times}, in {len(march.separations)} of {march.steps} steps ({share:.2g} of the time), "
+        f"first at {_when(losses[0].first, cycle, clock)}, last at {_when(losses[-1].first, cycle, clock)}, for up to {longest.duration(clock):.3g} s = "
+        f"{longest.steps / cycle.steps:.3g} mesh cycles, by up to {widest * 1e3:.4g} um"
     )
     if cycle.coast_flanks or widest <= backlash:
         return [lost]
-    steps = [step for step, opening in march.separations if opening > backlash]
-    beyond = f"{lost}. That is more than the backlash of {backlash * 1e3:.4g} um: from mesh cycle {steps[0] / cycle.steps:.2f} on the coast "
+    crossed = next(step for step, opening in march.separations if opening > backlash)
+    beyond = (
+        f"{lost}. That is more than the backlash of {backlash * 1e3:.4g} um: from {_when(crossed, cycle, clock)} on the coast flanks would touch, "
+        "which this scene does not have"
+    )
     if march.records and march.separations[-1][0] < march.records[0].step:
-        return [beyond + "flanks would touch, which this scene does not have. The stored cycles are in contact throughout"]
-    return [beyond + "flanks would touch, which this scene does not have, and the result has no meaning"]
+        return [f"{beyond}. The stored cycles are in contact throughout; [coast_flanks] has what comes before them"]
+    return [f"{beyond}, and the result has no meaning from that time on; add [coast_flanks]"]
+
+
+def _when(step: int, cycle: Cycle, clock: Clock) -> str:
+    return f"{clock.time(step):.4g} s (mesh cycle {step / cycle.steps:.2f})"
 
 
 def _locking(cycle: Cycle, march: March) -> list[str]:
@@ -100,6 +142,8 @@ def _uniqueness(march: March) -> list[str]:
     """Steps at which nothing certifies that the solution is the only one."""
     if not march.friction:
         return []
+    from fenics_gears.contact.uniqueness import uncertified
+
     solved = ((record.position.operator, record.solution.status, record.solution.forces) for record in march.records)
     count = uncertified(march.stiffness, march.friction, solved)
     if not count:

@@ -13,7 +13,6 @@ import numpy as np
 from fenics_gears.contact.errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
 from fenics_gears.contact.newton import CYCLED, OUTCOMES
-from fenics_gears.contact.uniqueness import flexibility, is_only_solution
 
 
 # A cycle of sets is rarely longer.
@@ -114,11 +113,15 @@ def _locking(problem, visited: np.ndarray, weights: Balance | None) -> str:
 
 def _own_response(problem, signs: np.ndarray) -> np.ndarray:
     """By how much a sliding node (n,) gives way under its own normal force, mm/N."""
+    from fenics_gears.contact.uniqueness import flexibility
+
     n, matrix = len(signs), flexibility(problem.stiffness, problem.compliance, problem.rigid)
     return np.diag(matrix)[:n] + problem.friction * signs * np.diag(matrix[:n, n:])
 
 
 def _several(problem, visited: np.ndarray) -> str:
+    from fenics_gears.contact.uniqueness import is_only_solution
+
     for sets in visited:
         certified = is_only_solution(
             problem.stiffness, problem.compliance, problem.rigid, problem.friction, sets != OPEN, _signs(problem, sets)

@@ -18,7 +18,6 @@ from fenics_gears.contact.newton import (
     THROUGH_STICK,
     newton,
 )
-from fenics_gears.contact.tresca import tresca
 
 LADDER = (
     "newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time", "Tresca fixed point",
@@ -103,6 +102,9 @@ def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Ite
         yield 4, lambda: _friction_from_zero(problem, status, max_iterations)
     yield 5, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
     if len(problem.slip_before):
+        # Few frictional runs, and no others, come this far.
+        from fenics_gears.contact.tresca import tresca
+
         yield 6, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
 
 

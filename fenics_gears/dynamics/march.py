@@ -6,6 +6,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -17,11 +18,12 @@ from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
-from fenics_gears.dynamics.backward_euler import BackwardEuler
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.mean_equilibrium import mean_equilibrium
 from fenics_gears.dynamics.pace import FOLLOWING, Pace
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.backward_euler import BackwardEuler
 
 SECONDS_BETWEEN_REPORTS = 0.1
 NO_SLIP = np.empty(0)
@@ -77,6 +79,15 @@ def smallest_opening(record: Record, flank: int = DRIVE) -> float:
     return float(np.min(openings, initial=np.inf))
 
 
+def _method(pace: Pace) -> type[AverageAcceleration] | type[BackwardEuler]:
+    """The method in time at a pace; quasi-static scenes, which keep the first, do not load the second."""
+    if pace.averages_acceleration:
+        return AverageAcceleration
+    from fenics_gears.dynamics.backward_euler import BackwardEuler
+
+    return BackwardEuler
+
+
 class Marcher:
     """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
 
@@ -90,7 +101,7 @@ class Marcher:
     ):  # fmt: skip
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.clock, self.loads = clock or SteadyClock(time_step), tuple(loads)
-        self.dynamic = (AverageAcceleration if pace.averages_acceleration else BackwardEuler)(drivetrain, time_step)
+        self.dynamic = _method(pace)(drivetrain, time_step)
         self._static_drivetrain = Drivetrain(
             drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
         )
@@ -175,6 +186,8 @@ class Marcher:
         return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
 
     def _mean_start(self, static: Record) -> Record:
+        from fenics_gears.dynamics.mean_equilibrium import mean_equilibrium
+
         mean = mean_equilibrium(
             self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance, static.state.position,
             STEPS_SLID_BEFORE_START, self.load,
