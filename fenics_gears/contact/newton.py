@@ -123,7 +123,16 @@ def _update_status(status, forces, displacement, compliance, gap, slip_before, f
 
 
 @njit(cache=True)
-def measure(residual, stiffness, load, rigid, gap, slip_before, friction, status, forces, coordinates, displacement):
+def _force_round_off(stiffness, load, compliance, gap, coordinates):
+    """Forces (N) below which nothing is known: the round-off of the load, and of what springs and teeth make of the lengths."""
+    terms = np.max(np.abs(load)) + np.max(np.abs(stiffness) @ np.abs(coordinates))
+    if len(gap):
+        terms += 1e-2 * max(np.max(np.abs(coordinates)), np.max(np.abs(gap))) / compliance[0, 0]
+    return ROUND_OFF * terms
+
+
+@njit(cache=True)
+def measure(residual, stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates, displacement):
     """Violation of the laws and of equilibrium by the present solution, into `residual` (5,).
 
     Equilibrium is solved, not iterated: what is left within the round-off of a row's terms is no violation. A slip against its
@@ -131,7 +140,7 @@ def measure(residual, stiffness, load, rigid, gap, slip_before, friction, status
     """
     n, tangential = len(gap), len(slip_before) > 0
     residual[:] = 0.0
-    negligible = ROUND_OFF * np.max(np.abs(load)) + ROUND_OFF if len(load) else ROUND_OFF
+    negligible = ROUND_OFF + _force_round_off(stiffness, load, compliance, gap, coordinates) if len(load) else ROUND_OFF
     for j in range(n):
         residual[PENETRATION] = max(residual[PENETRATION], displacement[j] - gap[j])
         residual[TENSION] = max(residual[TENSION], -forces[j])
@@ -151,15 +160,10 @@ def measure(residual, stiffness, load, rigid, gap, slip_before, friction, status
 
 @njit(cache=True)
 def _within(residual, length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
-    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it, without load that of what
-    # springs and teeth make of the lengths. Likewise a gap is the difference of displacements and cannot be known better than
-    # their round-off.
-    length = np.max(np.abs(coordinates))
-    terms = np.max(np.abs(load)) + np.max(np.abs(stiffness) @ np.abs(coordinates))
-    if len(gap):
-        terms += 1e-2 * max(length, np.max(np.abs(gap))) / compliance[0, 0]
-    round_off = 1e-12 * terms
-    length_tolerance = length_tolerance + 1e-14 * length
+    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it. Likewise a gap is the
+    # difference of displacements and cannot be known better than their round-off.
+    round_off = _force_round_off(stiffness, load, compliance, gap, coordinates)
+    length_tolerance = length_tolerance + 1e-14 * np.max(np.abs(coordinates))
     return (
         residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + round_off
         and residual[PENETRATION] <= length_tolerance
@@ -204,7 +208,7 @@ def newton(
         solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates)
         displacement = relative_displacement(compliance, rigid, forces, coordinates)
         measure(
-            history[iteration], stiffness, load, rigid, gap, slip_before, friction,
+            history[iteration], stiffness, load, compliance, rigid, gap, slip_before, friction,
             status, forces, coordinates, displacement,
         )  # fmt: skip
         changed, new = _update_status(

@@ -116,7 +116,7 @@ def _attempt(reduced: RelativeStiffness, problem: StepProblem, equations: Equati
     for row, iterate in enumerate(tried):
         sets[row] = equations.status(iterate.displacement, iterate.forces)
         measure(
-            history[row], problem.stiffness, problem.load, problem.rigid, problem.gap, problem.slip_before, problem.friction,
-            sets[row], iterate.forces, reduced.coordinates(problem.load, iterate.displacement), iterate.displacement,
+            history[row], problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap,
+            problem.slip_before, problem.friction, sets[row], iterate.forces, reduced.coordinates(problem.load, iterate.displacement), iterate.displacement,
         )  # fmt: skip
     return PUBLISHED, outcome, history, sets

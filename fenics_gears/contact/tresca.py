@@ -130,7 +130,7 @@ def _residual(problem, frozen: Frozen) -> np.ndarray:
     row = np.zeros(5)
     displacement = problem.rigid @ frozen.coordinates - problem.compliance @ frozen.forces
     measure(
-        row, problem.stiffness, problem.load, problem.rigid, problem.gap, problem.slip_before, problem.friction,
+        row, problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before, problem.friction,
         frozen.sets, frozen.forces, frozen.coordinates, displacement,
     )  # fmt: skip
     return row
