@@ -1,0 +1,131 @@
+"""What must hold of every effect in the list, whoever wrote it: absent it is not there, named it is, and beside every other it runs."""
+
+import ast
+import inspect
+import itertools
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
+
+from fenics_gears.cli import main
+from fenics_gears.effects import EFFECTS, effect, effects_on, result_variables
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.simulation import simulate
+
+CHECKOUT = Path(__file__).parents[2]
+SECTIONS = [each.section for each in EFFECTS]
+TEETH = "tooth_elasticity"
+RUN_HOOKS = ("removal", "gaps", "load", "clock", "results")
+
+# What computes those effects that the march itself knows of; the others' hooks import what computes them.
+METHODS = {
+    "inertia": {"fenics_gears.dynamics.frequencies", "fenics_gears.dynamics.guidance"},
+    "friction": {"fenics_gears.contact.uniqueness"},
+    TEETH: {"fenics_gears.elasticity.gear_compliance"},
+}
+# What only hard cases of them load: the start of a fast mesh, the stepping of unsampled vibrations, the ladder's last rung.
+RARE = {"inertia": {"fenics_gears.dynamics.mean_equilibrium"}, "friction": {"fenics_gears.contact.tresca", "cvxopt"}}
+
+
+def closures():
+    """Every effect on elastic teeth, and on rigid flanks where it can be; every pair of effects that may stand together."""
+    rigid = [with_needs(section) for section in SECTIONS]
+    singles = [with_needs(section, TEETH) for section in SECTIONS]
+    pairs = [with_needs(*pair, TEETH) for pair in itertools.combinations(SECTIONS, 2)]
+    return [each for each in dict.fromkeys([(), *rigid, *singles, *pairs]) if not set(each) & {x for s in each for x in effect(s).excludes}]
+
+
+@pytest.fixture(scope="session")
+def gears(tmp_path_factory):
+    """A cache that the runs of this file share."""
+    return Cache(tmp_path_factory.mktemp("gears"))
+
+
+def test_every_effect_has_an_example():
+    """Authority: house rule; whoever adds an effect adds its example, or nothing here looks at it."""
+    assert set(EXAMPLES) == set(SECTIONS)
+
+
+@pytest.mark.parametrize("sections", closures(), ids=lambda sections: "+".join(sections) or "nothing")
+def test_effects_run_together_and_the_result_has_their_variables_and_no_others(sections, gears):
+    """Authority: house rule 9 and the list; any two effects run, and the result's variables are exactly those that the list says."""
+    scene = scene_of(*sections)
+    assert tuple(each.section for each in effects_on(scene)) == sections
+    result = simulate(scene, cache=gears)
+    assert result.attrs["complete"] == 1 and result.attrs["steps"] == 20
+    assert set(result.data_vars) == {variable.name for variable in result_variables(scene)}
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(section, capsys, tmp_path):
+    """Authority: design.md on `gears check`."""
+    lines = {}
+    for state, sections in (("on", with_needs(section)), ("off", ())):
+        file = tmp_path / f"{state}.toml"
+        file.write_text(text_of(*sections), encoding="utf-8")
+        assert main(["check", str(file)]) == 0
+        after = capsys.readouterr().out.partition("\nEffects\n")[2].splitlines()
+        lines[state] = next(line for line in after if line.split()[:1] == [section])
+    assert lines["on"].split()[1] == "on" and lines["off"].split()[1] == "off"
+    assert effect(section).absent in lines["off"]
+    added = [*effect(section).unknowns, *effect(section).terms, *(variable.name for variable in effect(section).variables)]
+    assert added and all(words in lines["on"] for words in (effect(section).description, *added))
+
+
+def imports_of_hooks(section):
+    """Modules of this program that an effect's own module imports inside the functions a run calls."""
+    tree = ast.parse(inspect.getsource(sys.modules[EFFECTS[SECTIONS.index(section)].text.__module__]))
+    hooks = [getattr(effect(section), name) for name in RUN_HOOKS]
+    called = {hook.__name__ for hook in hooks if hook is not None}
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name in called]
+    found = {node.module for function in functions for node in ast.walk(function) if isinstance(node, ast.ImportFrom)}
+    return {name for name in found if name.startswith("fenics_gears.")}
+
+
+PROGRAM = """
+import json, sys
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+loaded = []
+for text in json.load(sys.stdin):
+    simulate(scene_from_text(text))
+    loaded.append(sorted(sys.modules))
+print(json.dumps(loaded))
+"""
+
+
+@pytest.fixture(scope="module")
+def loaded(tmp_path_factory):
+    """Modules loaded after runs one after another in one process: rigid flanks, the bare scene, and each effect on it."""
+    runs = {"nothing": (), TEETH: (TEETH,)} | {section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH}
+    environment = {**os.environ, "FENICS_GEARS_CACHE": str(tmp_path_factory.mktemp("cache")), "OMP_NUM_THREADS": "1"}
+    texts = json.dumps([text_of(*sections) for sections in runs.values()])
+    run = subprocess.run(
+        [sys.executable, "-c", PROGRAM], input=texts, cwd=CHECKOUT, env=environment, capture_output=True, text=True, check=True
+    )
+    return {name: set(modules) for name, modules in zip(runs, json.loads(run.stdout.splitlines()[-1]))}
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(section, loaded):
+    """Authority: house rule 9; modules of an absent effect's physics are not imported, those of a named one are."""
+    own = imports_of_hooks(section) | METHODS.get(section, set())
+    hooks = [getattr(effect(section), name) for name in RUN_HOOKS]
+    assert own or not any(hooks)
+    bare = loaded["nothing"] if section == TEETH else loaded[TEETH]
+    assert not bare & (own | RARE.get(section, set()))
+    assert own <= loaded[section]
+
+
+def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_and_no_finite_elements_for_rigid_flanks(loaded):
+    """Authority: house rule 9, for what several effects share."""
+    assert "fenics_gears.contact.deviating_cycle" not in loaded[TEETH]
+    assert "cvxopt" not in loaded[TEETH]
+    assert not {"dolfinx", "gmsh", "petsc4py"} & loaded["nothing"]
+    # Otherwise nothing could be said of what was not loaded.
+    assert "fenics_gears.contact.newton" in loaded[TEETH]
