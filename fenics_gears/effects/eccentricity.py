@@ -9,7 +9,7 @@ from typing import Optional
 from fenics_gears.effects.effect import Effect
 from fenics_gears.scene.fields import Section, quantity
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
+from fenics_gears.scene.tree import Tree, table, too_large_for_the_module
 
 
 @dataclass(frozen=True)
@@ -51,12 +51,15 @@ def read(text: EccentricityText) -> Eccentricity:
     return Eccentricity(*(each and Offset(each.distance, each.phase or 0.0) for each in (text.pinion, text.wheel)))
 
 
-def some_gear_has_one(tree: Tree) -> Iterator[Problem]:
-    """A section without a gear says nothing."""
+def run_out_is_small_and_of_some_gear(tree: Tree) -> Iterator[Problem]:
+    """A section without a gear says nothing; what moves the flanks by parts of a tooth is no error."""
     section = table(tree, "eccentricity")
     if section is not None and not section:
         message = "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the section out."
         yield Problem(("eccentricity",), "", message)
+    for gear in ("pinion", "wheel"):
+        distance = (table(section or {}, gear) or {}).get("distance")
+        yield from too_large_for_the_module(tree, ("eccentricity", gear, "distance"), distance)
 
 
 def gaps(eccentricity: Eccentricity, model):
@@ -74,6 +77,6 @@ EFFECT = Effect(
     data=Eccentricity,
     terms=("gaps that change once a turn of the gear",),
     read=read,
-    rules=some_gear_has_one,
+    rules=run_out_is_small_and_of_some_gear,
     gaps=gaps,
 )

@@ -14,7 +14,7 @@ from typing import Any, Optional
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.scene.fields import Section, quantities, quantity, whole_number
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, quantity_in, table
+from fenics_gears.scene.tree import Tree, quantity_in, table, teeth_in, too_large_for_the_module
 from fenics_gears.scene.written import as_written
 
 GEARS = ("pinion", "wheel")
@@ -100,20 +100,24 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
     if errors is None:
         return
     if "seed" in errors and "tolerance_class" not in errors:
-        message = "draws nothing without a tolerance_class. Add one, or leave the seed out."
-        yield Problem(("flank_errors", "seed"), as_written(errors["seed"]), message)
+        message = "is missing. Allowed: a class from 1 to 11; without one the seed draws nothing."
+        yield Problem(("flank_errors", "tolerance_class"), None, message)
     if "tolerance_class" in errors:
         yield from _class_is_for_the_gears(tree, errors)
     elif not any(table(errors, gear) for gear in GEARS):
         message = "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list. For true flanks, leave the section out."
         yield Problem(("flank_errors",), "", message)
     for gear in GEARS:
-        yield from _lists_fit_the_teeth(table(errors, gear) or {}, _teeth(tree, gear), gear)
+        own = table(errors, gear) or {}
+        yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
+        yield from _errors_are_small(tree, own, gear)
 
 
-def _teeth(tree: Tree, gear: str) -> int | None:
-    teeth = (table(table(tree, "gears") or {}, gear) or {}).get("teeth")
-    return teeth if type(teeth) is int else None
+def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
+    """Deviations are small against the tooth, whose place and shape stay what they are."""
+    values = {(name,): errors.get(name) for name in LISTS} | {("waviness", "amplitude"): (table(errors, "waviness") or {}).get("amplitude")}
+    for path, written in values.items():
+        yield from too_large_for_the_module(tree, ("flank_errors", gear, *path), written)
 
 
 def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Iterator[Problem]:
@@ -149,7 +153,7 @@ def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
         message = f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists of errors instead."
         yield Problem(path, written, message)
     for gear in GEARS:
-        diameter = module * (_teeth(tree, gear) or 100)
+        diameter = module * (teeth_in(tree, gear) or 100)
         if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
             message = f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of errors instead."
             yield Problem(path, written, message)

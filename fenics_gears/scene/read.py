@@ -77,7 +77,7 @@ def _scene(checked, text: str, name: str) -> data.Scene:
         title=checked.title or name,
         gears=_gears(checked.gears),
         load=same_names(data.Load, checked.load),
-        motion=_motion(checked.motion, checked.gears.pinion.teeth),
+        motion=_motion(checked.motion, checked.gears),
         accuracy=same_names(data.Accuracy, checked.accuracy),
         text=text,
         name=name,
@@ -97,10 +97,12 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     )
 
 
-def _motion(motion: schema.Motion, pinion_teeth: int) -> data.Motion:
+def _motion(motion: schema.Motion, gears: schema.Gears) -> data.Motion:
     """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth."""
     frequency = motion.mesh_frequency
     if frequency is None:
-        frequency = motion.pinion_speed / (2 * math.pi) * pinion_teeth
-    recorded = motion.recorded_cycles or min(2, motion.mesh_cycles)
-    return data.Motion(frequency, motion.mesh_cycles, recorded)
+        frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
+    whole_period = math.lcm(gears.pinion.teeth, gears.wheel.teeth)
+    cycles = motion.mesh_cycles or whole_period
+    default = whole_period if "recorded_cycles" in motion.model_fields_set else min(2, cycles)
+    return data.Motion(frequency, cycles, motion.recorded_cycles or default)

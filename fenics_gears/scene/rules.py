@@ -6,13 +6,13 @@ The rules read the parsed TOML file, so that they speak even where some field is
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
+from math import inf, lcm
 
 from fenics_gears import effects
 from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.schema import Gears
-from fenics_gears.scene.tree import Tree, quantity_in, table
+from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Gears
+from fenics_gears.scene.tree import Tree, quantity_in, table, teeth_in
 from fenics_gears.scene.written import as_written
 
 # In modules: the dense compliance of a flank of such elements has gigabytes.
@@ -53,9 +53,17 @@ def _one_speed(tree: Tree) -> Iterator[Problem]:
 
 def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
     motion = table(tree, "motion") or {}
-    recorded, run = motion.get("recorded_cycles"), motion.get("mesh_cycles")
+    recorded, run = (_cycles(tree, motion.get(name)) for name in ("recorded_cycles", "mesh_cycles"))
     if type(recorded) is int and type(run) is int and recorded > run > 0:
-        yield Problem(("motion", "recorded_cycles"), as_written(recorded), f"is more than mesh_cycles = {as_written(run)}. Allowed: at most as many cycles as are run.")
+        count = "" if motion["recorded_cycles"] == recorded else f"({recorded} mesh cycles) "
+        message = f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as are run."
+        yield Problem(("motion", "recorded_cycles"), as_written(motion["recorded_cycles"]), message)
+
+
+def _cycles(tree: Tree, written) -> object:
+    """Mesh cycles as a number, also of a whole hunting tooth period; what is written where that is no number of cycles."""
+    teeth = [teeth_in(tree, gear) for gear in ("pinion", "wheel")]
+    return lcm(*teeth) if written == HUNTING_TOOTH_PERIOD and None not in teeth else written
 
 
 def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:

@@ -47,13 +47,18 @@ class Load(Section):
     wheel_torque: float = quantity("-1e12 N m", "1e12 N m", "437 N m")
 
 
+# As many mesh cycles as pass until every tooth has met every other; the number follows from the teeth.
+HUNTING_TOOTH_PERIOD = "hunting tooth period"
+WHOLE_PERIOD = {HUNTING_TOOTH_PERIOD: None}
+
+
 class Motion(Section):
     """``[motion]``: exactly one of the mesh frequency and the pinion's speed."""
 
     mesh_frequency: Optional[float] = quantity("1e-6 Hz", "1e6 Hz", "200 Hz", optional=True)
     pinion_speed: Optional[float] = quantity("1e-6 rpm", "1e6 rpm", "750 rpm", optional=True)
-    mesh_cycles: int = whole_number(1, 1_000_000, 30)
-    recorded_cycles: Optional[int] = whole_number(1, 1_000_000, 2, optional=True)
+    mesh_cycles: Optional[int] = whole_number(1, 1_000_000, 30, words=WHOLE_PERIOD)
+    recorded_cycles: Optional[int] = whole_number(1, 1_000_000, 2, optional=True, words=WHOLE_PERIOD)
 
 
 class Accuracy(Section):

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from fenics_gears.scene import units
+from fenics_gears.scene.problem import Path, Problem
+from fenics_gears.scene.written import as_written
 
 Tree = Mapping[str, Any]
+MOST_TEETH = 1000
+# In modules: errors of manufacture are far below, and the model moves flanks by them without moving their points of contact.
+LARGEST_ERROR = 0.1
 
 
 def table(tree: Tree, name: str) -> Tree | None:
@@ -24,3 +29,19 @@ def quantity_in(value: Any) -> float | None:
         return units.quantity(value)[0]
     except units.QuantityError:
         return None
+
+
+def teeth_in(tree: Tree, gear: str) -> int | None:
+    """Teeth of the "pinion" or the "wheel"; None where the number is missing or none that a gear has."""
+    teeth = (table(table(tree, "gears") or {}, gear) or {}).get("teeth")
+    return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
+
+
+def too_large_for_the_module(tree: Tree, path: Path, written: Any) -> Iterator[Problem]:
+    """The problem of an error of manufacture, a length or a list of lengths, that is no small part of the module."""
+    module = quantity_in((table(tree, "gears") or {}).get("module"))
+    sizes = [abs(quantity_in(value) or 0.0) for value in (written if isinstance(written, list) else [written])]
+    if module is not None and max(sizes, default=0.0) > LARGEST_ERROR * module > 0.0:
+        largest = LARGEST_ERROR * module
+        message = f"is too large an error of manufacture for a module of {module:g} mm: up to {max(sizes):.4g} mm. Allowed: up to {largest:g} mm."
+        yield Problem(path, as_written(written), message)
