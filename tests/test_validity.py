@@ -2,8 +2,12 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from fenics_gears.dynamics.clock import SteadyClock
+from fenics_gears.dynamics.contact_loss import ContactLoss, contact_losses, loss_attributes
+from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation import simulate
 
@@ -15,9 +19,12 @@ def coarse(paper_scene):
     return replace(paper_scene, friction=None, accuracy=COARSE, motion=Motion(200.0, 6, 2))
 
 
-def test_an_ordinary_run_has_nothing_to_say(coarse):
-    """The paper's damped pair stays in contact and within the window."""
-    assert simulate(coarse).attrs["warnings"] == ""
+def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
+    """The paper's damped pair stays in contact and within the window; unrelieved, its tips carry on their edges at hand-over."""
+    result = simulate(coarse)
+    (said,) = result.attrs["warnings"].splitlines()
+    assert said.startswith("contact reaches the sharp edge of the pinion's and the wheel's tip")
+    assert result.attrs["contact_loss_count"] == 0 and "contact_loss_first" not in result.attrs
 
 
 def test_contact_at_the_end_of_the_window_is_named(coarse):
@@ -42,11 +49,43 @@ def test_large_rotations_are_named(coarse):
     assert "turns by" in simulate(soft).attrs["warnings"]
 
 
-def test_separation_beyond_the_backlash_is_named(coarse):
-    """Claim 10: undamped at its resonance the pair loses contact globally, which without coast flanks has no meaning."""
-    undamped = replace(coarse, damping=None, motion=Motion(213.0, 60, 20))
-    warnings = simulate(undamped).attrs["warnings"]
-    assert "more than the backlash" in warnings and "no meaning" in warnings
+def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):
+    """Claim 10: undamped at its resonance the pair loses contact globally, which without coast flanks has no meaning from then on."""
+    undamped = replace(coarse, damping=None, motion=Motion(213.0, 40, 40))
+    result = simulate(undamped)
+    (said,) = [line for line in result.attrs["warnings"].splitlines() if "lose contact" in line]
+    assert "more than the backlash" in said and "no meaning from that time on; add [coast_flanks]" in said
+    # The same from the forces: where no flank touches the mesh carries nothing.
+    lost = result.normal_force.values[1:] == 0.0
+    assert result.attrs["contact_loss_share"] == pytest.approx(lost.mean(), rel=1e-12)
+    starts = np.flatnonzero(lost & ~np.concatenate(([False], lost[:-1])))
+    assert result.attrs["contact_loss_count"] == len(starts)
+    assert result.attrs["contact_loss_first"] == pytest.approx(result.time.values[1 + starts[0]], rel=1e-12)
+    ends = np.flatnonzero(lost & ~np.concatenate((lost[1:], [False]))) + 1
+    assert result.attrs["contact_loss_longest"] == pytest.approx((ends - starts).max() * float(np.diff(result.time.values[:2])[0]), rel=1e-9)
+    assert result.attrs["contact_loss_opening"] > paper_pair.backlash
+    assert f"first at {result.attrs['contact_loss_first']:.4g} s" in said
+
+
+def test_losses_are_runs_of_steps_without_contact():
+    """By hand: steps 3, 4, 5 and 9 are two losses, of 0.3 and 0.1 s in steps of 0.1 s, four tenths of ten steps."""
+    separations = [(3, 1e-3), (4, 3e-3), (5, 2e-3), (9, 1e-4)]
+    assert contact_losses(separations) == [ContactLoss(3, 5, 3e-3), ContactLoss(9, 9, 1e-4)]
+    found = loss_attributes(separations, 10, SteadyClock(0.1))
+    expected = {"count": 2, "first": 0.3, "longest": 0.3, "share": 0.4, "opening": 3e-3}
+    assert found == pytest.approx({f"contact_loss_{name}": value for name, value in expected.items()})
+
+
+def test_impacts_that_the_time_step_does_not_resolve_are_named(coarse):
+    """Energy account: 40 steps a cycle put energy into impacts, 320 do not; the result says which it was."""
+    undamped = replace(coarse, damping=None, coast_flanks=CoastFlanks(), motion=Motion(213.0, 30, 20))
+    said = []
+    for steps in (40, 320):
+        result = simulate(replace(undamped, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))
+        part = np.ptp(result.work_contact_changes.values) / result.energy.values.max()
+        said.append("impacts are not resolved" in result.attrs["warnings"])
+        assert said[-1] == (part > 0.1)
+    assert said == [True, False]
 
 
 def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coarse, monkeypatch):

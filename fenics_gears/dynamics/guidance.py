@@ -26,7 +26,8 @@ def effect_of_the_step(vibration: Vibration, mesh_frequency: float, time_step: f
     """About the part of the peak-to-peak transmission error that a mode's false period changes.
 
     The mesh's harmonics fall as the square of their number; the one that meets the mode is amplified by the resonance, which the
-    false frequency shifts by a part of its width. Within a factor of three of the error measured on the paper's pair.
+    false frequency shifts by a part of its width. Within a factor of three of the error measured on the paper's pair up to the tenth
+    harmonic, of five to seven at the twentieth, where little is left of either.
     """
     harmonic = max(vibration.frequency / mesh_frequency, 1.0)
     amplification = vibration.amplification
@@ -42,6 +43,14 @@ def effect_of_inertia(slowest: Vibration, mesh_frequency: float) -> float:
     """
     ratio = mesh_frequency / slowest.frequency
     return ratio**2 + 2.0 * slowest.damping_ratio * ratio if slowest.damping_ratio > 0.0 else max(ratio, ratio**2)
+
+
+def judged_frequency(elastic: Sequence[Vibration], mesh_frequencies: tuple[float, float]) -> float:
+    """Of a run's lowest and highest mesh frequency (Hz) the one to judge by: the lowest, whose steps are the longest, unless inertia
+    matters at the highest only."""
+    slowest = next((vibration for vibration in elastic if vibration.excited), elastic[0])
+    lowest, highest = mesh_frequencies
+    return lowest if effect_of_inertia(slowest, lowest) >= NOTABLE else highest
 
 
 def time_step_warnings(elastic: Sequence[Vibration], mesh_frequency: float, steps_per_mesh_cycle: int, pace: Pace) -> list[str]:

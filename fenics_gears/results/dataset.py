@@ -15,13 +15,14 @@ import fenics_gears
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.pressure import peak_pressure
 from fenics_gears.dynamics.clock import Clock
+from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record, VaryingLoad
 from fenics_gears.effects import effects_on, result_variables
 from fenics_gears.results.contact_variables import mesh_variables, pair_variables
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.scene.data import Scene
-from fenics_gears.validity import warnings_of
+from fenics_gears.validity import warnings_of, warnings_of_energy
 
 GEARS = ("pinion", "wheel")
 
@@ -51,8 +52,8 @@ def dataset(
             "pair": ("pair", np.array(pairs, dtype=np.int64), {"long_name": "tooth pair, counted through the run"}),
         },
     )
-    attributes = _attributes(scene, march, result)
-    attributes["warnings"] = "\n".join([*warnings_of(cycle, drivetrain, march), *_undetermined_shares(result)])
+    attributes = _attributes(scene, march, result) | loss_attributes(march.separations, march.steps, clock)
+    attributes["warnings"] = "\n".join([*warnings_of(cycle, drivetrain, march, clock), *warnings_of_energy(scene, result, cycle.steps), *_undetermined_shares(result)])
     return result.assign_attrs(attributes)
 
 
