@@ -92,7 +92,7 @@ def _accuracy_rows(built: Model) -> Rows:
         ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
         *(condensation if built.scene.tooth_elasticity is not None else []),
         ("steps per mesh cycle", resolution.steps_per_mesh_cycle, origin(asked.steps_per_mesh_cycle).lstrip(", ")),
-        ("time step", built.time_step, "s"),
+        ("time step" if built.scene.speed_ramp is None else "time step, the longest", built.time_step, "s"),
         ("steps", built.steps, f"the last {built.stored_steps} stored"),
     ]
 
@@ -113,9 +113,9 @@ def _cost_rows(built: Model) -> Rows:
     """Expected cost; where inertia hardly matters also that of the quasi-static scene, at its own number of steps."""
     rows = _cost(built)
     slowest = next((vibration for vibration in built.vibrations if vibration.excited), None)
-    if slowest is None or effect_of_inertia(slowest, built.scene.motion.mesh_frequency) >= NOTABLE:
+    if slowest is None or effect_of_inertia(slowest, built.scene.mesh_frequencies[1]) >= NOTABLE:
         return rows
-    static = model(replace(built.scene, inertia=None, damping=None))
+    static = model(replace(built.scene, inertia=None, damping=None, speed_ramp=None))
     cost = {label: (value, unit) for label, value, unit in _cost(static)}
     return rows + [
         ("quasi-static instead: steps per mesh cycle", static.resolution.steps_per_mesh_cycle, ""),

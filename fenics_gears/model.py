@@ -90,10 +90,10 @@ class Model:
         found = [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.material)
         if self.vibrations:
-            from fenics_gears.dynamics.guidance import time_step_warnings
+            from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 
             steps = self.resolution.steps_per_mesh_cycle
-            found += time_step_warnings(self.vibrations, self.scene.motion.mesh_frequency, steps, self.pace)
+            found += time_step_warnings(self.vibrations, judged_frequency(self.vibrations, self.scene.mesh_frequencies), steps, self.pace)
         return found
 
 

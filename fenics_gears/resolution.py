@@ -127,7 +127,7 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
     from fenics_gears.dynamics.frequencies import natural_frequencies
 
     highest = natural_frequencies(drivetrain, mesh_stiffness(scene))[-1]
-    wanted = ceil(STEPS_PER_PERIOD * highest / scene.motion.mesh_frequency)
+    wanted = ceil(STEPS_PER_PERIOD * highest / scene.mesh_frequencies[0])
     return int(np.clip(wanted, STEPS_PER_MESH_CYCLE, MOST_STEPS_PER_MESH_CYCLE))
 
 

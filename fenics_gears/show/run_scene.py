@@ -31,7 +31,8 @@ def gear_pair_of(dataset: xr.Dataset) -> GearPair | None:
 def conditions(scene: Scene) -> str:
     """Load, speed, friction and tip relief of a scene: what tells apart two pictures of the same gears."""
     torque = scene.load.wheel_torque * factor("N mm", "N m")
-    speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g} Hz mesh frequency"
+    ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
+    speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
     friction = "no friction" if scene.friction is None else f"friction coefficient {scene.friction.coefficient:g}"
     relief = "" if scene.tip_relief is None else ", tip relief"
     return f"{torque:g} N m on the wheel, {speed}, {friction}{relief}"
