@@ -81,17 +81,6 @@ def test_undamped_tied_motion_keeps_its_energy(paper_scene, paper_pair, stand_in
     assert np.abs(np.array(energies) - first).max() <= 1e-6 * kinetic
 
 
-def test_low_mesh_frequency_tends_to_the_quasi_static_solution(paper_scene, paper_pair, stand_in_flanks):
-    """Row 23: at 0.01 Hz the dynamic solution is the quasi-static one to 1e-6."""
-    results = []
-    for scene in (frictionless(paper_scene), frictionless(paper_scene, inertia=None, damping=None)):
-        shafts = drivetrain(scene, paper_pair)
-        cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
-        march = Marcher(cycle, shafts, 1.0 / (0.01 * 50), 0.0).run(100, 51)
-        results.append(np.array([shafts.value(record.state.position, "rotation_2") for record in march.records]))
-    assert results[0] == pytest.approx(results[1], rel=1e-6)
-
-
 def test_ctrl_c_keeps_what_was_done(paper_scene, paper_pair, stand_in_flanks):
     """A march that is interrupted returns its records so far, marked."""
     scene = frictionless(paper_scene)

@@ -1,0 +1,156 @@
+"""Row 23: mesh frequencies from 0.01 Hz to 20 kHz, from quasi-static to the rigid mean motion, and no failed step between."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+
+from fenics_gears.contact.ladder import LADDER
+from fenics_gears.dynamics.average_acceleration import AverageAcceleration
+from fenics_gears.dynamics.backward_euler import BackwardEuler
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.effects.friction import Friction
+from fenics_gears.effects.relief import Relief
+from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.model import model
+from fenics_gears.scene.data import Motion
+from fenics_gears.simulation import simulate
+
+CYCLES = 3
+TIP_RELIEF = TipRelief(pinion=Relief(0.031, None), wheel=Relief(0.031, None))
+
+
+@pytest.fixture(scope="module")
+def coarse(paper_scene):
+    return coarse_scene(paper_scene)
+
+
+def at(scene, mesh_frequency, cycles=CYCLES):
+    """All of some mesh cycles at a mesh frequency (Hz)."""
+    return replace(scene, motion=Motion(mesh_frequency, cycles, cycles))
+
+
+def difference(scene, mesh_frequency):
+    """Root of the mean square over each cycle of the difference to the quasi-static transmission error, in parts of its mean."""
+    dynamic = simulate(at(scene, mesh_frequency)).transmission_error.values
+    static = simulate(at(quasi_static(scene), mesh_frequency)).transmission_error.values
+    apart = (dynamic - static)[1:].reshape(CYCLES, -1)
+    return np.sqrt(np.mean(apart**2, axis=1)) / static.mean()
+
+
+@pytest.mark.parametrize("damping", ["damped", "undamped"])
+@pytest.mark.parametrize("friction", ["friction", "frictionless"])
+def test_low_end_is_quasi_static_and_does_not_ring(coarse, friction, damping, measured):
+    """Limit: as the mesh frequency falls inertia and damping vanish. What the start or a kink left to ring would grow from cycle to cycle."""
+    scene = coarse if friction == "friction" else frictionless(coarse)
+    scene = scene if damping == "damped" else replace(scene, damping=None)
+    cycles = difference(scene, 0.01)
+    measured(f"0.01 Hz against quasi-static, {friction}, {damping}", cycles.max(), "1e-6")
+    measured(f"its growth from first to third cycle, {friction}, {damping}", cycles[2] / cycles[0] - 1.0, "0.05")
+    assert cycles.max() <= 1e-6
+    assert cycles[2] <= 1.05 * cycles[0]
+
+
+def test_difference_to_quasi_static_vanishes_with_the_frequency(coarse, measured):
+    """Known orders: 1 with damping, whose force goes with velocity; 2 without."""
+    for name, scene, order in (("damped", coarse, 1.0), ("undamped", frictionless(replace(coarse, damping=None)), 2.0)):
+        far, near = difference(scene, 0.1).max(), difference(scene, 0.01).max()
+        found = np.log10(far / near)
+        measured(f"order of the difference in mesh frequency, {name}", found, f"{order:g}")
+        assert found == pytest.approx(order, abs=0.1)
+
+
+def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coarse, measured):
+    """Nyquist: two steps in a period and more hold a vibration; the method changes there and nowhere else."""
+    for mesh_frequency in np.geomspace(0.01, 20e3, 40):
+        built = model(at(coarse, mesh_frequency))
+        steps = built.vibrations[0].steps_per_period(built.time_step)
+        marcher = Marcher(_AnyCycle(built.pair), built.drivetrain, built.time_step, 0.1, built.pace)
+        assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
+    slowest = model(coarse).vibrations[0].frequency
+    measured("mesh frequency below which backward Euler steps, 40 steps a cycle", 2.0 * slowest / 40, "2 f0/steps", "Hz")
+
+
+class _AnyCycle:
+    steps, divisible = 40, False
+
+    def __init__(self, pair):
+        self.pair = pair
+
+
+def test_high_end_is_the_rigid_mean_motion(coarse, measured):
+    """Newton's law: far above every natural frequency the mesh force's fluctuation meets mass alone, the ripple falls as 1/f^2, and what
+    the start leaves to ring shows as a drift of the cycles' means, here over a period of the slowest vibration, without damping."""
+    scene = frictionless(replace(coarse, damping=None))
+    static = simulate(at(quasi_static(scene), 200.0)).transmission_error.values
+    ripple = {}
+    for mesh_frequency in (10e3, 20e3):
+        cycles = int(mesh_frequency / 200.0)
+        error = simulate(at(scene, mesh_frequency, cycles)).transmission_error.values
+        means = error[1:].reshape(cycles, -1).mean(axis=1)
+        ripple[mesh_frequency] = np.ptp(error[-41:])
+        drift = np.ptp(means) / np.ptp(static)
+        measured(f"{mesh_frequency / 1e3:g} kHz: ringing left of the start, of the static peak-to-peak value", drift, "0.01")
+        assert drift <= 0.01
+        assert means.mean() == pytest.approx(static.mean(), rel=0.01)
+    order = np.log2(ripple[10e3] / ripple[20e3])
+    measured("20 kHz: ripple of the static peak-to-peak value", ripple[20e3] / np.ptp(static), "0.01")
+    measured("order of the ripple in 1/f", order, "2")
+    assert ripple[20e3] <= 0.01 * np.ptp(static)
+    assert order == pytest.approx(2.0, abs=0.1)
+
+
+def test_high_end_with_friction_stays_in_contact(coarse, measured):
+    """The same with friction, whose mean force the start takes as that of full slip: some of it rings, in a few per cent."""
+    static = simulate(at(quasi_static(coarse), 200.0)).transmission_error.values
+    result = simulate(at(replace(coarse, damping=None), 20e3, 100))
+    drift = np.ptp(result.transmission_error.values[1:].reshape(100, -1).mean(axis=1)) / np.ptp(static)
+    measured("20 kHz with friction: ringing left of the start, of the static peak-to-peak value", drift, "0.05")
+    assert drift <= 0.05
+    assert result.attrs["contact_loss_count"] == 0
+
+
+def swept(scene, mesh_frequencies, frictions, cycles):
+    """Runs, steps and steps by rung of a sweep; raises where a step fails."""
+    runs, steps, rungs = 0, 0, {}
+    for mesh_frequency in mesh_frequencies:
+        for friction in frictions:
+            acting = None if friction == 0.0 else Friction(friction)
+            result = simulate(replace(scene, friction=acting, motion=Motion(mesh_frequency, cycles, 1)))
+            assert result.attrs["complete"] == 1 and np.all(np.isfinite(result.transmission_error.values))
+            runs, steps = runs + 1, steps + result.attrs["steps"]
+            for name, value in result.attrs.items():
+                if name.startswith("steps_by_rung: "):
+                    rungs[name[15:]] = rungs.get(name[15:], 0) + value
+    return runs, steps, rungs
+
+
+def _told(runs, steps, rungs):
+    climbed = ", ".join(f"{name} {count}" for name, count in rungs.items() if name != LADDER[0]) or "none"
+    return f"none in {steps} steps of {runs} runs; steps that left the first rung: {climbed}"
+
+
+def test_no_step_fails_at_any_frequency_and_friction(coarse, measured):
+    """Every step converges or the run raises: the paper's pair over six decades of mesh frequency, mu from 0 to 0.6."""
+    pairs = zip(np.geomspace(0.01, 20e3, 14), 2 * (0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6))
+    told = [swept(coarse, [frequency], [friction], 3) for frequency, friction in pairs]
+    rungs = {name: sum(found.get(name, 0) for _, _, found in told) for name in {name for _, _, found in told for name in found}}
+    measured("failed steps, coarse", _told(sum(t[0] for t in told), sum(t[1] for t in told), rungs), "none")
+    assert sum(t[0] for t in told) == 14
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("kind", ["damped", "undamped", "relieved", "damped, 0.06 mm"])
+def test_no_step_fails_in_a_dense_sweep(coarse, kind, measured):
+    """The same, 25 frequencies by 9 coefficients of friction, at 100 steps a cycle."""
+    scene = replace(coarse, accuracy=replace(COARSE, steps_per_mesh_cycle=100))
+    if kind == "undamped":
+        scene = replace(scene, damping=None)
+    if kind == "relieved":
+        scene = replace(scene, tip_relief=TIP_RELIEF)
+    if "mm" in kind:
+        scene = replace(scene, accuracy=replace(scene.accuracy, element="P2", flank_element_size=0.06, contact_nodes=51))
+    runs, steps, rungs = swept(scene, np.geomspace(0.01, 20e3, 25), (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6), 4)
+    measured(f"failed steps, dense sweep, {kind}", _told(runs, steps, rungs), "none")
+    assert runs == 225
