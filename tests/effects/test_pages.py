@@ -1,0 +1,131 @@
+"""The documentation's pages on effects: the table is the list's, and the worked example works."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tests import effects_table
+from tests.effects.examples import scene_of, text_of
+
+import fenics_gears
+from fenics_gears.scene.data import Scene
+
+PACKAGE = Path(fenics_gears.__file__).parent
+GUIDE = effects_table.PAGE.with_name("adding_an_effect.md")
+
+
+def test_the_table_of_effects_is_up_to_date():
+    """Authority: identity; `python -m tests.effects_table` writes it anew."""
+    assert effects_table.PAGE.read_text(encoding="utf-8") == effects_table.page()
+
+
+def block(language, holding):
+    """The one block of code in the guide in that language that holds some words."""
+    found = [code for code in re.findall(rf"```{language}\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S) if holding in code]
+    assert len(found) == 1
+    return found[0]
+
+
+@pytest.fixture(scope="module")
+def extended(tmp_path_factory):
+    """A folder with a copy of the package to which the guide's module and its entry have been added."""
+    folder = tmp_path_factory.mktemp("extended")
+    # With its compiled kernels, which know their source by its time.
+    shutil.copytree(PACKAGE, folder / "fenics_gears")
+    effects = folder / "fenics_gears" / "effects"
+    (effects / "brake.py").write_text(block("python", "EFFECT = Effect("), encoding="utf-8")
+    text = (effects / "__init__.py").read_text(encoding="utf-8")
+    text, imported = re.subn(r"(from fenics_gears\.effects import \(?\s*)", r"\1brake, ", text, count=1)
+    text, listed = re.subn(r"(\nEFFECTS: .*?)\n\)", rf"\1\n{block('python', 'brake.EFFECT').rstrip()}\n)", text, count=1, flags=re.S)
+    assert imported == listed == 1
+    (effects / "__init__.py").write_text(text, encoding="utf-8")
+    return folder
+
+
+def run(folder, *arguments, given=None):
+    """Python on the package in a folder; what it prints."""
+    environment = {**os.environ, "PYTHONPATH": str(folder), "OMP_NUM_THREADS": "1"}
+    done = subprocess.run([sys.executable, "-P", *arguments], input=given, cwd=folder, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+PROGRAM = """
+import json, sys
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+found = []
+for text in json.load(sys.stdin):
+    run = simulate(scene_from_text(text))
+    found.append({
+        "modules": sorted(sys.modules), "variables": sorted(run.data_vars), "transmission_error": run.transmission_error.values.tolist(),
+        "work": run.get("work_brake", run.time).values.tolist(), "twist": (run.shaft_end_rotation - run.rotation[:, 1]).values.tolist()
+        if "shaft_end_rotation" in run else [],
+    })
+print(json.dumps(found))
+"""
+
+
+@pytest.fixture(scope="module")
+def runs(extended):
+    """What a bare scene, one with the brake, the bare one under the whole torque and one with shafts and brake give in the extended package."""
+    brake = block("toml", "[brake]").replace("20 N m", "37 N m")
+    bare, shafts = text_of("tooth_elasticity"), text_of("tooth_elasticity", "shafts")
+    less, whole = bare.replace('"437 N m"', '"400 N m"'), bare
+    texts = [less, less + brake, whole, shafts.replace('"437 N m"', '"400 N m"') + brake]
+    printed = run(extended, "-c", PROGRAM, given=json.dumps(texts))
+    return json.loads(printed.splitlines()[-1])
+
+
+def test_the_guides_effect_is_named_by_check_on_and_off(extended):
+    """Authority: the guide; one entry in the list is enough."""
+    for name, text in (("with", text_of() + block("toml", "[brake]")), ("without", text_of())):
+        (extended / f"{name}.toml").write_text(text, encoding="utf-8")
+        lines = run(extended, "-m", "fenics_gears", "check", f"{name}.toml").splitlines()
+        line = next(line.split(maxsplit=2) for line in lines if line.split()[:1] == ["brake"])
+        if name == "with":
+            assert line[1] == "on" and "brake torque on the wheel" in line[2] and "work_brake" in line[2]
+        else:
+            assert line[1:] == ["off", "no brake"]
+
+
+def test_the_guides_rule_refuses_with_place_value_and_remedy(extended):
+    """Authority: the guide; a rule's Problem is a message with all that a user needs."""
+    (extended / "wrong.toml").write_text(text_of("coast_flanks").replace('"437 N m"', '"-437 N m"') + block("toml", "[brake]"), encoding="utf-8")
+    environment = {**os.environ, "PYTHONPATH": str(extended)}
+    call = [sys.executable, "-P", "-m", "fenics_gears", "check", "wrong.toml"]
+    done = subprocess.run(call, cwd=extended, env=environment, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "load.wheel_torque" in done.stderr and "-437 N m" in done.stderr and "cannot stand beside a brake" in done.stderr
+
+
+def test_the_guides_effect_has_its_known_answer(runs):
+    """Authority: identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque times angle."""
+    _, braked, whole, _ = runs
+    assert braked["transmission_error"] == pytest.approx(whole["transmission_error"], rel=1e-12)
+    assert braked["work"][-1] == pytest.approx(37e3 * 2.0 * 3.141592653589793 / 24, rel=1e-12)
+
+
+def test_the_guides_brake_works_before_the_output_shaft(runs):
+    """Authority: statics; the shaft of 0.203e9 N mm/rad is twisted by the 400 N m at its end, not by the brake."""
+    assert runs[3]["twist"] == pytest.approx([400e3 / 0.203e9] * 21, rel=1e-9)
+
+
+def test_the_guides_effect_left_out_leaves_nothing_behind(runs):
+    """Authority: house rule 9; a scene without it loads what the package without it loads, its own section's module aside."""
+    plain = json.loads(run(PACKAGE.parent, "-c", PROGRAM, given=json.dumps([text_of("tooth_elasticity").replace('"437 N m"', '"400 N m"')])))[0]
+    bare = runs[0]
+    assert set(bare["modules"]) - set(plain["modules"]) == {"fenics_gears.effects.brake"}
+    assert bare["variables"] == plain["variables"] and "work_brake" not in bare["variables"]
+    assert bare["transmission_error"] == plain["transmission_error"]
+    assert set(runs[1]["variables"]) - set(bare["variables"]) == {"work_brake"}
+
+
+def test_the_packages_own_scene_does_not_know_the_guides_effect():
+    """Authority: identity; the example was added to a copy."""
+    assert "brake" not in Scene.__dataclass_fields__ and not hasattr(scene_of(), "brake")
