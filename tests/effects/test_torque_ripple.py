@@ -1,0 +1,220 @@
+"""``[torque_ripple]``: the couple on the wheel's shaft, what it does, and what the section says when it is wrong."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.coarse import COARSE, frictionless, quasi_static
+from tests.frozen_gears import frozen_marcher
+
+from fenics_gears.contact.laws import OPEN
+from fenics_gears.dynamics.average_acceleration import State
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.torque_ripple import varying_load
+from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+
+DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+ORDER = 24.0  # of the wheel's turn: once a mesh cycle
+RIPPLE = TorqueRipple((Harmonic(ORDER, 30e3, 0.4), Harmonic(2.5, 10e3)))
+
+
+def coarse(scene, cycles=2):
+    """The scene on a coarse mesh, every cycle kept."""
+    return replace(scene, accuracy=COARSE, motion=Motion(200.0, cycles, cycles))
+
+
+def expected_couple(result, ripple, torque=437e3, teeth=24):
+    """The couple (time,), N mm, written out by hand."""
+    turned = 2.0 * np.pi * result.mesh_phase.values / teeth
+    return torque + sum(each.amplitude * np.cos(each.order * turned + each.phase) for each in ripple.harmonics)
+
+
+def test_the_section_is_read_in_program_units():
+    """Authority: 1 N m = 1000 N mm, 180 deg = pi; a phase left out is zero."""
+    lines = '[torque_ripple]\nharmonics = [{ order = 1, amplitude = "20 N m", phase = "90 deg" }, { order = 2.5, amplitude = "3 N m" }]\n'
+    read = scene_from_text(DEMO + lines).torque_ripple
+    assert [(each.order, each.amplitude) for each in read.harmonics] == [(1.0, 20e3), (2.5, 3e3)]
+    assert [each.phase for each in read.harmonics] == pytest.approx([np.pi / 2, 0.0], rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("harmonics", "said"),
+    [
+        ("[]", "is empty"),
+        ('"20 N m"', "is not a list"),
+        ("[3]", "is no table"),
+        ('[{ amplitude = "20 N m" }]', "has no order at place 1"),
+        ('[{ order = 1, amplitude = "20 N m" }, { order = 0, amplitude = "20 N m" }]', "order = 0 at place 2"),
+        ('[{ order = 1, amplitude = "20 mm" }]', "is a length, not a couple"),
+        ('[{ order = 1, amplitude = "-20 N m" }]', "is negative"),
+        ('[{ order = 1, amplitud = "20 N m" }]', 'Did you mean "amplitude"?'),
+        ('[{ order = 1, amplitude = "400 N m" }, { order = 2, amplitude = "40 N m" }]', "440 N m together, more than load.wheel_torque"),
+    ],
+)
+def test_a_wrong_section_is_refused(harmonics, said):
+    """Authority: house rule 7; what is wrong, at which place of the list, and what is allowed."""
+    with pytest.raises(SceneError) as refused:
+        scene_from_text(DEMO + f"[torque_ripple]\nharmonics = {harmonics}\n")
+    assert said in str(refused.value) and "Allowed: " in str(refused.value)
+
+
+def test_with_coast_flanks_the_couple_may_turn_its_sign():
+    """Authority: the rule's own remedy."""
+    text = DEMO + '[torque_ripple]\nharmonics = [{ order = 1, amplitude = "500 N m" }]\n[coast_flanks]\n'
+    assert scene_from_text(text).torque_ripple.harmonics[0].amplitude == 500e3
+
+
+@pytest.mark.parametrize("static", [True, False], ids=["quasi-static", "dynamic"])
+def test_a_vanishing_ripple_is_none(paper_scene, static):
+    """Exact limit: an amplitude of 1e-9 N mm leaves the result of a scene without the section, to round-off."""
+    scene = coarse(quasi_static(paper_scene) if static else paper_scene)
+    off, on = (simulate(replace(scene, torque_ripple=ripple)) for ripple in (None, TorqueRipple((Harmonic(1.0, 1e-9),))))
+    assert set(on) - set(off) == {"wheel_couple"}
+    for name in off:
+        # The account's terms are round-off beside the work that passes through.
+        size = np.nanmax(np.abs(off["work_input" if name.startswith(("work_", "energy")) else name].values)) or 1.0
+        assert on[name].values == pytest.approx(off[name].values, rel=1e-9, abs=1e-9 * size, nan_ok=True), name
+
+
+def test_the_right_side_is_the_couples_work_by_finite_differences(paper_scene, paper_pair):
+    """Finite differences (exact, being linear): the forces on the coordinates are the derivative of couple times rotation of the shaft's end."""
+    shafts, angle = drivetrain(paper_scene, paper_pair), 0.01
+    forces = varying_load(RIPPLE, shafts, angle)(7.0)
+    couple = sum(each.amplitude * np.cos(each.order * 7.0 * angle + each.phase) for each in RIPPLE.harmonics)
+    moved = 1e-3 * np.eye(len(shafts.coordinates))
+    turned = np.array([shafts.value(each, "shaft_end") for each in moved])
+    assert forces == pytest.approx(couple * turned / 1e-3, rel=1e-12)
+    assert np.count_nonzero(forces) == 2
+
+
+def test_quasi_static_transmission_error_follows_the_couple(paper_scene):
+    """Exact: without friction and inertia a step knows only its own couple, so that the error at a step is that under the constant
+    couple of the same size; on elastic shafts and teeth alike."""
+    scene = coarse(frictionless(quasi_static(paper_scene)), cycles=1)
+    result = simulate(replace(scene, torque_ripple=RIPPLE))
+    couples = expected_couple(result, RIPPLE)
+    assert result.wheel_couple.values == pytest.approx(couples, rel=1e-14)
+    for step in (0, 13, 29):
+        constant = simulate(replace(scene, load=replace(scene.load, wheel_torque=float(couples[step]))))
+        assert result.transmission_error.values[step] == pytest.approx(constant.transmission_error.values[step], rel=1e-10)
+        assert result.normal_force.values[step] == pytest.approx(couples[step] / result.attrs["base_radius_wheel"], rel=1e-10)
+
+
+def tied(marcher, shafts):
+    """Stiffness (k, k), N/mm, of drivetrain and contact with the nodes that are closed at rest; and the record at rest."""
+    rest = marcher.start()
+    operator, closed = rest.position.operator, np.flatnonzero(rest.solution.status != OPEN)
+    rigid = operator.rigid[closed]
+    return shafts.stiffness + rigid.T @ np.linalg.solve(operator.compliance[np.ix_(closed, closed)], rigid), rest
+
+
+def with_ripple(scene, pair, flanks, time_step, ripple, shaft_step):
+    """A marcher of gears that do not roll, under a couple that ripples."""
+    marcher, shafts = frozen_marcher(replace(scene, friction=None), pair, flanks, time_step)
+    marcher.loads = (varying_load(ripple, shafts, shaft_step),)
+    return marcher, shafts
+
+
+def test_linear_range_moves_by_amplitude_times_compliance(paper_scene, paper_pair, stand_in_flanks):
+    """Exact in the linear range: on gears that do not roll, a ripple that closes or opens no node moves the drivetrain by its compliance."""
+    ripple, per_turn = TorqueRipple((Harmonic(3.0, 0.5, 0.2),)), 48
+    marcher, shafts = with_ripple(quasi_static(paper_scene), paper_pair, stand_in_flanks, 1e-4, ripple, 2.0 * np.pi / per_turn)
+    stiffness, record = tied(marcher, shafts)
+    positions, status = [], record.solution.status
+    for step in range(per_turn):
+        record = marcher.step(marcher.dynamic, record, step)
+        assert np.array_equal(record.solution.status, status)
+        positions.append(record.state.position)
+    unit = varying_load(TorqueRipple((Harmonic(3.0, 1.0),)), shafts, 0.0)(0)
+    phasor = 2.0 / per_turn * np.exp(-2j * np.pi * 3.0 * np.arange(per_turn) / per_turn) @ np.array(positions)
+    expected = 0.5 * np.exp(0.2j) * np.linalg.solve(stiffness, unit)
+    assert phasor == pytest.approx(expected, rel=1e-7, abs=1e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("frequency", [5.0, 120.0, 400.0])
+def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, stand_in_flanks, frequency):
+    """Exact solution: gears that do not roll, closed nodes staying closed, are linear; the march's steady answer to one harmonic is that of
+    the matrices, with (2/dt) tan(omega dt/2) for omega, which is how average acceleration sees it (Bathe, Finite Element Procedures, 9.4);
+    that tends to the frequency response with order two."""
+    per_period, errors = 40, []
+    for refinement in (1, 2):
+        count = per_period * refinement
+        time_step, ripple = 1.0 / (frequency * count), TorqueRipple((Harmonic(1.0, 0.5),))
+        marcher, shafts = with_ripple(paper_scene, paper_pair, stand_in_flanks, time_step, ripple, 2.0 * np.pi / count)
+        marcher.loads, loads = (), marcher.loads
+        stiffness, rest = tied(marcher, shafts)
+        marcher.loads = loads
+        force = loads[0](0)
+
+        def response(omega):
+            return np.linalg.solve(stiffness + 1j * omega * shafts.damping - omega**2 * shafts.mass, force)
+
+        omega = 2.0 * np.pi * frequency
+        seen = 2.0 / time_step * np.tan(0.5 * omega * time_step)
+        answer = response(seen)
+        # Begun on the steady vibration itself, so that nothing has to die away.
+        start = State(rest.state.position + answer.real, (1j * seen * answer).real, (-(seen**2) * answer).real)
+        closed = rest.solution.status
+        operator, nodes = rest.position.operator, np.flatnonzero(closed != OPEN)
+        forces = rest.solution.forces.copy()
+        forces[nodes] += np.linalg.solve(operator.compliance[np.ix_(nodes, nodes)], operator.rigid[nodes] @ answer.real)
+        record, positions = Record(0, start, rest.position, replace(rest.solution, forces=forces)), []
+        for step in range(1, 2 * count + 1):
+            record = marcher.step(marcher.dynamic, record, step)
+            assert np.array_equal(record.solution.status, closed)
+            positions.append(record.state.position - rest.state.position)
+        turned = np.exp(-2j * np.pi * np.arange(1, 2 * count + 1) / count)
+        phasor = 1.0 / count * turned @ np.array(positions)
+        assert phasor == pytest.approx(answer, abs=1e-6 * np.abs(answer).max())
+        errors.append(np.abs(phasor - response(omega)).max() / np.abs(answer).max())
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.15)
+
+
+def test_far_below_resonance_the_ripple_acts_as_at_rest(paper_scene):
+    """Known limit: at 0.5 Hz the dynamic error differs from the quasi-static one by less than 1e-3 of its own peak-to-peak value."""
+    scene = replace(coarse(frictionless(paper_scene)), torque_ripple=RIPPLE, motion=Motion(0.5, 2, 2), accuracy=replace(COARSE, steps_per_mesh_cycle=200))
+    moving, resting = simulate(scene), simulate(quasi_static(scene))
+    difference = np.abs(moving.transmission_error - resting.transmission_error).max()
+    assert float(difference) < 1e-3 * resting.attrs["peak_to_peak_transmission_error"]
+
+
+@pytest.mark.parametrize("absent", [(), ("friction",), ("inertia", "damping"), ("shafts", "bearings", "friction")])
+def test_the_energy_account_closes(paper_scene, absent):
+    """Exact identity: with a couple that varies the account closes to round-off, its work being the mean of both ends of a step."""
+    result = simulate(replace(coarse(paper_scene, 3), torque_ripple=RIPPLE, **dict.fromkeys(absent)))
+    taken = result.work_output + result.get("work_damping", 0.0) + result.get("work_friction", 0.0)
+    defect = result.energy - result.energy[0] - (result.work_input - taken + result.work_contact_changes)
+    done = float(result.work_input[-1])
+    assert float(np.abs(defect).max()) <= 1e-9 * done
+    assert float(np.abs(result.energy_defect).max()) <= 1e-9 * done
+
+
+def test_work_done_on_the_load_is_that_of_the_couple(paper_scene):
+    """Exact: the couple's work over a step is its mean times the angle turned; with rigid shafts the wheel's own rotation gives it."""
+    scene = replace(coarse(paper_scene), torque_ripple=RIPPLE, shafts=None)
+    result = simulate(scene)
+    couple = expected_couple(result, RIPPLE)
+    turned = 2.0 * np.pi / 24.0 * result.mesh_phase.values - result.rotation.sel(gear="wheel").values
+    work = np.concatenate(([0.0], np.cumsum(0.5 * (couple[1:] + couple[:-1]) * np.diff(turned))))
+    assert result.work_output.values == pytest.approx(work, rel=1e-10, abs=1e-10 * work[-1])
+
+
+def test_without_the_section_its_module_is_not_imported():
+    """House rule 9: a run without the section does not load what computes it."""
+    program = (
+        "import sys; from dataclasses import replace; from fenics_gears import load_scene; from fenics_gears.model import model\n"
+        f"built = model(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r}))\n"
+        "assert built.loads == () and built.clock.duration(0, 1) > 0\n"
+        "import fenics_gears.simulation, fenics_gears.results\n"
+        "assert 'fenics_gears.dynamics.torque_ripple' not in sys.modules and 'fenics_gears.dynamics.speed_ramp' not in sys.modules\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
