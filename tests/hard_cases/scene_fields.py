@@ -99,8 +99,8 @@ def whole_scene() -> dict[str, Any]:
     tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
     tree["tip_relief"] = {**RELIEF, "pinion": RELIEF, "wheel": RELIEF}
     tree["root_relief"] = {"depth": "5 um", "start": "LPSTC"}
-    waviness = {"amplitude": "1 um", "waves": 37}
-    tree["flank_errors"] = {"tolerance_class": 6, "seed": 1, "pinion": {"waviness": waviness}, "wheel": {"waviness": waviness}}
+    wavy = {gear: {"waviness": {"amplitude": "1 um", "waves": 37}} for gear in ("pinion", "wheel")}
+    tree["flank_errors"] = {"tolerance_class": 6, "seed": 1, **wavy}
     tree["eccentricity"] = {"pinion": {"distance": "10 um"}, "wheel": {"distance": "10 um"}}
     tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
     tree["gears"]["pinion"]["rack_tip_radius"] = tree["gears"]["wheel"]["rack_tip_radius"] = 0.38

@@ -1,0 +1,120 @@
+"""Run-out: once a turn of its gear, and as much as the base circle's centre is off."""
+
+from dataclasses import replace
+from math import cos, radians
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, teeth_alone
+
+from fenics_gears.contact.mesh_cycle import pair_places
+from fenics_gears.contact.run_out import RunOut
+from fenics_gears.contact.tooth_pair import COAST, DRIVE
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.effects import without
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
+from fenics_gears.scene.data import Accuracy, Load, Motion
+from fenics_gears.simulation import simulate
+
+DISTANCE, PHASE = 0.01, 0.7
+PERIOD = 48  # mesh cycles until 16 and 24 teeth meet again: three turns of the pinion, two of the wheel
+
+
+@pytest.fixture(scope="module")
+def rigid(paper_scene):
+    """The paper's pair with rigid flanks on rigid shafts, over a hunting tooth period."""
+    bare = without(paper_scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")
+    return replace(bare, accuracy=Accuracy(steps_per_mesh_cycle=20), motion=Motion(200.0, PERIOD, PERIOD))
+
+
+def harmonics(result, radius):
+    """Complex amplitudes (mm at the wheel's base circle) of the orders of the hunting tooth period, the mean first."""
+    error = result.transmission_error.values[:-1] * radius
+    spectrum = 2.0 * np.fft.rfft(error) / len(error)
+    return spectrum
+
+
+@pytest.mark.parametrize(("gear", "turns"), [("pinion", 3), ("wheel", 2)])
+def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turns):
+    """Exact: T_E, as a length on the base circle, is a cosine of the eccentricity's own amplitude, once a turn of its gear: the gap opens
+    by -e cos(rotation + phase) for the pinion, by +e cos(rotation + phase) for the wheel."""
+    offsets = {"pinion": None, "wheel": None, gear: Offset(DISTANCE, PHASE)}
+    spectrum = harmonics(simulate(replace(rigid, eccentricity=Eccentricity(**offsets))), paper_pair.wheel.base_radius)
+    sign = -1.0 if gear == "pinion" else 1.0
+    assert spectrum[turns] == pytest.approx(sign * DISTANCE * np.exp(1j * PHASE), abs=1e-12)
+    spectrum[turns] = 0.0
+    assert np.abs(spectrum[1:]).max() <= 1e-12
+
+
+def test_lightly_loaded_elastic_gears_have_it_too(paper_scene, paper_pair):
+    """Known answer: nearly unloaded, the quasi-static pair follows rigid kinematics; the gaps being the same for all nodes, T_E moves by
+    exactly e at any load that leaves the contact alone."""
+    scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
+    scene = replace(scene, load=Load(1e-2 * scene.load.wheel_torque), motion=Motion(200.0, PERIOD, PERIOD))
+    plain = harmonics(simulate(scene), paper_pair.wheel.base_radius)
+    spectrum = harmonics(simulate(replace(scene, eccentricity=Eccentricity(None, Offset(DISTANCE, PHASE)))), paper_pair.wheel.base_radius)
+    assert abs(spectrum[2]) == pytest.approx(DISTANCE, rel=1e-9)
+    spectrum[2] = 0.0
+    assert spectrum == pytest.approx(plain, abs=1e-10)
+
+
+def test_without_offset_nothing_changes(paper_scene):
+    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    plain, zero = simulate(scene), simulate(replace(scene, eccentricity=Eccentricity(Offset(0.0, PHASE), Offset(0.0, PHASE))))
+    for name in plain.data_vars:
+        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
+
+
+class _Operator:
+    """Of a contact operator what run-out looks at: two nodes a pair."""
+
+    def __init__(self, pairs):
+        self.pairs = pairs
+
+
+class _Pair:
+    def __init__(self, place):
+        self.place, self.offsets = place, np.zeros(2)
+
+
+class _Position:
+    def __init__(self, pair, index, steps):
+        places = pair_places(pair, ContactGrid(1.5, 20), index / steps, coast_flanks=True)
+        self.operator = _Operator([_Pair(place) for place in places])
+
+
+@pytest.mark.parametrize("gear", [0, 1])
+def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pair, gear):
+    """Exact: a rigid displacement of the base circle by (x, y). The line of centres is the mirror of both lines of action: towards the
+    mate, both flanks close; around, what one loses the other gains."""
+    steps, offsets = 20, [None, None]
+    offsets[gear] = Offset(DISTANCE, 0.0)
+    run_out, angle = RunOut(paper_pair, Eccentricity(*offsets), steps), paper_pair.operating_pressure_angle
+    teeth, sense = (paper_pair.pinion.teeth, paper_pair.wheel.teeth)[gear], (1.0, -1.0)[gear]
+    for step in (0, 7, 33, 191):
+        position = _Position(paper_pair, step % steps, steps)
+        gaps = run_out(step, position).reshape(-1, 2)[:, 0]
+        turned = sense * 2.0 * np.pi * step / (steps * teeth)
+        # Angles of the displacement from either line of action's direction, pinion to wheel; the coast flanks' is (-cos 2a, -sin 2a).
+        expected = {DRIVE: -sense * DISTANCE * cos(turned), COAST: sense * DISTANCE * cos(turned - 2.0 * angle)}
+        flanks = [pair.place.flank for pair in position.operator.pairs]
+        assert set(flanks) == {DRIVE, COAST}
+        assert gaps == pytest.approx([expected[flank] for flank in flanks], abs=1e-15)
+
+
+def test_backlash_shrinks_and_grows_with_the_centre_distance(rigid, paper_pair):
+    """Known answer: driven forwards and backwards the rigid pair's play is its backlash, changed by 2 sin(alpha_w) times how much nearer
+    the base circle's centre has come to the mate."""
+    scene = replace(rigid, coast_flanks=CoastFlanks(), eccentricity=Eccentricity(Offset(DISTANCE, PHASE), None))
+    forward = simulate(scene)
+    backward = simulate(replace(scene, load=Load(-scene.load.wheel_torque)))
+    play = (forward.transmission_error.values - backward.transmission_error.values) * paper_pair.wheel.base_radius
+    angle = 2.0 * np.pi * forward.mesh_phase.values / 16 + PHASE
+    # The mate's centre lies at -(90 deg - alpha_w) from the line of action.
+    nearer = DISTANCE * np.cos(angle + radians(90.0) - paper_pair.operating_pressure_angle)
+    expected = paper_pair.backlash - 2.0 * np.sin(paper_pair.operating_pressure_angle) * nearer
+    assert np.ptp(expected) > 1e-3
+    # Displaced by the backlash, the wheel's tips touch at other phases than in the nominal position.
+    assert play == pytest.approx(expected, abs=1e-9)

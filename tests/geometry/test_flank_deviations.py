@@ -1,0 +1,64 @@
+"""Flank tolerances, and deviations of teeth as given and as drawn."""
+
+import numpy as np
+import pytest
+
+from fenics_gears.effects.flank_errors import FlankErrors, GearErrors
+from fenics_gears.geometry.flank_deviations import flank_deviations
+from fenics_gears.geometry.flank_tolerance import flank_tolerance
+
+EVERY_CLASS = range(1, 12)
+
+
+def test_tolerances_are_those_of_the_standard():
+    """Literature: ISO 1328-1:2013, module 3 mm, 40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80 um before rounding,
+    total profile 12 um when rounded to a whole one."""
+    found = flank_tolerance(120.0, 3.0, 6)
+    assert found.single_pitch == pytest.approx(8.94e-3, abs=5e-6)
+    assert found.cumulative_pitch == pytest.approx(28.80e-3, abs=5e-6)
+    assert round(1e3 * found.profile) == 12
+
+
+@pytest.mark.parametrize("tolerance_class", EVERY_CLASS)
+def test_drawn_deviations_are_just_within_their_class(paper_pair, tolerance_class):
+    """Definition: no deviation exceeds its tolerance; the single or the cumulative pitch deviation reaches it on either gear."""
+    for seed in range(20):
+        drawn = flank_deviations(FlankErrors(tolerance_class=tolerance_class, seed=seed), paper_pair)
+        for found, gear in zip(drawn, (paper_pair.pinion, paper_pair.wheel)):
+            limits = flank_tolerance(2.0 * gear.reference_radius, gear.module, tolerance_class)
+            shares = np.abs(found.single_pitch).max() / limits.single_pitch, np.ptp(found.index) / limits.cumulative_pitch
+            assert max(shares) == pytest.approx(1.0, rel=1e-12)
+            assert np.abs(found.slope).max() <= limits.profile_slope and np.abs(found.form).max() <= limits.profile_form
+            assert 0.3 * limits.profile_slope < np.std(found.slope) < 0.9 * limits.profile_slope
+
+
+def test_pitches_close_over_a_turn(paper_pair):
+    """Identity: the pitch from the last tooth to the first completes the circle; the cumulative deviation begins at zero there."""
+    for found in flank_deviations(FlankErrors(tolerance_class=8, seed=5), paper_pair):
+        assert abs(found.single_pitch.sum()) <= 1e-15
+        assert found.index[-1] == 0.0
+        assert found.index == pytest.approx(np.cumsum(found.single_pitch), abs=1e-15)
+
+
+def test_given_pitches_are_kept_and_what_rounding_leaves_of_their_sum_is_shared_out(paper_pair):
+    """Definition: a sheet rounded to 0.1 um sums to a few tenths; every pitch gives up its share."""
+    given = np.round(1e-3 * np.sin(np.arange(16)), 4)
+    assert abs(given.sum()) > 1e-4
+    pinion, wheel = flank_deviations(FlankErrors(pinion=GearErrors(pitch=tuple(given))), paper_pair)
+    assert pinion.single_pitch == pytest.approx(given - given.mean(), abs=1e-15)
+    for nothing in (pinion.slope, pinion.form, wheel.index, wheel.slope, wheel.form):
+        assert not nothing.any()
+
+
+def test_the_seed_decides_and_given_values_leave_the_other_draws_alone(paper_pair):
+    """Definition: one seed, one pair of gears; each kind of deviation of each gear is drawn by itself."""
+    first, other = (flank_deviations(FlankErrors(tolerance_class=6, seed=seed), paper_pair) for seed in (1, 2))
+    again = flank_deviations(FlankErrors(tolerance_class=6, seed=1), paper_pair)
+    own = GearErrors(pitch=(0.0,) * 16)
+    given = flank_deviations(FlankErrors(pinion=own, tolerance_class=6, seed=1), paper_pair)
+    for gear in range(2):
+        assert np.array_equal(first[gear].index, again[gear].index)
+        assert np.array_equal(first[gear].slope, given[gear].slope)
+        assert np.abs(first[gear].slope - other[gear].slope).max() > 1e-3
+    assert not given[0].index.any() and np.array_equal(given[1].index, first[1].index)
+    assert np.abs(first[0].slope - first[1].slope[:16]).max() > 1e-3
