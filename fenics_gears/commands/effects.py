@@ -59,7 +59,8 @@ def _print(report, files: list[Path]) -> None:
     from fenics_gears.console import print_rows, print_table
     from fenics_gears.studies.effect_lattice import table
 
-    print_table(f"{report.scene.title}: effects, one more than the bare scene and one less than all", [table.HEADINGS, table.UNITS], table.table_rows(report))
+    heading = f"{report.scene.title}: effects, one more than the bare scene and one less than all"
+    print_table(heading, [table.HEADINGS, table.UNITS], table.table_rows(report))
     print_rows("Remarks", [(f"[{number}]", remark, "") for number, remark in enumerate(table.remarks(report), 1)])
     if report.skipped:
         print_rows("Not run", [(each.name, each.reason, "") for each in report.skipped])

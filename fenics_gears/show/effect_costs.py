@@ -93,10 +93,13 @@ def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 def _heading(figure: Figure, report: Report) -> None:
     title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
     figure.suptitle(
-        f"What the effects cost and change: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False
+        f"What the effects cost and change: {title}\n{conditions(report.scene)}",
+        x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False,
     )
-    entries = [f"green: {WORDS[ALONE]}", f"orange: {WORDS[LEFT_OUT]}", "dotted line: bare, dashed: all", "grey whiskers: fastest and slowest round"]
+    entries = [f"green: {WORDS[ALONE]}", f"orange: {WORDS[LEFT_OUT]}", "dotted line: bare, dashed: all"]
+    entries.append("grey whiskers: fastest and slowest round")
     if any(row.remarks for row in report.rows):
         entries.append("* with a remark, see effects.csv")
     where = report.machine
-    figure.text(0.008, 0.008, f"{'; '.join(entries)}\n{where['processor']}; threads: {where['threads']}; {where['versions']}", fontsize=9.5, color=DARK)
+    words = f"{'; '.join(entries)}\n{where['processor']}; threads: {where['threads']}; {where['versions']}"
+    figure.text(0.008, 0.008, words, fontsize=9.5, color=DARK)

@@ -38,7 +38,8 @@ class Subset:
     def name(self) -> str:
         """What the subset is called in tables."""
         changed = ", ".join([self.effect, *self.beside])
-        return {NOTHING: "rigid flanks, no effect", BARE: "bare", ALONE: f"+ {changed}", LEFT_OUT: f"all - {changed}", ALL: "all"}[self.kind]
+        names = {NOTHING: "rigid flanks, no effect", BARE: "bare", ALONE: f"+ {changed}", LEFT_OUT: f"all - {changed}", ALL: "all"}
+        return names[self.kind]
 
     @property
     def note(self) -> str:
@@ -67,8 +68,8 @@ def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
     problem = functools.cache(functools.partial(_problem, scene))
     wanted = [(NOTHING, "", frozenset())] if base else []
     wanted += [(BARE, "", base)]
-    wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in _in_order(every - base)]
-    wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in _in_order(every)]
+    wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in in_order(every - base)]
+    wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in in_order(every)]
     wanted += [(ALL, "", every)]
     return _without_repetition(scene, wanted, every, problem)
 
@@ -83,7 +84,7 @@ def _without_repetition(scene: Scene, wanted, every: Sections, problem: Valid) -
         if sections is not None and not problem(sections):
             if first[sections] == (kind, name):
                 left = every - sections
-                subsets.append(Subset(kind, name, sections, without(scene, *_in_order(left)), _beside(kind, name, sections, left)))
+                subsets.append(Subset(kind, name, sections, without(scene, *in_order(left)), _beside(kind, name, sections, left)))
             continue
         asked = sections if sections is not None else every - {name} if kind == LEFT_OUT else every & {BASE, name}
         skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
@@ -92,7 +93,7 @@ def _without_repetition(scene: Scene, wanted, every: Sections, problem: Valid) -
 
 def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:
     """What came or went with an effect."""
-    return tuple(_in_order({ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())))
+    return tuple(in_order({ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())))
 
 
 def smallest_valid(wanted: Sections, every: Sections, problem: Valid) -> Sections | None:
@@ -100,7 +101,7 @@ def smallest_valid(wanted: Sections, every: Sections, problem: Valid) -> Section
     closed = wanted
     while missing := {need for each in closed for need in effect(each).needs if need in every} - closed:
         closed = closed | missing
-    further = _in_order(every - closed)
+    further = in_order(every - closed)
     candidates = (closed | set(added) for count in range(MOST_FURTHER + 1) for added in combinations(further, count))
     return next((each for each in candidates if not problem(each)), None)
 
@@ -109,7 +110,7 @@ def largest_valid(left: Sections, problem: Valid) -> Sections | None:
     """The largest valid set of effects within those that are `left`; None where there is none near."""
     while lost := {each for each in left if not set(effect(each).needs) <= left}:
         left = left - lost
-    candidates = (left - set(gone) for count in range(MOST_FURTHER + 1) for gone in combinations(_in_order(left), count))
+    candidates = (left - set(gone) for count in range(MOST_FURTHER + 1) for gone in combinations(in_order(left), count))
     return next((each for each in candidates if not problem(each)), None)
 
 
@@ -123,6 +124,6 @@ def _problem(scene: Scene, sections: Sections) -> str:
     return "; ".join(f"{'.'.join(problem.path)}: {problem.message}" for problem in broken_rules(tree))
 
 
-def _in_order(sections: Iterable[str]) -> list[str]:
+def in_order(sections: Iterable[str]) -> list[str]:
     """Sections in the order of the list of effects."""
     return [each.section for each in EFFECTS if each.section in sections]

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fenics_gears.studies.effect_lattice.measured import Report, Row
-from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
+from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, in_order
 
 MICRO, MILLI = 1e6, 1e3
 HEADINGS = (
@@ -46,9 +46,12 @@ def _with_change(value: float, report: Report, row: Row, name: str, digits: int)
 def change(report: Report, row: Row, name: str) -> float | None:
     """Relative change of "transmission_error", "peak_force" or "step_time" against what the row is compared with; None without that."""
     reference = report.reference(row)
-    if reference is None or reference is row or not getattr(reference, name):
-        return None
-    return getattr(row, name) / getattr(reference, name) - 1.0
+    return None if reference is None else relative_change(reference, row, name)
+
+
+def relative_change(reference: Row, row: Row, name: str) -> float | None:
+    """Relative change of a number from one row to another; None where there is nothing to be relative to."""
+    return getattr(row, name) / getattr(reference, name) - 1.0 if getattr(reference, name) else None
 
 
 def in_percent(changed: float) -> str:
@@ -82,16 +85,17 @@ def ratio_in_words(report: Report) -> list[tuple[str, str, str]]:
 
 def needs_in_words(report: Report) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: what leaving an effect out changes and saves, the largest change of either answer first."""
-    found = []
-    for row in report.rows:
-        if row.subset.kind != LEFT_OUT:
+    full, found = report.row(ALL), []
+    for section in in_order(full.subset.sections if full is not None else ()):
+        # Where effects are few, what all but one leaves is the bare scene or one effect's: the largest set will do.
+        others = [row for row in report.rows if section not in row.subset.sections]
+        row = max(others, key=lambda each: len(each.subset.sections), default=None)
+        changes = [] if row is None else [relative_change(full, row, name) for name in ("transmission_error", "peak_force", "step_time")]
+        if not changes or None in changes:
             continue
-        error, force, time = (change(report, row, name) for name in ("transmission_error", "peak_force", "step_time"))
-        if None in (error, force, time):
-            continue
-        words = f"T_EPP {in_percent(error)}, peak force {in_percent(force)}, time a step {in_percent(time)}"
-        label = f"without {' and '.join([row.subset.effect, *row.subset.beside])}"
-        found.append((max(abs(error), abs(force)), (label, words, "")))
+        gone = in_order(full.subset.sections - row.subset.sections - {section})
+        words = "T_EPP {}, peak force {}, time a step {}".format(*map(in_percent, changes))
+        found.append((max(map(abs, changes[:2])), (f"without {' and '.join([section, *gone])}", words, "")))
     return [words for _, words in sorted(found, key=lambda each: -each[0])]
 
 

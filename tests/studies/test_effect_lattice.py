@@ -1,0 +1,225 @@
+"""Subsets of a scene's effects: which are run, what is measured of them, and how it is told."""
+
+import csv
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.effects.examples import scene_of, text_of, with_needs
+
+from fenics_gears.cli import main
+from fenics_gears.effects import EFFECTS
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+from fenics_gears.studies.effect_lattice import measured, table
+from fenics_gears.studies.effect_lattice.cost_model import StepWork, expected_ratio
+from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, NOTHING, lattice
+
+TEETH = "tooth_elasticity"
+PAPER = (TEETH, "shafts", "bearings", "inertia", "damping", "friction")
+
+
+def subsets(scene):
+    return {subset.name: subset for subset in lattice(scene)[0]}
+
+
+def test_the_papers_scene_is_run_bare_with_each_effect_and_without_each():
+    """Authority: issue 5, each effect alone, all, all but one; damping is inertia's, friction is the elastic teeth's."""
+    found = subsets(scene_of(*PAPER))
+    assert {name: subset.sections for name, subset in found.items()} == {
+        "rigid flanks, no effect": set(),
+        "bare": {TEETH},
+        "+ shafts": {TEETH, "shafts"},
+        "+ bearings": {TEETH, "bearings"},
+        "+ inertia": {TEETH, "inertia"},
+        "+ damping, inertia": {TEETH, "inertia", "damping"},
+        "+ friction": {TEETH, "friction"},
+        "all - tooth_elasticity, friction": {"shafts", "bearings", "inertia", "damping"},
+        "all - shafts": {*PAPER} - {"shafts"},
+        "all - bearings": {*PAPER} - {"bearings"},
+        "all - inertia, damping": {TEETH, "shafts", "bearings", "friction"},
+        "all - damping": {*PAPER} - {"damping"},
+        "all - friction": {*PAPER} - {"friction"},
+        "all": {*PAPER},
+    }
+    assert found["+ damping, inertia"].note == "damping needs inertia"
+    assert found["all - inertia, damping"].note == "damping cannot stand without inertia"
+
+
+def test_a_subset_has_its_sections_and_no_others():
+    """Authority: identity; what is left of the scene is the scene without the other effects."""
+    for subset in subsets(scene_of(*PAPER)).values():
+        assert {each.section for each in EFFECTS if getattr(subset.scene, each.section) is not None} == subset.sections
+
+
+def test_the_scenes_own_rules_decide_what_a_subset_may_be():
+    """Authority: the rule of [damping]; damping by stiffness alone damps nothing without a spring, so the first spring comes too."""
+    text = text_of(*PAPER).replace('mass_proportional = "0.5e-3 1/s"', 'mass_proportional = "0 1/s"')
+    found = subsets(scene_from_text(text))
+    assert found["+ damping, shafts, inertia"].sections == {TEETH, "shafts", "inertia", "damping"}
+    assert "all - shafts" in found and "all - bearings" in found
+
+
+def test_a_subset_that_no_neighbour_makes_valid_is_skipped_with_the_rules_reason():
+    """Authority: the rule of [coast_flanks]; a negative torque cannot do without them."""
+    text = text_of(TEETH, "shafts", "coast_flanks").replace('"437 N m"', '"-437 N m"')
+    run, skipped = lattice(scene_from_text(text))
+    assert {subset.name for subset in run} == {"+ coast_flanks", "all - tooth_elasticity", "all"}
+    assert {each.name for each in skipped} == {"rigid flanks, no effect", "bare", "all - coast_flanks"}
+    assert all("is negative" in each.reason for each in skipped)
+
+
+def test_no_set_of_effects_is_run_twice():
+    """Authority: identity; every pair of effects' lattice, and that of all effects."""
+    for sections in [(), (TEETH,), (TEETH, "shafts"), with_needs("damping"), tuple(each.section for each in EFFECTS)]:
+        sets = [subset.sections for subset in lattice(scene_of(*sections))[0]]
+        assert len(set(sets)) == len(sets)
+        assert frozenset(sections) in sets
+
+
+def test_the_kinds_of_a_small_scene():
+    """Authority: identity; a scene of one effect besides elastic teeth has no more than four different subsets."""
+    kinds = {subset.sections: subset.kind for subset in lattice(scene_of(TEETH, "shafts"))[0]}
+    assert kinds == {frozenset(): NOTHING, frozenset({TEETH}): BARE, frozenset({"shafts"}): LEFT_OUT, frozenset({TEETH, "shafts"}): ALL}
+
+
+def work(coordinates, rows, closed, iterations, inertia, friction):
+    return StepWork(coordinates, rows, closed, iterations, inertia, friction)
+
+
+def test_operations_are_those_of_a_dense_solve_and_a_product():
+    """Authority: Golub and Van Loan, Matrix Computations: 2/3 N^3 + 2 N^2 for elimination and substitution, 2 m l for a product."""
+    n, m, c, k = 10.0, 30.0, 7.0, 3
+    assert work(k, m, c, 2.0, False, False).operations == pytest.approx(2 * (2 / 3 * n**3 + 2 * n**2 + n**2 + 2 * m * (c + k)))
+    frictional = 2 * (2 / 3 * n**3 + 2 * n**2 + n**2 + 2 * c**2 + 2 * m * (2 * c + k)) + m * (m + k)
+    assert work(k, m, c, 2.0, False, True).operations == pytest.approx(frictional)
+    large = work(k, m, 2000.0, 1.0, False, False).operations / work(k, m, 1000.0, 1.0, False, False).operations
+    assert large == pytest.approx(8.0, rel=0.01)
+
+
+def test_the_expected_ratio_finds_the_constants_that_times_were_made_with():
+    """Authority: manufactured times; own times and rate are found again, and the ratio that follows is exact."""
+    own, inertia, friction, rate = 30e-6, 15e-6, 8e-6, 4e8
+    seconds = lambda each: own + inertia * each.inertia + friction * each.friction + each.operations / rate  # noqa: E731
+    bare, full = work(1, 29, 6.7, 1.5, False, False), work(7, 58, 6.7, 1.5, True, True)
+    others = [work(3, 29, 6.7, 1.5, False, False), work(5, 29, 6.6, 1.6, True, False), work(1, 58, 6.5, 1.5, False, True)]
+    others += [work(5, 58, 6.7, 1.6, True, True), work(7, 29, 6.7, 1.4, True, False), work(7, 58, 6.7, 1.6, False, True)]
+    expected = expected_ratio(bare, full, [(each, seconds(each)) for each in others])
+    assert expected.fitted == pytest.approx(seconds(full) / seconds(bare), rel=1e-9)
+    assert expected.rate == pytest.approx(rate, rel=1e-9)
+    assert expected.arithmetic == pytest.approx(full.operations / bare.operations)
+
+
+def test_without_enough_subsets_nothing_is_fitted():
+    """Authority: linear algebra; four constants cannot be told from three rows."""
+    bare, full = work(1, 29, 6.7, 1.5, False, False), work(7, 58, 6.7, 1.5, True, True)
+    expected = expected_ratio(bare, full, [(work(3, 29, 6.7, 1.5, False, False), 4e-5)] * 3)
+    assert expected.fitted is None and expected.arithmetic > 1.0
+
+
+@pytest.fixture(scope="module")
+def report():
+    """The paper's effects at the coarse mesh, timed three times."""
+    return measured.measure(scene_of(*PAPER), rounds=3)
+
+
+def test_every_row_answers_as_the_scene_itself_does(report):
+    """Authority: identity; a row's transmission error and force are those of `gears run` of that scene."""
+    for kind, section, sections in ((BARE, "", (TEETH,)), (ALONE, "friction", (TEETH, "friction")), (LEFT_OUT, "shafts", {*PAPER} - {"shafts"})):
+        row = report.row(kind, section)
+        run = simulate(scene_of(*(each.section for each in EFFECTS if each.section in sections)))
+        assert row.transmission_error == pytest.approx(run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"], rel=1e-9)
+        assert row.peak_force == pytest.approx(float(run.normal_force.max()), rel=1e-9)
+        assert row.closed_nodes == pytest.approx(float(run.closed_nodes.mean()))
+        assert row.iterations == pytest.approx(run.attrs["newton_iterations_total"] / run.attrs["steps"])
+
+
+def test_the_unknowns_are_those_that_the_sections_free(report):
+    """Authority: model.md, section 4: one rotation; two more with shafts, four with bearings; friction doubles the contact rows."""
+    counted = {row.subset.name: row.coordinates for row in report.rows}
+    assert [counted[name] for name in ("bare", "+ shafts", "+ bearings", "+ inertia", "+ friction", "all")] == [1, 3, 5, 1, 1, 7]
+    bare, frictional = report.row(BARE), report.row(ALONE, "friction")
+    assert frictional.contact_rows == 2 * bare.contact_rows
+    assert 26 <= bare.contact_rows <= 52
+
+
+def test_times_are_medians_of_rounds_and_gears_are_condensed_for_elastic_teeth_only(report):
+    """Authority: the task; at least three repeats each, and rigid flanks condense nothing."""
+    for row in report.rows:
+        assert len(row.step_times) == 3 and row.step_time == np.median(row.step_times) > 0.0
+        assert (row.condense > 0.0) == (TEETH in row.subset.sections)
+    assert len(report.ratios) == 3
+    assert report.expected.arithmetic > 1.0
+
+
+def test_the_report_names_where_it_was_measured(report):
+    """Authority: the task; processor, threads and versions stand in it."""
+    assert "cores" in report.machine["processor"] and "fenics_gears" in report.machine["versions"] and report.machine["threads"]
+
+
+def test_all_accuracy_is_that_of_the_whole_scene():
+    """Authority: identity; without [accuracy] the steps would follow from each subset's own frequencies."""
+    text = re.sub(r"\[accuracy\].*?\n\n", "", text_of(TEETH, "inertia", "shafts"), flags=re.S)
+    assert "[accuracy]" not in text and "[gears.material]" in text
+    scene = measured.at_one_accuracy(scene_from_text(text))
+    assert None not in vars(scene.accuracy).values()
+    assert {subset.scene.accuracy for subset in lattice(scene)[0]} == {scene.accuracy}
+
+
+def test_remeshing_at_every_step_is_refused_with_the_remedy():
+    """Authority: house rule; no option is silently ignored."""
+    scene = scene_of(TEETH)
+    with pytest.raises(SceneError, match='Take "once"'):
+        measured.measure(replace(scene, accuracy=replace(scene.accuracy, condensation="every step")))
+
+
+def test_changes_are_against_bare_and_against_all(report):
+    """Authority: identity; an effect more is compared with the bare scene, one less with all."""
+    row, bare = report.row(ALONE, "friction"), report.row(BARE)
+    assert table.change(report, row, "peak_force") == pytest.approx(row.peak_force / bare.peak_force - 1.0)
+    row, full = report.row(LEFT_OUT, "bearings"), report.row(ALL)
+    assert table.change(report, row, "peak_force") == pytest.approx(row.peak_force / full.peak_force - 1.0)
+    assert table.change(report, full, "peak_force") is None
+
+
+def test_csv_holds_every_row_with_units_in_its_names(report, tmp_path):
+    """Authority: identity; what is written is what was measured."""
+    table.write_csv(report, tmp_path / "effects.csv")
+    with open(tmp_path / "effects.csv", encoding="utf-8", newline="") as file:
+        lines = list(csv.DictReader(file))
+    assert [line["effects"] for line in lines] == [row.subset.name for row in report.rows]
+    assert all(float(line["step_time_s"]) == row.step_time for line, row in zip(lines, report.rows))
+    assert all(None not in line and None not in line.values() for line in lines)
+    by_name = {line["effects"]: line for line in lines}
+    assert by_name["+ friction"]["compared_with"] == "bare" and by_name["all - friction"]["compared_with"] == "all"
+
+
+def test_the_command_prints_and_writes_table_and_picture(tmp_path, monkeypatch, capsys):
+    """Authority: issue 5; a table on the terminal, DIR/effects.csv and DIR/effects.png."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "small.toml").write_text(text_of(TEETH, "shafts", "friction"), encoding="utf-8")
+    assert main(["effects", "small.toml", "--output", "there"]) == 0
+    output = capsys.readouterr().out
+    assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["effects.csv", "effects.png"]
+    assert (tmp_path / "there" / "effects.png").read_bytes().startswith(b"\x89PNG")
+    lines = [line.split() for line in output.splitlines()]
+    assert any(line[:3] == ["bare", "1", "+"] for line in lines) and any(line[:3] == ["all", "3", "+"] for line in lines)
+    assert any(line[:2] == ["ratio", "measured"] for line in lines) and any(line[:2] == ["ratio", "expected"] for line in lines)
+    assert any(line[:2] == ["without", "shafts"] for line in lines)
+
+
+def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
+    """Authority: house style, a failed case is a record among the results; the others are measured."""
+    from fenics_gears.errors import ComputationError
+
+    def fails_with_friction(scene, **options):
+        if scene.friction is not None and scene.shafts is None:
+            raise ComputationError("no solution at step 3\nand a history")
+        return simulate(scene, **options)
+
+    monkeypatch.setattr(measured, "simulate", fails_with_friction)
+    report = measured.measure(scene_of(TEETH, "shafts", "friction"), rounds=3)
+    assert {(each.name, each.reason) for each in report.skipped} == {("+ friction", "no solution at step 3")}
+    assert report.row(ALONE, "shafts") is not None
