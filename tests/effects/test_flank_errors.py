@@ -1,0 +1,247 @@
+"""Errors of single teeth: where they are felt, by how much, and over which period."""
+
+from dataclasses import replace
+from math import cos, pi
+from time import perf_counter
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.effects.hats import hat_mean
+from tests.stand_in import stand_in_compliance
+
+from fenics_gears.contact.deviating_cycle import DeviatingCycle
+from fenics_gears.contact.flank_gaps import FlankGaps, flank_gaps
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.effects import without
+from fenics_gears.effects.flank_errors import FlankErrors, GearErrors, Waviness
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_deviations import flank_deviations
+from fenics_gears.geometry.involute import roll_angle_at_height
+from fenics_gears.scene.data import Accuracy, Load, Motion
+from fenics_gears.simulation import simulate
+
+STEPS, PERIOD = 20, 48
+ERROR = 0.01
+
+
+@pytest.fixture(scope="module")
+def rigid(paper_scene):
+    """The paper's pair with rigid flanks on rigid shafts, over a hunting tooth period."""
+    bare = without(paper_scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")
+    return replace(bare, accuracy=Accuracy(steps_per_mesh_cycle=STEPS), motion=Motion(200.0, PERIOD, PERIOD))
+
+
+@pytest.fixture(scope="module")
+def both_flanks(paper_pair):
+    """A mesh cycle of drive and coast flanks without finite elements."""
+    gears = paper_pair.pinion, paper_pair.wheel
+    flanks = Flanks(paper_pair, tuple(stand_in_compliance(gear, coast_flank=True) for gear in gears))
+    return MeshCycle(flanks, ContactGrid(1.5, 20), STEPS, [5], tangential=False)
+
+
+def length(result, pair):
+    """T_E (n,) as a length on the wheel's base circle, mm."""
+    return result.transmission_error.values * pair.wheel.base_radius
+
+
+def spectrum(error):
+    """Amplitudes of the multiples of once a hunting tooth period."""
+    return 2.0 * np.abs(np.fft.rfft(error[:-1])) / (len(error) - 1)
+
+
+def one_tooth(teeth, tooth, error):
+    """Pitches of a gear with one tooth out of place."""
+    pitches = np.zeros(teeth)
+    pitches[tooth], pitches[tooth + 1] = error, -error
+    return tuple(pitches)
+
+
+@pytest.mark.parametrize(("gear", "teeth", "first"), [("pinion", 16, -1.0), ("wheel", 24, 1.0)])
+def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, paper_pair, gear, teeth, first):
+    """Exact: a pitch deviation f is f cos(alpha) along the line of action. A tooth that stands nearer to its mate leads all the way
+    along the path of contact, one that stands back only leaves its mark where no other tooth is in mesh, nor its tip within 10 um of it;
+    others do not feel it. A pitch too long brings the pinion's tooth late, the wheel's near."""
+    along = ERROR * cos(paper_pair.pinion.pressure_angle)
+    ratio, tooth = paper_pair.contact_ratio, 5
+    for sign in (first, -first):
+        errors = FlankErrors(**{gear: GearErrors(pitch=one_tooth(teeth, tooth, sign * ERROR))})
+        result = simulate(replace(rigid, flank_errors=errors))
+        error, phase = length(result, paper_pair), (result.mesh_phase.values - tooth) % teeth
+        inside, alone = (phase > 0.0) & (phase < ratio), (phase > ratio - 1.0 + 0.06) & (phase < 0.94)
+        outside = (phase > ratio + 0.1) & (phase < teeth - 0.1)
+        near = sign == first
+        assert error[inside if near else alone] == pytest.approx(-along if near else along, abs=1e-12)
+        if not near:
+            assert error[inside & ~alone].max() <= along + 1e-12
+            beside_another = ((phase > 0.0) & (phase <= ratio - 1.0)) | ((phase >= 1.0) & (phase < ratio))
+            assert np.abs(error[beside_another]).max() <= 1e-12
+        assert np.abs(error[outside]).max() <= 1e-12
+
+
+def test_true_teeth_change_nothing(paper_scene):
+    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    none = GearErrors(pitch=(0.0,) * 16, profile_slope=(0.0,) * 16, waviness=Waviness(0.0, 37, 0.3))
+    plain, zero = simulate(scene), simulate(replace(scene, flank_errors=FlankErrors(pinion=none)))
+    for name in plain.data_vars:
+        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
+
+
+@pytest.mark.parametrize(("gear", "turns"), [("pinion", 3), ("wheel", 2)])
+@pytest.mark.parametrize("waves", [7, 37, 64])
+def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_pair, gear, turns, waves):
+    """Known answer: on the line of action all pairs in mesh see the same phase of the wave, so that the rigid pair has one order, k of its
+    gear's turn, as large as the wave is high; what contact gains beside the line of action is of second order in the height."""
+    small, amplitude = 1e-7, 1e-4
+    found = []
+    for height in (small, amplitude):
+        errors = FlankErrors(**{gear: GearErrors(waviness=Waviness(height, waves, 0.4))})
+        lines = spectrum(length(simulate(replace(rigid, accuracy=Accuracy(steps_per_mesh_cycle=40), flank_errors=errors)), paper_pair))
+        others = np.delete(lines, [0, turns * waves])
+        found.append((lines[turns * waves] / height, others.max() / height))
+    (line, rest), (coarser, coarse_rest) = found
+    assert line == pytest.approx(1.0, abs=1e-4) and rest < 1e-3
+    assert coarser == pytest.approx(1.0, abs=0.02) and coarse_rest < 0.02
+
+
+def test_the_period_is_the_hunting_tooths(rigid, paper_pair):
+    """Definition: with errors on both gears T_E comes back after lcm(16, 24) mesh cycles and not before; that of one gear after its turn."""
+    result = simulate(replace(rigid, motion=Motion(200.0, PERIOD + 4, PERIOD + 4), flank_errors=FlankErrors(tolerance_class=6)))
+    error = length(result, paper_pair)
+    assert error[PERIOD * STEPS :] == pytest.approx(error[: 4 * STEPS + 1], abs=1e-12)
+    for sooner in (16, 24):
+        assert np.abs(error[sooner * STEPS :] - error[: -sooner * STEPS]).max() > 1e-3
+    own = GearErrors(pitch=(0.0,) * 24, profile_slope=(0.0,) * 24, profile_form=(0.0,) * 24)
+    error = length(simulate(replace(rigid, flank_errors=FlankErrors(wheel=own, tolerance_class=6))), paper_pair)
+    assert error[16 * STEPS :] == pytest.approx(error[: -16 * STEPS], abs=1e-12)
+
+
+def test_drawn_errors_are_in_the_result(rigid, paper_pair):
+    """Definition: what was drawn can be read, as it was used."""
+    errors = FlankErrors(tolerance_class=6, seed=3)
+    result = simulate(replace(rigid, flank_errors=errors, motion=Motion(200.0, 1, 1)))
+    for name, own in zip(("pinion", "wheel"), flank_deviations(errors, paper_pair)):
+        assert np.array_equal(result[f"{name}_index_deviation"].values, own.index)
+        assert np.array_equal(result[f"{name}_profile_slope"].values, own.slope)
+        assert np.array_equal(result[f"{name}_profile_form"].values, own.form)
+        assert result[f"{name}_index_deviation"].attrs["units"] == "mm"
+
+
+ALL = GearErrors(pitch=one_tooth(16, 3, ERROR), profile_slope=(0.004,) * 16, profile_form=(0.003,) * 16, waviness=Waviness(0.001, 37, 0.4))
+
+
+def moved(name, change):
+    """Errors of the pinion with one kind of them changed on every tooth by `change` (mm, rad for the phase)."""
+    if name in ("amplitude", "phase"):
+        waves = replace(ALL.waviness, **{name: getattr(ALL.waviness, name) + change})
+        return FlankErrors(pinion=replace(ALL, waviness=waves))
+    if name == "pitch":
+        return FlankErrors(pinion=replace(ALL, pitch=one_tooth(16, 3, ERROR + change)))
+    return FlankErrors(pinion=replace(ALL, **{name: tuple(np.array(getattr(ALL, name)) + change)}))
+
+
+def excess_per_unit(name, roll, tooth, pair):
+    """Material in excess on the pinion's flank for a unit of a deviation, by its definition."""
+    start, end = pair.pinion_sap_roll_angle, pair.pinion.tip_roll_angle
+    along = (roll - start) / (end - start)
+    turned = 37 * (roll + tooth * pair.pinion.angular_pitch) + 0.4
+    return {
+        "pitch": -cos(pair.pinion.pressure_angle) * (tooth == 3),
+        "profile_slope": along - 0.5,
+        "profile_form": -0.5 * np.cos(2 * pi * along),
+        "amplitude": np.cos(turned),
+        "phase": -0.001 * np.sin(turned),
+    }[name]
+
+
+@pytest.mark.parametrize("name", ["pitch", "profile_slope", "profile_form", "amplitude", "phase"])
+def test_gaps_follow_each_deviation(both_flanks, paper_pair, name):
+    """Finite differences against the definition: the gap's derivative is less the excess on the flank, averaged over a node's hat by
+    adaptive quadrature; coast flanks have true profiles, but stand where their tooth stands."""
+    change, step = 1e-7, 3 * STEPS + 11
+    position = both_flanks.position(step)
+    ends = [flank_gaps(moved(name, sign * change), paper_pair, STEPS)(step, position) for sign in (1, -1)]
+    derivative, start, checked = (ends[0] - ends[1]) / (2.0 * change), 0, []
+    for pair in position.operator.pairs:
+        nodes = derivative[start : start + len(pair.offsets)]
+        start += len(nodes)
+        tooth = (3 - pair.place.index) % 16
+        if pair.place.flank == COAST:
+            sign = -cos(paper_pair.pinion.pressure_angle) * (tooth == 3) if name == "pitch" else 0.0
+            assert nodes == pytest.approx(sign, abs=1e-9)
+            continue
+        for j in (0, len(nodes) // 2, len(nodes) - 1):
+            expected = -hat_mean(pair.offsets, j, lambda offset: _excess_at(name, offset, pair, tooth, paper_pair))
+            assert nodes[j] == pytest.approx(expected, abs=1e-6)
+            checked.append(abs(expected))
+    assert max(checked) > (1e-4 if name == "phase" else 0.05)
+
+
+def _excess_at(name, offset, pair, tooth, gear_pair):
+    radius = gear_pair.pinion.base_radius
+    roll = roll_angle_at_height(radius, pair.place.contact_rolls[0], radius - offset)
+    return float(excess_per_unit(name, roll, tooth, gear_pair))
+
+
+@pytest.mark.parametrize("name", ["profile_slope", "amplitude"])
+def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pair, stand_in_flanks, name):
+    """Exact: complementary energy has one mixed derivative. T_E's change with a deviation is the change with the load F of the forces'
+    work sum(p g') on the gaps that a unit of it makes. Central differences away from changes of contact."""
+    scene = without(frictionless(quasi_static(paper_scene)), "shafts", "bearings")
+    step, change, steps = 11, 2e-7, 40
+
+    def solved(load, deviation):
+        shafts = drivetrain(replace(scene, load=Load(load)), paper_pair)
+        plain = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=False)
+        gaps = flank_gaps(moved(name, deviation), paper_pair, steps)
+        record = Marcher(DeviatingCycle(plain, [gaps]), shafts, 1e-4, 0.0)._static_start(step)
+        return record.state.position[0], record.solution.forces, plain.position(step), record.solution.status
+
+    torque = scene.load.wheel_torque
+    up, _, position, status = solved(torque, change)
+    down, _, _, other = solved(torque, -change)
+    assert np.array_equal(status, other)
+    per_unit = (flank_gaps(moved(name, change), paper_pair, steps)(step, position) - flank_gaps(moved(name, -change), paper_pair, steps)(step, position)) / (2 * change)
+    more, less = (solved(torque * (1.0 + part), 0.0)[1] @ per_unit for part in (1e-5, -1e-5))
+    by_load = (more - less) / (2e-5 * torque / paper_pair.wheel.base_radius)
+    by_deviation = (up - down) / (2.0 * change)
+    assert by_deviation == pytest.approx(by_load, rel=1e-5)
+    assert abs(by_deviation) > 0.01
+
+
+def test_waves_that_the_steps_do_not_sample_are_refused(paper_pair):
+    """House rule on errors: what, the value, what is allowed, the remedy."""
+    errors = FlankErrors(wheel=GearErrors(waviness=Waviness(0.001, 241, 0.0)))
+    with pytest.raises(SceneError) as refused:
+        flank_gaps(errors, paper_pair, STEPS)
+    for words in ("flank_errors.wheel.waviness.waves = 241", "480 steps", "steps_per_mesh_cycle to 21 or more"):
+        assert words in str(refused.value)
+    flank_gaps(errors, paper_pair, STEPS + 1)
+
+
+def test_positions_between_steps_join_those_of_the_steps(both_flanks, paper_pair):
+    """Identity: a step that is divided reaches the same gaps; beside it they go over smoothly."""
+    errors = flank_gaps(FlankErrors(tolerance_class=6), paper_pair, STEPS)
+    whole = errors(31, both_flanks.position(31))
+    assert np.array_equal(errors(31.0, both_flanks.between(31.0, 30.5)), whole)
+    beside = both_flanks.between(31.0 + 2.0**-20, 31.0)
+    assert errors(31.0 + 2.0**-20, beside) == pytest.approx(whole, abs=1e-7)
+
+
+def test_a_step_costs_little_more(both_flanks, paper_pair):
+    """Measured: less than 30 us a step, the best of some hundred over a turn (4 to 6 pairs of drive and coast flanks)."""
+    gaps: FlankGaps = flank_gaps(replace(moved("pitch", 0.0), wheel=GearErrors(waviness=Waviness(0.001, 31, 0.0))), paper_pair, STEPS)
+    positions = [both_flanks.position(step) for step in range(STEPS)]
+    assert {pair.place.flank for pair in positions[0].operator.pairs} == {DRIVE, COAST}
+    best = np.inf
+    for _ in range(5):
+        begun = perf_counter()
+        for step in range(16 * STEPS):
+            gaps(step, positions[step % STEPS])
+        best = min(best, (perf_counter() - begun) / (16 * STEPS))
+    assert best < 30e-6

@@ -1,0 +1,158 @@
+"""Relief towards tip and root: its curve, what it does to the gaps and to the transmission error."""
+
+from dataclasses import replace
+from math import degrees, radians
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, teeth_alone
+from tests.effects.hats import hat_mean
+
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
+from fenics_gears.effects.root_relief import RootRelief
+from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
+from fenics_gears.geometry.modification import removals
+from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+
+DEPTH = 0.02
+KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, root_reliefs)}
+
+
+def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
+    """Definition: nothing above LPSTC, the depth at the form circle, linear or parabolic between."""
+    fractions = np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
+    for shape, power in ((LINEAR, 1), (PARABOLIC, 2)):
+        relief = Relief(DEPTH, None, shape)
+        gears = (paper_pair.pinion, paper_pair.pinion_lpstc_roll_angle), (paper_pair.wheel, paper_pair.wheel_lpstc_roll_angle)
+        for curve, (gear, start) in zip(root_reliefs(paper_pair, RootRelief(relief, relief)), gears):
+            rolls = start + fractions * (gear.form_roll_angle - start)
+            assert curve(rolls) == pytest.approx(DEPTH * np.maximum(fractions, 0.0) ** power, abs=1e-16)
+
+
+def test_parabolic_relief_leaves_the_involute_without_a_kink(paper_pair):
+    """Definition: zero slope at the start; a linear one of the same depth has half the slope at the tip."""
+    linear, parabolic = (tip_reliefs(paper_pair, TipRelief(Relief(DEPTH, None, shape), None))[0] for shape in (LINEAR, PARABOLIC))
+    start, tip, small = linear.start_roll_angle, linear.end_roll_angle, 1e-6
+
+    def slope(curve, roll):
+        return (curve(roll + small) - curve(roll - small)) / (2.0 * small)
+
+    assert slope(parabolic, start + small) / slope(linear, start + 2 * small) == pytest.approx(0.0, abs=2e-4)
+    assert slope(parabolic, tip) == pytest.approx(2.0 * slope(linear, tip), rel=1e-6)
+
+
+@pytest.mark.parametrize("section", KINDS)
+def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
+    """Identity: r = rb sqrt(1 + v^2); each gear has its own."""
+    kind, curves = KINDS[section]
+    roll = radians(22.0)
+    diameter = 2.0 * float(paper_pair.pinion.radius(roll))
+    by_roll, _ = curves(paper_pair, kind(Relief(DEPTH, roll), None))
+    by_diameter, wheel = curves(paper_pair, kind(Relief(DEPTH, None, LINEAR, diameter), Relief(DEPTH, 0.4)))
+    assert by_diameter.start_roll_angle == pytest.approx(by_roll.start_roll_angle, rel=1e-14)
+    assert wheel.start_roll_angle == 0.4
+    end = paper_pair.pinion.tip_roll_angle if section == "tip_relief" else paper_pair.pinion.form_roll_angle
+    assert by_roll.end_roll_angle == end
+
+
+@pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
+def test_a_scene_says_start_and_shape_for_both_gears_and_for_one(paper_scene, section, word):
+    """Definition of the scene's fields; the wheel's own come before those of both."""
+    own = f'[{section}.wheel]\nstart = "110 mm"\nshape = "parabolic"'
+    scene = scene_from_text(f'{paper_scene.text}\n[{section}]\ndepth = "20 um"\nstart = "{word}"\n{own}\n')
+    assert getattr(scene, section) == KINDS[section][0](Relief(0.02, None), Relief(0.02, None, PARABOLIC, 110.0))
+
+
+@pytest.mark.parametrize(
+    ("relief", "said"),
+    [
+        (Relief(DEPTH, None, LINEAR, 90.0), ["starts at diameter 90 mm", "diameters", "to 82.64 mm", "root_relief.pinion.start"]),
+        (Relief(DEPTH, None, LINEAR, 60.0), ["starts at diameter 60 mm", "(form circle)", "root_relief.pinion.start"]),
+        (Relief(DEPTH, radians(2.0)), ["roll angle 2 deg", "2.904 deg (form circle)"]),
+        (Relief(5.0, None), ["depth 5 mm", "at the form circle", "lower root_relief.pinion.depth"]),
+        (Relief(-0.01, None), ["root_relief depth -0.01 mm", "zero or a positive length"]),
+    ],
+)
+def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
+    """House rule on errors: what, which gear, the value, what is allowed, the field."""
+    with pytest.raises(GeometryError) as refused:
+        root_reliefs(paper_pair, RootRelief(relief, None))
+    for words in ("pinion: ", *said):
+        assert words in str(refused.value)
+
+
+def test_a_start_on_its_own_end_is_refused(paper_pair):
+    """A relief of no length has no slope."""
+    for section, roll in (("tip_relief", paper_pair.pinion.tip_roll_angle), ("root_relief", paper_pair.pinion.form_roll_angle)):
+        kind, curves = KINDS[section]
+        with pytest.raises(GeometryError, match=f"{degrees(roll):.4g} deg"):
+            curves(paper_pair, kind(Relief(DEPTH, roll), None))
+
+
+@pytest.mark.parametrize("section", KINDS)
+def test_no_depth_changes_nothing(paper_scene, section):
+    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    none = Relief(0.0, None, PARABOLIC)
+    plain, zero = simulate(scene), simulate(replace(scene, **{section: KINDS[section][0](none, none)}))
+    for name in plain.data_vars:
+        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
+
+
+@pytest.mark.parametrize("section", KINDS)
+def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks, section):
+    """Finite differences: the gap's derivative with the depth is the removal per depth averaged over the node's hat, by adaptive quadrature;
+    four Gauss points see the kink at the relief's start to 3e-3 of the relief that one cell has. Elsewhere the gap does not change."""
+    change = 1e-6
+    scenes = [replace(paper_scene, **{section: KINDS[section][0](Relief(DEPTH + sign * change, None), None)}) for sign in (1, -1)]
+    curve, radius = removals(scenes[0], paper_pair)[0], paper_pair.pinion.base_radius
+    grid, relieved = ContactGrid(1.5, 20), 0
+    for step in (1, 14):
+        both = [_operator(paper_pair, stand_in_flanks, scene, grid, step) for scene in scenes]
+        derivative, start = (both[0].gap - both[1].gap) / (2.0 * change), 0
+        for pair in both[0].pairs:
+            own = derivative[start : start + len(pair.offsets)]
+            start += len(own)
+
+            def removed(offset):
+                return float(curve(roll_angle_at_height(radius, pair.place.contact_rolls[0], radius - offset))) / curve.depth
+
+            kink = radius - flank_point(radius, curve.start_roll_angle, pair.place.contact_rolls[0])[1]
+            for j, value in enumerate(own):
+                expected = hat_mean(pair.offsets, j, removed, [kink])
+                assert value == pytest.approx(expected, abs=1e-4)
+                assert (value == 0.0) or expected > 0.0
+                relieved += expected > 0.05
+    assert relieved > 5
+
+
+def _operator(pair, flanks, scene, grid, step):
+    flanks = Flanks(pair, flanks.compliance, removals(scene, pair))
+    return MeshCycle(flanks, grid, 20, [5], tangential=False).position(step).operator
+
+
+def test_relief_of_either_flank_of_a_contact_is_felt_alike(paper_scene, paper_pair):
+    """Known answer: nearly unloaded, it does not matter which of two flanks that meet has lost the material: root relief of the pinion that
+    removes at every point what tip relief of the wheel does at the point that it meets gives the same transmission error.
+    What contact gains beside the line of action differs, by 0.7 um at 20 um depth, and goes with the square of the depth.
+    (The pinion's tips are relieved too; a pair without relief would carry otherwise.)"""
+    shallow = 0.1 * DEPTH
+    scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
+    tips = Relief(shallow, None)
+    scene = replace(scene, load=replace(scene.load, wheel_torque=1e-3 * scene.load.wheel_torque), tip_relief=TipRelief(tips, None))
+    plain = simulate(scene)
+    tip = simulate(replace(scene, tip_relief=TipRelief(tips, tips)))
+    # The wheel's roll angles fall as the pinion's rise; its tip meets the pinion's start of active profile.
+    start, sap, form = paper_pair.pinion_lpstc_roll_angle, paper_pair.pinion_sap_roll_angle, paper_pair.pinion.form_roll_angle
+    depth = shallow * (start - form) / (start - sap)
+    root = simulate(replace(scene, root_relief=RootRelief(Relief(depth, None), None)))
+    on_plain, on_tip, on_root = (result.transmission_error.values * paper_pair.wheel.base_radius for result in (plain, tip, root))
+    assert np.abs(on_tip - on_plain).max() > 0.2 * shallow
+    assert np.abs(on_tip - on_root).max() < 0.02 * shallow
