@@ -144,13 +144,16 @@ def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, remov
 
 
 def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> bool:
-    """Whether a pair's flanks can touch: its window is not empty, and its tip no further than the window's half beyond the path."""
+    """Whether a pair's flanks may touch: its window is not empty, and its tip edge no further beyond the path than a window's length.
+
+    A tip's gap grows with the distance squared, as the gap between flanks does across the window, but slower: half a window's
+    length is not always enough.
+    """
     tip = corner.edge_beyond(theoretical)
     if tip is not None:
-        edge, gear = corner.edges[tip], (pair.pinion, pair.wheel)[tip]
-        if gear.base_radius * (theoretical.contact_rolls[tip] - edge.flank_roll) > 0.5 * grid.length:
+        beyond = theoretical.contact_rolls[tip] - corner.edges[tip].flank_roll
+        if beyond * (pair.pinion, pair.wheel)[tip].base_radius > grid.length:
             return False
     half = 0.5 * grid.length
     lowest, highest = edge_limits(pair, corner, corner_place(pair, corner, theoretical))
     return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
-

@@ -1,0 +1,190 @@
+"""Corner contact: geometry against brute force on the exact outlines, mechanics against exact identities."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from tests.contact.outlines import centres, distance, placed, rotation_to_touch
+
+from fenics_gears.contact.corner import corner_contact, corner_pair, corner_place, pair_reaches
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_span
+from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pair
+from fenics_gears.contact.window import ContactGrid
+
+GRID = ContactGrid(length=2.5, nodes=26)
+FINE = ContactGrid(length=0.002, nodes=201)
+ALL = list(range(7))
+STEPS = 25
+RADII = [0.0, 0.1, 0.3]
+# The gear whose tip is beyond the path, and where the pair then stands: before its start or after its end.
+TIPS = [0, 1]
+
+
+def beyond(pair, tip, by):
+    """The place of a pair whose pinion's (0) or wheel's (1) tip is `by` mm beyond the path of contact."""
+    return drive_place(pair, 0, pair.path_end + by if tip == 0 else pair.path_start - by)
+
+
+@pytest.mark.parametrize("radius", RADII)
+@pytest.mark.parametrize("tip", TIPS)
+@pytest.mark.parametrize("by", [0.1, 0.5, 1.0, 2.0])
+def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_flanks, paper_pair):
+    """Brute force: the mate's outline turned about its centre until it meets the tip's edge; an involute moves by rb phi along its normal."""
+    corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, by)
+    nodes = corner_pair(stand_in_flanks, FINE, corner, place)
+    mate, curves = 1 - tip, placed(paper_pair, corner.edges, place)
+    turn = rotation_to_touch(curves[mate], curves[tip], centres(paper_pair)[mate])
+    assert nodes.gap.min() == pytest.approx((paper_pair.pinion, paper_pair.wheel)[mate].base_radius * turn, rel=2e-4, abs=1e-7)
+
+
+@pytest.mark.parametrize("radius", RADII)
+@pytest.mark.parametrize("error", [0.01, 0.04])
+@pytest.mark.parametrize("tip", TIPS)
+def test_a_pitch_error_lets_the_tip_touch_where_the_outlines_do(tip, error, radius, stand_in_flanks, paper_pair):
+    """Brute force: rigid gears, the mate's tooth `error` mm of base arc too far ahead; outlines first meet at the position that the gap says."""
+    corner, mate = corner_contact(paper_pair, radius), 1 - tip
+    base = (paper_pair.pinion, paper_pair.wheel)[mate].base_radius
+
+    def by_gap(by):
+        return corner_pair(stand_in_flanks, FINE, corner, beyond(paper_pair, tip, by)).gap.min() - error
+
+    def by_outlines(by):
+        curves = placed(paper_pair, corner.edges, beyond(paper_pair, tip, by), count=4001)
+        return base * rotation_to_touch(curves[mate], curves[tip], centres(paper_pair)[mate]) - error
+
+    found, exact = (brentq(function, 1e-3, 3.0, xtol=1e-7) for function in (by_gap, by_outlines))
+    assert 0.1 < exact < 1.5
+    assert found == pytest.approx(exact, abs=1e-3 * exact)
+
+
+@pytest.mark.parametrize("radius", RADII)
+@pytest.mark.parametrize("tip", TIPS)
+def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_flanks, paper_pair):
+    """Brute force: central differences of the least distance between both outlines by all six motions of the centres."""
+    corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, 0.9)
+    cycle = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False, corner=corner)
+    pairs = (corner_pair(stand_in_flanks, GRID, corner, place),)
+    row = cycle._position(0, pairs, None, 0.0, None).operator.rigid[0]
+    radii, step, expected = (paper_pair.pinion.base_radius, paper_pair.wheel.base_radius), 1e-3, np.empty(6)
+    for column in range(6):
+        gear, axis = divmod(column, 3)
+        gaps = []
+        for sign in (1.0, -1.0):
+            moved = np.zeros((2, 3))
+            moved[gear, axis] = sign * step / (radii[gear] if axis == 2 else 1.0)
+            gaps.append(distance(placed(paper_pair, corner.edges, place, moved=moved)))
+        expected[column] = -(gaps[0] - gaps[1]) / (2.0 * step)
+    assert row[:6] == pytest.approx(expected, abs=2e-5)
+    assert abs(row[1]) > 0.02  # off the line of action indeed
+
+
+@pytest.mark.parametrize("tip", TIPS)
+def test_the_gap_is_the_outlines_distance(tip, stand_in_flanks, paper_pair):
+    """Definition: along the common normal the gap is the least distance of the outlines."""
+    corner, place = corner_contact(paper_pair, 0.1), beyond(paper_pair, tip, 0.9)
+    gap = corner_pair(stand_in_flanks, FINE, corner, place).gap.min()
+    assert gap == pytest.approx(distance(placed(paper_pair, corner.edges, place)), rel=1e-4)
+
+
+def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
+    """Exact: with sharp tips, pairs between start and end of the path have the same equations with corner contact and without."""
+    corner = corner_contact(paper_pair)
+    for xi in np.linspace(paper_pair.path_start + 1e-9, paper_pair.path_end - 1e-9, 9):
+        place = drive_place(paper_pair, 0, xi)
+        with_corner, plain = corner_pair(stand_in_flanks, GRID, corner, place), tooth_pair(stand_in_flanks, GRID, place)
+        assert with_corner.place == plain.place
+        for name in ("offsets", "lengths", "gap", "pinion_arm", "wheel_arm", "pinion_roll"):
+            assert getattr(with_corner, name) == pytest.approx(getattr(plain, name), rel=1e-11, abs=1e-11)
+        for ours, theirs in zip(with_corner.interpolation, plain.interpolation):
+            assert ours.weights == pytest.approx(theirs.weights, abs=1e-11)
+
+
+@pytest.mark.parametrize("radius", RADII)
+@pytest.mark.parametrize("tip", TIPS)
+def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flanks, paper_pair):
+    """Limit: either line is the line of action where the edge's arc begins to carry; gap, arms and direction are continuous."""
+    corner, gears = corner_contact(paper_pair, radius), (paper_pair.pinion, paper_pair.wheel)
+    roll, base = corner.edges[tip].flank_roll, gears[tip].base_radius
+    xi = base * roll if tip == 0 else paper_pair.line_of_action_length - base * roll
+    before, after = (
+        corner_pair(stand_in_flanks, GRID, corner, drive_place(paper_pair, 0, xi + sign * 1e-7)) for sign in (-1.0, 1.0)
+    )
+    assert (before.place.line is None) != (after.place.line is None)
+    assert len(before.offsets) == len(after.offsets)
+    for name in ("offsets", "gap", "pinion_arm", "wheel_arm"):
+        assert getattr(before, name) == pytest.approx(getattr(after, name), abs=1e-5)
+    assert np.array(before.place.axes) == pytest.approx(np.array(after.place.axes), abs=1e-6)
+    for line in (before.place.line_in(paper_pair), after.place.line_in(paper_pair)):
+        assert line.arms == pytest.approx([gear.base_radius for gear in gears], abs=1e-5)
+
+
+@pytest.fixture(scope="module")
+def cycle(stand_in_flanks, paper_pair):
+    return MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=True, corner=corner_contact(paper_pair, 0.1))
+
+
+def corner_steps(cycle):
+    """Steps of the mesh cycle at which a tip's edge is beyond the path."""
+    return [step for step in range(STEPS) if any(pair.place.line for pair in cycle.position(step).operator.pairs)]
+
+
+def test_compliance_is_symmetric_positive_definite(cycle):
+    """Betti's theorem, and elastic energy is positive, at every position with an edge in reach."""
+    assert len(corner_steps(cycle)) > 5
+    for step in corner_steps(cycle):
+        compliance = cycle.position(step).operator.compliance
+        assert np.abs(compliance - compliance.T).max() <= 1e-13 * np.abs(compliance).max()
+        assert np.linalg.eigvalsh(compliance).min() > 0.0
+
+
+def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
+    """Newton's third law, exactly: any nodal forces leave no force on both gears together, and no moment about any point."""
+    radii = np.array([paper_pair.pinion.base_radius, paper_pair.wheel.base_radius])
+    for step in corner_steps(cycle):
+        operator = cycle.position(step).operator
+        forces = np.random.default_rng(step).uniform(0.5, 1.5, 2 * operator.nodes)
+        on_gears = -(operator.rigid.T @ forces)[:6].reshape(2, 3) * np.stack([np.ones(2), np.ones(2), radii], axis=1)
+        (fx, fy, couple), (gx, gy, other) = on_gears
+        apart = centres(paper_pair)[1] - centres(paper_pair)[0]
+        assert [fx + gx, fy + gy] == pytest.approx([0.0, 0.0], abs=1e-10 * np.abs(forces).sum())
+        assert couple + other + apart[0] * gy - apart[1] * gx == pytest.approx(0.0, abs=1e-10 * np.abs(forces).sum() * radii.sum())
+
+
+def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks, paper_pair):
+    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_rigid to those of G, to first order."""
+    differences, corner = [], corner_contact(paper_pair, 0.1)
+    for steps in (2000, 4000):
+        fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True, corner=corner)
+        at = 26 * steps // 50
+        operator, before = fine.position(at).operator, fine.position(at - 1).operator
+        assert any(pair.place.line for pair in operator.pairs) and before.nodes == operator.nodes
+        n = operator.nodes
+        differences.append((
+            np.abs(operator.previous_compliance - operator.compliance[n:]).max() / np.abs(operator.compliance).max(),
+            np.abs(operator.previous_rigid - operator.rigid[n:]).max(),
+        ))
+    coarse, fine = np.array(differences)
+    assert np.all(fine < 0.01)
+    assert coarse / fine == pytest.approx([2.0, 2.0], rel=0.1)
+
+
+def test_coast_flanks_are_seen_in_the_mirror(paper_pair):
+    """Exact: with both flanks' contact rolls alike, a coast pair's corner line has the drive pair's arms, its axes mirrored."""
+    corner, place = corner_contact(paper_pair, 0.1), beyond(paper_pair, 0, 0.7)
+    coast = replace(coast_place(paper_pair, 0, 0.0), contact_rolls=place.contact_rolls)
+    drive_corner, coast_corner = corner_place(paper_pair, corner, place), corner_place(paper_pair, corner, coast)
+    assert drive_corner.line == coast_corner.line and drive_corner.contact_rolls == coast_corner.contact_rolls
+    mirror = np.array(coast.axes)
+    assert np.array(coast_corner.axes) == pytest.approx(np.array(drive_corner.axes) @ mirror, abs=1e-14)
+
+
+def test_tips_reach_further_than_a_short_window(paper_pair):
+    """The paper's window of 1.5 mm ends 0.75 mm off the line; a tip edge may touch as far beyond the path as the window is long."""
+    short, corner = ContactGrid(1.5, 20), corner_contact(paper_pair)
+    assert pair_reaches(paper_pair, short, corner, beyond(paper_pair, 0, 1.4))
+    assert not pair_reaches(paper_pair, short, corner, beyond(paper_pair, 0, 1.6))
+    phase = paper_pair.contact_ratio - 1.0 + 1.4 / paper_pair.base_pitch
+    plain, reaching = (pair_places(paper_pair, short, phase, corner=each) for each in (None, corner))
+    assert {place.index for place in plain} < {place.index for place in reaching}
+    assert tooth_span(paper_pair, short, STEPS, corner=corner) >= tooth_span(paper_pair, short, STEPS)
