@@ -11,6 +11,7 @@ from tests.effects.hats import hat_mean
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.effects import without
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
@@ -139,14 +140,14 @@ def _operator(pair, flanks, scene, grid, step):
 
 
 def test_relief_of_either_flank_of_a_contact_is_felt_alike(paper_scene, paper_pair):
-    """Known answer: nearly unloaded, it does not matter which of two flanks that meet has lost the material: root relief of the pinion that
-    removes at every point what tip relief of the wheel does at the point that it meets gives the same transmission error.
-    What contact gains beside the line of action differs, by 0.7 um at 20 um depth, and goes with the square of the depth.
-    (The pinion's tips are relieved too; a pair without relief would carry otherwise.)"""
+    """Known answer: on the line of action it does not matter which of two flanks that meet has lost the material: root relief of the pinion that
+    removes at every point what tip relief of the wheel does at the point that it meets gives rigid flanks the same transmission error.
+    What contact gains beside the line of action differs; it is below the flanks' relative radius (7 mm) times half the square of the relief's
+    slope along them (1.6e-3): 1e-5 mm for this shallow relief. (The pinion's tips are relieved too; a pair without relief would carry otherwise.)"""
     shallow = 0.1 * DEPTH
-    scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
+    scene = without(frictionless(teeth_alone(coarse_scene(paper_scene))), "tooth_elasticity")
     tips = Relief(shallow, None)
-    scene = replace(scene, load=replace(scene.load, wheel_torque=1e-3 * scene.load.wheel_torque), tip_relief=TipRelief(tips, None))
+    scene = replace(scene, tip_relief=TipRelief(tips, None))
     plain = simulate(scene)
     tip = simulate(replace(scene, tip_relief=TipRelief(tips, tips)))
     # The wheel's roll angles fall as the pinion's rise; its tip meets the pinion's start of active profile.
@@ -155,4 +156,4 @@ def test_relief_of_either_flank_of_a_contact_is_felt_alike(paper_scene, paper_pa
     root = simulate(replace(scene, root_relief=RootRelief(Relief(depth, None), None)))
     on_plain, on_tip, on_root = (result.transmission_error.values * paper_pair.wheel.base_radius for result in (plain, tip, root))
     assert np.abs(on_tip - on_plain).max() > 0.2 * shallow
-    assert np.abs(on_tip - on_root).max() < 0.02 * shallow
+    assert np.abs(on_tip - on_root).max() <= 1e-5
