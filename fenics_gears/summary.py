@@ -30,6 +30,8 @@ def summary_rows(dataset) -> list[tuple[str, str, str]]:
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
+    if "friction_loss" in dataset.attrs:
+        rows.append(("friction takes", f"{dataset.attrs['friction_loss']:.3%} of the work of the drive", ""))
     rows += _rungs(dataset.attrs)
     rows += [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
     rows += [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]

@@ -7,6 +7,7 @@ of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -52,17 +53,17 @@ class ContactOperator:
         """Number of contact nodes."""
         return len(self.gap)
 
-    @property
+    @cached_property
     def arms(self) -> tuple[np.ndarray, np.ndarray]:
         """Arms (n,), mm, of a tangential force about the pinion's and the wheel's centre."""
         return over_nodes(self.pairs, "pinion_arm"), over_nodes(self.pairs, "wheel_arm")
 
-    @property
+    @cached_property
     def node_pair(self) -> np.ndarray:
         """Position in `pairs` of the pair that each node (n,) belongs to."""
         return per_node(self.pairs, np.arange(len(self.pairs)))
 
-    @property
+    @cached_property
     def on_drive_flanks(self) -> np.ndarray:
         """Whether a node (n,) is on the drive flanks, not the coast flanks."""
         return per_node(self.pairs, np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool))

@@ -7,6 +7,8 @@ pairs are in mesh, their shares of the force are not determined; the step's solu
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
@@ -21,6 +23,13 @@ from fenics_gears.geometry.pair import GearPair
 
 # Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
 SAME_GAP = 1e-10
+
+
+@dataclass(frozen=True)
+class RigidPosition(Position):
+    """A position with its nodes on the drive flanks and on the coast flanks, of which one of each can touch."""
+
+    sides: tuple[np.ndarray, np.ndarray]
 
 
 class RigidCycle(Cycle):
@@ -43,12 +52,12 @@ class RigidCycle(Cycle):
         super().__init__(pair, grid, steps, coast_flanks)
         self._removal, self._coordinates = removal, coordinates
 
-    def solve(self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
+    def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
         """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks.
 
         Raises ContactNotConverged where none of them holds the load.
         """
-        leaders = [node for node in leading_nodes(position.operator, problem.gap) if node >= 0]
+        leaders = [int(nodes[np.argmin(problem.gap[nodes])]) for nodes in position.sides if len(nodes)]
         for iterations, node in enumerate([None, *leaders], 1):
             forces, coordinates = _solved(problem, node)
             if forces is not None and _obeys(problem, leaders, node, forces, coordinates):
@@ -86,16 +95,7 @@ class RigidCycle(Cycle):
             previous_compliance=None,
             previous_rigid=None,
         )
-        return Position(operator, carried)
-
-
-def leading_nodes(operator: ContactOperator, gap: np.ndarray) -> tuple[int, int]:
-    """The node with the smallest gap of the drive flanks and of the coast flanks, -1 where there is none."""
-    found = []
-    for side in (operator.on_drive_flanks, ~operator.on_drive_flanks):
-        nodes = np.flatnonzero(side)
-        found.append(int(nodes[np.argmin(gap[nodes])]) if len(nodes) else -1)
-    return found[0], found[1]
+        return RigidPosition(operator, carried, (np.flatnonzero(operator.on_drive_flanks), np.flatnonzero(~operator.on_drive_flanks)))
 
 
 def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:
