@@ -12,7 +12,7 @@ from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run_scene import conditions
 from fenics_gears.studies.effect_lattice.measured import Report, Row
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
-from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_percent
+from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_percent, own_remarks
 
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
@@ -31,9 +31,9 @@ def effect_costs(report: Report) -> Figure:
     _unknowns(axes[0], rows, places)
     _bars(axes[1], report, places, "step_time", MICRO, "Time a step (µs, median)")
     _whiskers(axes[1], rows, places)
-    _bars(axes[2], report, places, "transmission_error", MILLI, "Transmission error, peak to peak (µm)")
+    _bars(axes[2], report, places, "transmission_error", MILLI, "T$_{EPP}$ (µm)")
     _bars(axes[3], report, places, "peak_force", 1.0, "Peak contact force (N)")
-    axes[0].set_yticks(places, [row.subset.name + ("*" if row.remarks else "") for row in rows])
+    axes[0].set_yticks(places, [row.subset.name + ("*" if own_remarks(report, row) else "") for row in rows])
     axes[0].set_ylim(max(places) + 0.8, -0.8)
     for panel in axes:
         panel.grid(axis="y", visible=False)
@@ -58,7 +58,8 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
         axes.text(total, place, f" {total:.0f}", **LABEL)
     axes.set_xlim(0, 1.15 * (centres + contact).max())
     axes.set_title("Unknowns")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), ncol=2, handlelength=1.2, columnspacing=1.0, fontsize=10.5)
+    below = (0.5, -0.45 / (LINE_HEIGHT * len(rows)))
+    axes.legend(loc="upper center", bbox_to_anchor=below, ncol=2, handlelength=1.2, columnspacing=1.0, fontsize=10.5)
 
 
 def _bars(axes: Axes, report: Report, places: np.ndarray, name: str, factor: float, title: str) -> None:
@@ -98,8 +99,9 @@ def _heading(figure: Figure, report: Report) -> None:
     )
     entries = [f"green: {WORDS[ALONE]}", f"orange: {WORDS[LEFT_OUT]}", "dotted line: bare, dashed: all"]
     entries.append("grey whiskers: fastest and slowest round")
-    if any(row.remarks for row in report.rows):
-        entries.append("* with a remark, see effects.csv")
+    if any(own_remarks(report, row) for row in report.rows):
+        entries.append("* with a remark that the whole scene does not have, see effects.csv")
     where = report.machine
-    words = f"{'; '.join(entries)}\n{where['processor']}; threads: {where['threads']}; {where['versions']}"
+    measured = f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}"
+    words = f"T$_{{EPP}}$: transmission error, peak to peak, at the wheel's base circle; {'; '.join(entries)}\n{measured}"
     figure.text(0.008, 0.008, words, fontsize=9.5, color=DARK)

@@ -127,10 +127,12 @@ def report():
 
 def test_every_row_answers_as_the_scene_itself_does(report):
     """Authority: identity; a row's transmission error and force are those of `gears run` of that scene."""
-    for kind, section, sections in ((BARE, "", (TEETH,)), (ALONE, "friction", (TEETH, "friction")), (LEFT_OUT, "shafts", {*PAPER} - {"shafts"})):
+    rows = [(BARE, "", {TEETH}), (ALONE, "friction", {TEETH, "friction"}), (LEFT_OUT, "shafts", {*PAPER} - {"shafts"})]
+    for kind, section, sections in rows:
         row = report.row(kind, section)
         run = simulate(scene_of(*(each.section for each in EFFECTS if each.section in sections)))
-        assert row.transmission_error == pytest.approx(run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"], rel=1e-9)
+        error = run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]
+        assert row.transmission_error == pytest.approx(error, rel=1e-9)
         assert row.peak_force == pytest.approx(float(run.normal_force.max()), rel=1e-9)
         assert row.closed_nodes == pytest.approx(float(run.closed_nodes.mean()))
         assert row.iterations == pytest.approx(run.attrs["newton_iterations_total"] / run.attrs["steps"])
@@ -223,3 +225,14 @@ def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
     report = measured.measure(scene_of(TEETH, "shafts", "friction"), rounds=3)
     assert {(each.name, each.reason) for each in report.skipped} == {("+ friction", "no solution at step 3")}
     assert report.row(ALONE, "shafts") is not None
+
+
+def test_remarks_that_differ_in_numbers_only_are_said_once(report):
+    """Authority: identity; a reader is told once of the same thing, and every mark in the table leads to a remark."""
+    rows = tuple(
+        replace(row, remarks=(f"contact is lost in {place} of 20 steps", "undamped")[: place % 2 + 1]) for place, row in enumerate(report.rows)
+    )
+    marked = replace(report, rows=rows)
+    assert table.remarks(marked) == ["contact is lost in 0 of 20 steps (numbers of the first row that says so)", "undamped"]
+    assert [cells[-1] for cells in table.table_rows(marked)][:3] == ["[1]", "[1] [2]", "[1]"]
+    assert [len(table.own_remarks(marked, row)) for row in rows[:2]] == [0, 0 if len(rows[-1].remarks) == 2 else 1]

@@ -8,8 +8,12 @@ tangential force is inserted, only a sticking one's is an unknown) and multiplie
 with c closed nodes, l loaded rows (c, or 2 c with friction) and k centre coordinates. With friction a step multiplies out once the
 displacement that the material points had before, H = m (m + k). The arithmetic of a step of i iterations is i W + H.
 
-Small systems cost what their calls cost: a step takes a time of its own whatever its size, more of it with equations of motion and
-with friction. t = own + own of inertia + own of friction + (i W + H) / rate is fitted to the other subsets of the same run.
+Small systems cost what their calls cost: a step takes a time of its own whatever its size, more of it with equations of motion, with
+friction, and with each effect that varies from step to step (gaps, loads, the clock):
+
+    t = own + own of inertia + own of friction + varying effects x own of one + (i W + H) / rate
+
+fitted to the other subsets of the same run.
 """
 
 from __future__ import annotations
@@ -22,7 +26,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class StepWork:
-    """Size of a scene's steps, all on the average: centre coordinates, contact rows, closed nodes, Newton iterations a step."""
+    """Size of a scene's steps, all on the average: centre coordinates, contact rows, closed nodes, Newton iterations a step.
+
+    `varying`: how many effects change gaps, loads or the length of a step as it goes.
+    """
 
     coordinates: int
     contact_rows: float
@@ -30,6 +37,7 @@ class StepWork:
     iterations: float
     inertia: bool
     friction: bool
+    varying: int = 0
 
     @property
     def operations(self) -> float:
@@ -42,9 +50,9 @@ class StepWork:
         return self.iterations * (solving + assembling + 2.0 * rows * (loaded + self.coordinates)) + history
 
     @property
-    def terms(self) -> tuple[float, float, float, float]:
+    def terms(self) -> tuple[float, ...]:
         """What the constants of the model are multiplied by."""
-        return 1.0, float(self.inertia), float(self.friction), self.operations
+        return 1.0, float(self.inertia), float(self.friction), float(self.varying), self.operations
 
 
 @dataclass(frozen=True)
@@ -65,7 +73,7 @@ class Expectation:
 def expected_ratio(small: StepWork, large: StepWork, others: Sequence[tuple[StepWork, float]]) -> Expectation:
     """Time of a `large` step by that of a `small` one; `others`: work and seconds of the steps that the constants are fitted to."""
     arithmetic = large.operations / small.operations
-    terms = np.array([work.terms for work, _ in others]).reshape(len(others), 4)
+    terms = np.array([work.terms for work, _ in others]).reshape(len(others), len(small.terms))
     asked = np.array([small.terms, large.terms])
     # A term that neither of the two has needs no constant, and where the others do not tell it apart there is none.
     used = np.flatnonzero(asked.any(axis=0))

@@ -13,8 +13,8 @@ PACKAGES = ("numpy", "numba", "fenics-dolfinx", "petsc4py")
 
 
 def machine() -> dict[str, str]:
-    """Processor, threads, versions, in words."""
-    return {"processor": processor(), "threads": "1 in the march, " + threads() + " elsewhere", "versions": versions()}
+    """Processor, how busy it is, threads, versions, in words."""
+    return {"processor": processor(), "load": load(), "threads": "1 in the march, " + threads() + " elsewhere", "versions": versions()}
 
 
 def processor() -> str:
@@ -26,6 +26,14 @@ def processor() -> str:
         name = next((value.strip() for label, _, value in lines if label.strip() == "model name"), name)
     usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return f"{name}, {usable} cores"
+
+
+def load() -> str:
+    """Processes that wanted a core in the last minute, this one included; times mean little where there were more than cores."""
+    try:
+        return f"{os.getloadavg()[0]:.1f}"
+    except OSError:
+        return "unknown"
 
 
 def threads() -> str:

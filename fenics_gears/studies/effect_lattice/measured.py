@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.effects import effects_on
 from fenics_gears.errors import ComputationError, GearsError, SceneError
 from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
@@ -223,7 +224,9 @@ class Bench:
             closed_nodes=closed,
             most_closed_nodes=int(run.closed_nodes.max()),
             iterations=run.attrs["newton_iterations_total"] / run.attrs["steps"],
-            work=StepWork(coordinates, self._contact_rows, closed, iterations, scene.inertia is not None, scene.friction is not None),
+            work=StepWork(
+                coordinates, self._contact_rows, closed, iterations, scene.inertia is not None, scene.friction is not None, _varying(scene)
+            ),
             step_times=tuple(self._step_times),
             condense=self._gears.seconds(self._built) if scene.tooth_elasticity is not None else 0.0,
             operators=self._operators,
@@ -231,6 +234,11 @@ class Bench:
             peak_force=float(run.normal_force.max()),
             remarks=tuple(_remarks(self.subset, run)),
         )
+
+
+def _varying(scene: Scene) -> int:
+    """How many of a scene's effects are asked at every step."""
+    return sum(any((each.gaps, each.load, each.clock)) for each in effects_on(scene))
 
 
 def _remarks(subset: Subset, run: xr.Dataset) -> list[str]:

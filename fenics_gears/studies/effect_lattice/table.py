@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 import statistics
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,6 +12,7 @@ from fenics_gears.studies.effect_lattice.measured import Report, Row
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, in_order
 
 MICRO, MILLI = 1e6, 1e3
+NUMBERS_OF_ONE = " (numbers of the first row that says so)"
 HEADINGS = (
     "effects", "unknowns", "closed nodes", "Newton a step", "time a step", "operators", "condensing", "T_EPP", "peak force", "",
 )  # fmt: skip
@@ -19,7 +21,7 @@ UNITS = ("", "centre + contact", "mean (most)", "", "us", "s", "s", "um", "N", "
 
 def table_rows(report: Report) -> list[tuple[str, ...]]:
     """A row of cells for each subset; changes are against the bare scene for one effect more, against all for one less."""
-    numbers = {remark: place for place, remark in enumerate(remarks(report), 1)}
+    numbers = {_words(remark): place for place, remark in enumerate(remarks(report), 1)}
     return [_cells(report, row, numbers) for row in report.rows]
 
 
@@ -34,7 +36,7 @@ def _cells(report: Report, row: Row, numbers: dict[str, int]) -> tuple[str, ...]
         f"{row.condense:.2f}" if row.elastic else "none",
         _with_change(row.transmission_error * MILLI, report, row, "transmission_error", 3),
         _with_change(row.peak_force, report, row, "peak_force", 0),
-        " ".join(f"[{numbers[remark]}]" for remark in row.remarks),
+        " ".join(f"[{numbers[_words(remark)]}]" for remark in row.remarks),
     )
 
 
@@ -60,8 +62,24 @@ def in_percent(changed: float) -> str:
 
 
 def remarks(report: Report) -> list[str]:
-    """Every remark once, in order."""
-    return list(dict.fromkeys(remark for row in report.rows for remark in row.remarks))
+    """Every remark once, in order; of those that differ in their numbers only, the first row's."""
+    said: dict[str, list[str]] = {}
+    for row in report.rows:
+        for remark in row.remarks:
+            said.setdefault(_words(remark), []).append(remark)
+    return [same[0] if len(set(same)) == 1 else same[0] + NUMBERS_OF_ONE for same in said.values()]
+
+
+def own_remarks(report: Report, row: Row) -> list[str]:
+    """What must be known of a row and not of the whole scene."""
+    full = report.row(ALL)
+    said = {_words(remark) for remark in full.remarks} if full is not None else set()
+    return [remark for remark in row.remarks if _words(remark) not in said]
+
+
+def _words(remark: str) -> str:
+    """A remark without its numbers, and without the note that they are one row's."""
+    return re.sub(r"\d+(\.\d+)?(e[+-]?\d+)?", "#", remark.removesuffix(NUMBERS_OF_ONE))
 
 
 def ratio_in_words(report: Report) -> list[tuple[str, str, str]]:
@@ -95,7 +113,7 @@ def needs_in_words(report: Report) -> list[tuple[str, str, str]]:
             continue
         gone = in_order(full.subset.sections - row.subset.sections - {section})
         words = "T_EPP {}, peak force {}, time a step {}".format(*map(in_percent, changes))
-        found.append((max(map(abs, changes[:2])), (f"without {' and '.join([section, *gone])}", words, "")))
+        found.append((max(map(abs, changes[:2])), (f"without {', '.join([section, *gone])}", words, "")))
     return [words for _, words in sorted(found, key=lambda each: -each[0])]
 
 
@@ -103,7 +121,7 @@ CSV_COLUMNS = (
     "effects", "sections", "centre_coordinates", "contact_rows", "closed_nodes_mean", "closed_nodes_max", "newton_iterations_per_step",
     "operations_per_step", "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
     "transmission_error_peak_to_peak_mm", "peak_force_N", "change_of_transmission_error", "change_of_peak_force", "compared_with",
-    "remarks", "processor", "threads", "versions",
+    "remarks", "processor", "load", "threads", "versions",
 )  # fmt: skip
 
 
