@@ -4,10 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
 from tests.frozen_gears import GRID, frozen_marcher
 
-from fenics_gears.contact.laws import SLIP_FORWARD
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import drivetrain
@@ -15,33 +13,6 @@ from fenics_gears.dynamics.march import Marcher, Record
 
 def frictionless(scene, **changes):
     return replace(scene, friction=None, **changes)
-
-
-def test_tied_contact_follows_the_exact_modal_solution_with_order_two(paper_scene, paper_pair, stand_in_flanks):
-    """Exact solution: while the closed nodes stay closed the system is linear; the matrix exponential solves it."""
-    scene = frictionless(paper_scene)
-    duration, errors = 4e-3, []
-    for steps in (100, 200, 400):
-        marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, duration / steps)
-        rest = marcher.start()
-        closed = np.flatnonzero(rest.solution.status == SLIP_FORWARD)
-        # A push along a mode that the contact resists, small enough that no node changes its status.
-        push = np.zeros(len(shafts.coordinates))
-        push[shafts.coordinates.index("rotation_1")] = 0.2
-        record = Record(0, State(rest.state.position, push, -np.linalg.solve(shafts.mass, shafts.damping @ push)), rest.position, rest.solution)
-        for step in range(1, steps + 1):
-            record = marcher.step(marcher.dynamic, record, step)
-            assert np.array_equal(np.flatnonzero(record.solution.status == SLIP_FORWARD), closed)
-        operator = rest.position.operator
-        rigid = operator.rigid[closed]
-        contact = rigid.T @ np.linalg.solve(operator.compliance[np.ix_(closed, closed)], rigid)
-        k = len(push)
-        inverse = np.linalg.inv(shafts.mass)
-        system = np.block([[np.zeros((k, k)), np.eye(k)], [-inverse @ (shafts.stiffness + contact), -inverse @ shafts.damping]])
-        exact = expm(system * duration) @ np.concatenate([np.zeros(k), push])
-        errors.append(np.abs(record.state.position - rest.state.position - exact[:k]).max() / np.abs(exact[:k]).max())
-    orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert orders == pytest.approx([2.0, 2.0], abs=0.1)
 
 
 def test_start_is_equilibrium(paper_scene, paper_pair, stand_in_flanks):

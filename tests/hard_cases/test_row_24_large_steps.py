@@ -1,0 +1,95 @@
+"""Row 24: time steps a thousand times too large: finite, bounded energy, and words on what the step resolves."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import COARSE, coarse_scene, quasi_static
+
+from fenics_gears.description import describe
+from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
+from fenics_gears.dynamics.guidance import resolved_frequency, steps_to_resolve
+from fenics_gears.model import model
+from fenics_gears.scene.data import Motion
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def coarse(paper_scene):
+    return coarse_scene(paper_scene)
+
+
+def light(scene):
+    """The same with a millionth of the inertia: every natural frequency a thousand times as high."""
+    inertia = scene.inertia
+    return replace(scene, inertia=replace(inertia, **{name: 1e-6 * value for name, value in vars(inertia).items() if isinstance(value, float)}))
+
+
+CASES = {
+    "2 steps a cycle at 17 Hz": lambda scene: (scene, 17.0, 2),
+    "2 steps a cycle at 200 Hz": lambda scene: (scene, 200.0, 2),
+    "40 steps at 200 Hz, natural frequencies x 1000": lambda scene: (light(scene), 200.0, 40),
+    "3 steps a cycle at 400 Hz": lambda scene: (scene, 400.0, 3),
+}
+
+
+@pytest.mark.parametrize("damped", [True, False])
+@pytest.mark.parametrize("name", CASES)
+def test_large_steps_are_finite_bounded_and_named(coarse, name, damped, measured):
+    """Energy: backward Euler takes energy and gives none, so that nothing exceeds what the quasi-static solution holds, but for the
+    kinetic energy of following it; average acceleration may carry what the start brought. Twice the static energy bounds both."""
+    scene, mesh_frequency, steps = CASES[name](coarse if damped else replace(coarse, damping=None))
+    scene = replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps), motion=Motion(mesh_frequency, 60, 60))
+    result, static = simulate(scene), simulate(quasi_static(scene))
+    ratio = result.energy.values.max() / static.energy.values.max()
+    words = "damped" if damped else "undamped"
+    measured(f"largest energy over the static one, {name}, {words}", ratio, "2")
+    assert np.all(np.isfinite(result.transmission_error.values))
+    assert ratio <= 2.0
+    said = [line for line in result.attrs["warnings"].splitlines() if f"within {PERIOD_ERROR:.0%} up to" in line]
+    assert len(said) == 1 and f"up to {resolved_frequency(model(scene).time_step):.4g} Hz" in said[0]
+    assert said[0] in [words for _, words, _ in dict(describe(scene).sections)["Warnings"]]
+
+
+def test_the_remedy_is_a_remedy(coarse):
+    """With the steps that the warning asks for it has nothing more to say."""
+    undamped = replace(coarse, damping=None)
+    frequencies = [vibration.frequency for vibration in model(undamped).vibrations]
+    needed = steps_to_resolve(frequencies[-1], 200.0)
+    for steps, silent in ((needed, True), (needed - 2, False)):
+        scene = replace(undamped, accuracy=replace(COARSE, steps_per_mesh_cycle=steps))
+        said = [words for words in model(scene).warnings if "does not resolve" in words]
+        assert (not said) == silent
+        if said:
+            assert f"steps_per_mesh_cycle = {needed} instead of {steps}" in said[0]
+
+
+def test_resolved_means_a_period_right_within_one_per_cent(measured):
+    """Exact: average acceleration turns a phase by 2 atan(omega dt/2) a step; its period is too long by (omega dt)^2/12, to leading order."""
+    resolved = Vibration(resolved_frequency(1e-4), 0.0, True)
+    measured("steps in a resolved period", STEPS_OF_A_RESOLVED_PERIOD, "2 pi/sqrt(0.12)")
+    measured("error of the period there", resolved.period_error(1e-4), "0.01")
+    assert resolved.steps_per_period(1e-4) == pytest.approx(STEPS_OF_A_RESOLVED_PERIOD)
+    assert resolved.period_error(1e-4) == pytest.approx(0.01, rel=0.01)
+    # An oscillator stepped by hand: x'' = -omega^2 x from rest at 1.
+    omega, step = 2.0 * np.pi * resolved.frequency, 1e-4
+    half = 0.5 * omega * step
+    turned = np.angle((1.0 + 1j * half) / (1.0 - 1j * half))
+    assert omega * step / turned - 1.0 == pytest.approx(resolved.period_error(step), rel=1e-9)
+
+
+def test_inertia_that_does_not_matter_is_named_and_its_effect_is_of_the_size_said(coarse, measured):
+    """Measured against the quasi-static solver: the estimate of the difference is right within a factor of ten."""
+    from fenics_gears.dynamics.guidance import effect_of_inertia
+
+    scene = replace(coarse, friction=None, accuracy=replace(COARSE, steps_per_mesh_cycle=1000), motion=Motion(1.0, 2, 1))
+    (said,) = [words for words in model(scene).warnings if "inertia hardly matters" in words]
+    assert "leave out [inertia] and [damping]" in said
+    labels = [label for label, _, _ in dict(describe(scene).sections)["Expected cost (about)"]]
+    assert {"quasi-static instead: marching", "quasi-static instead: memory"} <= set(labels)
+    dynamic, static = simulate(scene).transmission_error.values, simulate(quasi_static(scene)).transmission_error.values
+    difference = np.sqrt(np.mean((dynamic - static) ** 2)) / np.ptp(static)
+    expected = effect_of_inertia(model(scene).vibrations[0], 1.0)
+    measured("1 Hz: difference to quasi-static of its peak-to-peak value", difference, f"{expected:.2g} expected")
+    assert 0.1 <= difference / expected <= 10.0
+    assert not any("inertia hardly" in words for words in model(replace(scene, motion=Motion(100.0, 2, 1))).warnings)
