@@ -24,8 +24,10 @@ LABEL = {"va": "center", "fontsize": 10.5, "bbox": {"facecolor": "white", "edgec
 def effect_costs(report: Report) -> Figure:
     """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds' least and most."""
     rows = report.rows
-    figure = Figure(figsize=(15.0, 2.6 + LINE_HEIGHT * len(rows)), layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.05, 1, 0.95))
+    height = 2.8 + LINE_HEIGHT * len(rows)
+    figure = Figure(figsize=(15.0, height), layout="constrained")
+    # Room for three lines below.
+    figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.6 / height, 1, 1 - 0.6 / height))
     axes = figure.subplots(1, 4, sharey=True, gridspec_kw={"width_ratios": (1.0, 1.1, 1.1, 1.1)})
     places = _places(rows)
     _unknowns(axes[0], rows, places)
@@ -97,11 +99,10 @@ def _heading(figure: Figure, report: Report) -> None:
         f"What the effects cost and change: {title}\n{conditions(report.scene)}",
         x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False,
     )
-    entries = [f"green: {WORDS[ALONE]}", f"orange: {WORDS[LEFT_OUT]}", "dotted line: bare, dashed: all"]
-    entries.append("grey whiskers: fastest and slowest round")
+    colours = f"green: {WORDS[ALONE]}; orange: {WORDS[LEFT_OUT]}; dotted line: bare, dashed: all"
+    entries = ["T$_{EPP}$: transmission error, peak to peak, at the wheel's base circle", "grey whiskers: fastest and slowest round"]
     if any(own_remarks(report, row) for row in report.rows):
         entries.append("* with a remark that the whole scene does not have, see effects.csv")
     where = report.machine
     measured = f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}"
-    words = f"T$_{{EPP}}$: transmission error, peak to peak, at the wheel's base circle; {'; '.join(entries)}\n{measured}"
-    figure.text(0.008, 0.008, words, fontsize=9.5, color=DARK)
+    figure.text(0.008, 0.1 / figure.get_figheight(), f"{colours}\n{'; '.join(entries)}\n{measured}", fontsize=9.5, color=DARK)
