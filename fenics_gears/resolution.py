@@ -37,8 +37,8 @@ CLOSEST_NODES = 0.7
 STEPS_PER_MESH_CYCLE = 200
 STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
-# Above this Poisson's ratio first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at 0.499).
-LOCKING_POISSONS_RATIO = 0.45
+# Above this Poisson's ratio these first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at 0.499).
+LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.
 ONCE, EVERY_STEP = "once", "every step"
 # Where the scene has no material: window in modules, and the nodes in it among which the first to touch is sought.
@@ -91,7 +91,7 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
         np.clip(half_width / ELEMENTS_PER_HALF_WIDTH, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
     )
     length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
-    spacing = size if (asked.element or DEFAULT_ELEMENT).endswith("1") else NODE_SPACING * size
+    spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
@@ -158,7 +158,7 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
 
 def locking_warnings(resolution: Resolution, material: Material | None) -> list[str]:
     """A sentence on an element that locks in a nearly incompressible material."""
-    if material is None or resolution.element.endswith("2") or material.poissons_ratio <= LOCKING_POISSONS_RATIO:
+    if material is None or resolution.element not in LOCKING_ELEMENTS or material.poissons_ratio <= LOCKING_POISSONS_RATIO:
         return []
     return [
         f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is {material.poissons_ratio:g}, "

@@ -8,7 +8,7 @@ from scipy.sparse.linalg import spsolve
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.stiffness import displacement_space, stiffness_form, stress
+from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matrix, stress
 
 
 def distorted_square(cells: int, corners: int) -> BodyMesh:
@@ -36,7 +36,7 @@ def l2_error(name: str, cells: int, poissons_ratio: float) -> float:
     """Error of the displacement, exact values held on the boundary, the exact field's own body force inside."""
     element = ELEMENTS[name]
     space = displacement_space(distorted_square(cells, element.corners), element)
-    matrix = adapter.assemble_matrix(stiffness_form(space, element, poissons_ratio))
+    matrix = stiffness_matrix(space, element, poissons_ratio)
     rows, columns, values = matrix.getValuesCSR()
     stiffness = csr_matrix((values, columns, rows), shape=matrix.getSize())
     x = ufl.SpatialCoordinate(space.mesh)

@@ -7,11 +7,10 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.schur import schur_complement
-from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_form
+from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_matrix
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ def condense(
     compile_ahead(element)
     compiled = perf_counter()
     space = displacement_space(mesh, element, comm)
-    matrix = adapter.assemble_matrix(stiffness_form(space, element, poissons_ratio))
+    matrix = stiffness_matrix(space, element, poissons_ratio)
     assembled = perf_counter()
     nodes = nodes_at(space, np.vstack(list(points.values())))
     stiffness = schur_complement(matrix, (2 * nodes[:, None] + [0, 1]).ravel())

@@ -75,6 +75,32 @@ def vector_space(mesh, order: int):
     return fem.VectorFunctionSpace(mesh, ("Lagrange", order), dim=2)
 
 
+def cell_space(mesh, order: int, components: int):
+    """Discontinuous space of quadrilaterals: values of a cell (order 0) or of its corners (order 1), the cells' one after the other."""
+    if _HAS_FUNCTIONSPACE:
+        return fem.functionspace(mesh, ("DG", order) if components == 1 else ("DG", order, (components,)))
+    family = "DG" if order == 0 else "DQ"
+    if components == 1:
+        return fem.FunctionSpace(mesh, (family, order))
+    return fem.VectorFunctionSpace(mesh, (family, order), dim=components)
+
+
+def cell_nodes(space) -> np.ndarray:
+    """Numbers (m, k) of the space's nodes by cell, in the order of the reference cell."""
+    return _rows(space.dofmap.list, space.mesh)
+
+
+def cell_corners(mesh) -> np.ndarray:
+    """Coordinates (m, k, 2) of the cells' corners, in the order of the reference cell."""
+    return mesh.geometry.x[_rows(mesh.geometry.dofmap, mesh), :2]
+
+
+def _rows(connectivity, mesh) -> np.ndarray:
+    # DOLFINx 0.5 and 0.6 have an adjacency list where later ones have an array.
+    entries = np.asarray(getattr(connectivity, "array", connectivity))
+    return entries.reshape(mesh.topology.index_map(mesh.topology.dim).size_local, -1)
+
+
 def node_coordinates(space) -> np.ndarray:
     """Coordinates of the space's nodes, (nodes, 2); node i carries dofs 2 i and 2 i + 1."""
     return space.tabulate_dof_coordinates()[:, :2]
@@ -121,6 +147,14 @@ def assemble_matrix(form):
     matrix = fem.petsc.assemble_matrix(form)
     matrix.assemble()
     return matrix
+
+
+def block_diagonal(blocks: np.ndarray):
+    """PETSc matrix of dense blocks (m, k, k) along its diagonal."""
+    count, size = blocks.shape[:2]
+    rows = np.arange(0, count * size**2 + 1, size, dtype=PETSc.IntType)
+    columns = np.repeat(np.arange(count * size, dtype=PETSc.IntType).reshape(count, 1, size), size, axis=1)
+    return PETSc.Mat().createAIJ((count * size,) * 2, csr=(rows, columns.ravel(), blocks.ravel()), comm=MPI.COMM_SELF)
 
 
 def assemble_vector(form) -> np.ndarray:

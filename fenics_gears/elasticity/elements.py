@@ -10,12 +10,16 @@ from fenics_gears.errors import SceneError
 
 @dataclass(frozen=True)
 class Element:
-    """A Lagrange element: its name, corners of its cell, polynomial order, order its products are integrated to."""
+    """A Lagrange element: its name, corners of its cell, polynomial order, order its products are integrated to.
+
+    ``incompatible_modes``: with Wilson's incompatible modes within each cell (``elasticity.incompatible_modes``).
+    """
 
     name: str
     corners: int
     order: int
     quadrature_degree: int
+    incompatible_modes: bool = False
 
     @property
     def quadrilateral(self) -> bool:
@@ -26,7 +30,13 @@ class Element:
 # Triangles are affine and integrated exactly; quadrilaterals get the full Gauss rule, (order + 1)^2 points.
 ELEMENTS = {
     element.name: element
-    for element in (Element("P1", 3, 1, 0), Element("P2", 3, 2, 2), Element("Q1", 4, 1, 3), Element("Q2", 4, 2, 5))
+    for element in (
+        Element("P1", 3, 1, 0),
+        Element("P2", 3, 2, 2),
+        Element("Q1", 4, 1, 3),
+        Element("Q1 incompatible", 4, 1, 3, incompatible_modes=True),
+        Element("Q2", 4, 2, 5),
+    )
 }
 
 
@@ -34,6 +44,7 @@ def element_named(name: str) -> Element:
     """The element of that name; raises SceneError that names the nearest known one."""
     if name in ELEMENTS:
         return ELEMENTS[name]
-    near = get_close_matches(str(name).upper(), ELEMENTS, n=1, cutoff=0.3)
-    hint = f"; did you mean '{near[0]}'?" if near else ""
+    in_capitals = {known.upper(): known for known in ELEMENTS}
+    near = get_close_matches(str(name).upper(), in_capitals, n=1, cutoff=0.3)
+    hint = f"; did you mean '{in_capitals[near[0]]}'?" if near else ""
     raise SceneError(f"element '{name}' is not known, there are {', '.join(ELEMENTS)}{hint}")

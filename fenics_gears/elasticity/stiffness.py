@@ -13,19 +13,36 @@ from fenics_gears.errors import ComputationError
 
 
 def stress(displacement, poissons_ratio):
+    """UFL stress in plane strain of a displacement, Young's modulus 1."""
+    return stress_of_strain(ufl.sym(ufl.grad(displacement)), poissons_ratio)
+
+
+def stress_of_strain(strain, poissons_ratio):
     """UFL stress sigma = lambda tr(eps) I + 2 mu eps in plane strain, Young's modulus 1."""
-    strain = ufl.sym(ufl.grad(displacement))
     shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
     first_lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
     return first_lame * ufl.tr(strain) * ufl.Identity(2) + 2.0 * shear_modulus * strain
 
 
+def stiffness_matrix(space, element: Element, poissons_ratio: float):
+    """Assembled PETSc matrix of the strain energy on a displacement space, no boundary conditions."""
+    if element.incompatible_modes:
+        from fenics_gears.elasticity.incompatible_modes import condensed_stiffness
+
+        poisson = adapter.constant(space.mesh, poissons_ratio)
+        return condensed_stiffness(space, lambda strain: stress_of_strain(strain, poisson), _cells(element))
+    return adapter.assemble_matrix(stiffness_form(space, element, poissons_ratio))
+
+
 def stiffness_form(space, element: Element, poissons_ratio: float):
-    """Compiled bilinear form of the strain energy on a displacement space."""
+    """Compiled bilinear form of the strain energy of a displacement alone, without modes within the cells."""
     trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
     poisson = adapter.constant(space.mesh, poissons_ratio)
-    measure = ufl.dx(metadata={"quadrature_degree": element.quadrature_degree})
-    return adapter.compile_form(ufl.inner(stress(trial, poisson), ufl.sym(ufl.grad(test))) * measure)
+    return adapter.compile_form(ufl.inner(stress(trial, poisson), ufl.sym(ufl.grad(test))) * _cells(element))
+
+
+def _cells(element: Element):
+    return ufl.dx(metadata={"quadrature_degree": element.quadrature_degree})
 
 
 def displacement_space(mesh: BodyMesh, element: Element, comm=None):
@@ -39,7 +56,7 @@ def compile_ahead(element: Element) -> None:
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     cell = BodyMesh(square[: element.corners], np.arange(element.corners)[None], {})
     with adapter.quiet_compiler():
-        adapter.with_compiled(lambda: stiffness_form(displacement_space(cell, element), element, 0.3))
+        adapter.with_compiled(lambda: stiffness_matrix(displacement_space(cell, element), element, 0.3)).destroy()
 
 
 def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:

@@ -64,7 +64,7 @@ class Motion(Section):
 class Accuracy(Section):
     """``[accuracy]``: what is left out is derived from the scene."""
 
-    element: Optional[Literal["P1", "P2", "Q1", "Q2"]] = choice("P1", "P2", "Q1", "Q2", planned={"Q1 incompatible": "the quadrilateral with incompatible modes"})
+    element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice("P1", "P2", "Q1", "Q1 incompatible", "Q2", planned={})
     flank_element_size: Optional[float] = quantity("1e-6 mm", "1 m", "0.08 mm", optional=True)
     contact_length: Optional[float] = quantity("1e-6 mm", "10 m", "1.5 mm", optional=True)
     contact_nodes: Optional[int] = whole_number(2, 1000, 20, optional=True)

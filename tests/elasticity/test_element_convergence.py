@@ -7,7 +7,7 @@ from tests.manufactured import l2_error
 from fenics_gears.elasticity.elements import ELEMENTS, element_named
 from fenics_gears.errors import SceneError
 
-ORDERS = {"P1": 2, "P2": 3, "Q1": 2, "Q2": 3}
+ORDERS = {"P1": 2, "P2": 3, "Q1": 2, "Q1 incompatible": 2, "Q2": 3}
 
 
 @pytest.mark.parametrize("name", ELEMENTS)

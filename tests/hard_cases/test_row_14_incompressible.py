@@ -17,6 +17,7 @@ from fenics_gears.geometry.involute import canonical_normal
 from fenics_gears.model import model
 from fenics_gears.simulation import simulate
 
+ALLOWED = {"Q2": "0.1 %", "Q1 incompatible": "0.5 %"}
 SECOND_ORDER, FIRST_ORDER = ("P2", "Q2"), ("P1", "Q1")
 
 
@@ -54,10 +55,11 @@ def tooth_compliance(name: str, poissons_ratio: float) -> float:
 def test_tooth_of_a_nearly_incompressible_gear(measured):
     """Two second-order elements of different shape agree on the tooth's compliance; first-order ones are too stiff."""
     reference = tooth_compliance("P2", 0.499)
-    errors = {name: tooth_compliance(name, 0.499) / reference - 1.0 for name in ("Q2", "P1", "Q1")}
+    errors = {name: tooth_compliance(name, 0.499) / reference - 1.0 for name in ("Q2", "Q1 incompatible", "P1", "Q1")}
     for name, error in errors.items():
-        measured(f"tooth's compliance against P2, {name}", error, "0.1 %" if name == "Q2" else "recorded, below -2 %")
+        measured(f"tooth's compliance against P2, {name}", error, ALLOWED.get(name, "recorded, below -2 %"))
     assert abs(errors["Q2"]) <= 1e-3
+    assert abs(errors["Q1 incompatible"]) <= 5e-3
     assert max(errors["P1"], errors["Q1"]) < -0.02
 
 

@@ -24,7 +24,7 @@ def test_routes_agree_on_the_papers_pair(case, paper_cases, both_routes):
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("element", ["P1", "P2", "Q1", "Q2"])
+@pytest.mark.parametrize("element", ["P1", "P2", "Q1", "Q1 incompatible", "Q2"])
 @pytest.mark.parametrize("case", CASES)
 def test_routes_agree_at_the_papers_resolution(case, element, paper_cases, both_routes):
     """As above with 100 steps per mesh cycle, every element."""

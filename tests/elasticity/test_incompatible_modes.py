@@ -1,0 +1,106 @@
+"""The quadrilateral with incompatible modes: the patch test, bending, its kernel, and its modes' condensation."""
+
+import numpy as np
+import pytest
+import ufl
+from scipy.linalg import eigvalsh
+from scipy.sparse import bmat, csr_matrix
+from scipy.sparse.linalg import spsolve
+
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.incompatible_modes import mode_forms
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matrix, stress_of_strain
+
+ELEMENT = ELEMENTS["Q1 incompatible"]
+RATIOS = [0.0, 0.3, 0.499]
+
+
+def rectangle(along: int, across: int, length: float, height: float, distortion: float = 0.0) -> BodyMesh:
+    """Rectangle of quadrilaterals whose inner corners are moved by up to `distortion` cell sizes, drawn with a fixed seed."""
+    x, y = np.meshgrid(np.linspace(0.0, length, along + 1), np.linspace(0.0, height, across + 1), indexing="ij")
+    draw = np.random.default_rng(0)
+    x[1:-1, 1:-1] += distortion * length / along * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
+    y[1:-1, 1:-1] += distortion * height / across * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
+    index = np.arange(x.size).reshape(x.shape)
+    cells = np.stack([part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1)
+    return BodyMesh(np.stack([x.ravel(), y.ravel()], axis=-1), cells, {})
+
+
+def sparse(matrix) -> csr_matrix:
+    rows, columns, values = matrix.getValuesCSR()
+    return csr_matrix((values, columns, rows), shape=matrix.getSize())
+
+
+def assembled(mesh: BodyMesh, poissons_ratio: float, name: str = ELEMENT.name):
+    """Coordinates (n, 2) of the nodes and the stiffness (2n, 2n)."""
+    space = displacement_space(mesh, ELEMENTS[name])
+    return adapter.node_coordinates(space), sparse(stiffness_matrix(space, ELEMENTS[name], poissons_ratio))
+
+
+def inner_dofs(nodes: np.ndarray) -> np.ndarray:
+    return np.repeat(np.all((nodes > 1e-9) & (nodes < 1.0 - 1e-9), axis=1), 2)
+
+
+@pytest.mark.parametrize("poissons_ratio", RATIOS)
+def test_patch_of_distorted_cells(poissons_ratio):
+    """Exact (Irons' patch test, the one that Wilson's own form fails): uniform strain on the boundary is uniform strain inside."""
+    nodes, stiffness = assembled(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
+    uniform = (nodes @ np.array([[1.0, 0.3], [-0.2, 0.7]])).ravel()
+    inside = inner_dofs(nodes)
+    found = spsolve(stiffness[inside][:, inside].tocsc(), -(stiffness[inside][:, ~inside] @ uniform[~inside]))
+    assert np.abs(found - uniform[inside]).max() <= 1e-10
+
+
+@pytest.mark.parametrize("poissons_ratio", RATIOS)
+def test_rigid_motions_cost_nothing_and_nothing_else_does(poissons_ratio):
+    """Exact: three rigid motions in the kernel of distorted cells, no modes without energy."""
+    _, stiffness = assembled(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
+    values = eigvalsh(stiffness.toarray())
+    assert np.abs(values[:3]).max() <= 1e-13 * values[-1]
+    assert values[3] >= 1e-5 * values[-1]
+
+
+def bent(name: str, poissons_ratio: float) -> float:
+    """Deflection of a beam of 10 cells, one high, under an end couple, in parts of the exact M L^2/(2 E' I), E' = E/(1 - nu^2)."""
+    length, height = 10.0, 1.0
+    nodes, stiffness = assembled(rectangle(10, 1, length, height), poissons_ratio, name)
+    at_wall, at_end = nodes[:, 0] < 1e-9, nodes[:, 0] > length - 1e-9
+    below = nodes[:, 1] < 1e-9
+    held = np.concatenate([2 * np.flatnonzero(at_wall), 2 * np.flatnonzero(at_wall & below) + 1])
+    free = np.setdiff1d(np.arange(stiffness.shape[0]), held)
+    force = np.zeros(stiffness.shape[0])
+    force[2 * np.flatnonzero(at_end)] = np.where(below[at_end], -1.0, 1.0)
+    displacement = np.zeros_like(force)
+    displacement[free] = spsolve(stiffness[free][:, free].tocsc(), force[free])
+    exact = height * length**2 * (1.0 - poissons_ratio**2) / (2.0 * height**3 / 12.0)
+    return float(-displacement[2 * np.flatnonzero(at_end & below) + 1][0] / exact)
+
+
+@pytest.mark.parametrize("poissons_ratio", RATIOS)
+def test_beam_of_one_element_across(poissons_ratio):
+    """Exact (beam in pure bending, plane strain): right at any Poisson's ratio, where the plain bilinear element locks."""
+    assert bent(ELEMENT.name, poissons_ratio) == pytest.approx(1.0, abs=1e-9)
+    assert bent("Q1", poissons_ratio) < 0.7
+
+
+def test_condensed_modes_are_those_of_the_whole_system():
+    """Exact identity, other solver (SuperLU): amplitudes kept as unknowns give the same displacements, 1e-9."""
+    space = displacement_space(rectangle(5, 4, 1.0, 1.0, distortion=0.35), ELEMENT)
+    measure = ufl.dx(metadata={"quadrature_degree": ELEMENT.quadrature_degree})
+    forms = mode_forms(space, lambda strain: stress_of_strain(strain, 0.3), measure)
+    displacements, coupling, modes = (sparse(adapter.assemble_matrix(form)) for form in forms)
+    inside = inner_dofs(adapter.node_coordinates(space))
+    whole = bmat([[displacements[inside][:, inside], coupling[:, inside].T], [coupling[:, inside], modes]]).tocsc()
+    force = np.random.default_rng(3).normal(size=inside.sum())
+    kept = spsolve(whole, np.concatenate([force, np.zeros(modes.shape[0])]))[: inside.sum()]
+    stiffness = sparse(stiffness_matrix(space, ELEMENT, 0.3))
+    condensed = spsolve(stiffness[inside][:, inside].tocsc(), force)
+    assert np.abs(condensed - kept).max() <= 1e-9 * np.abs(kept).max()
+
+
+def test_no_more_is_coupled_than_by_the_bilinear_element():
+    """From the method: amplitudes are a cell's own, so that condensing them adds no entries."""
+    mesh = rectangle(5, 4, 1.0, 1.0, distortion=0.35)
+    assert assembled(mesh, 0.3)[1].nnz == assembled(mesh, 0.3, "Q1")[1].nnz
