@@ -1,0 +1,62 @@
+"""Nodes of a meshed body numbered from its mesh alone, whatever the finite element library calls them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.mesh_data import BodyMesh
+
+# Cells of straight sides into which the nodes of a second-order cell divide it.
+SUBCELLS = {
+    (3, 1): [[0, 1, 2]],
+    (3, 2): [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
+    (4, 1): [[0, 1, 2, 3]],
+    (4, 2): [[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]],
+}
+
+
+@dataclass(frozen=True)
+class ElementNodes:
+    """Nodes of a body's elements: the mesh's points, then, of second order, the middles of its sides and of quadrilaterals.
+
+    points: (n, 2), the mesh's unit of length. cells: (m, k) node indices: corners counter-clockwise, middles of the sides in the
+    same order, the middle of a quadrilateral.
+    """
+
+    points: np.ndarray
+    cells: np.ndarray
+    corners: int
+    order: int
+
+    @property
+    def subcells(self) -> np.ndarray:
+        """First-order cells (j, 3) or (j, 4) over all nodes."""
+        return np.vstack([self.cells[:, part] for part in SUBCELLS[self.corners, self.order]])
+
+    @property
+    def boundary_sides(self) -> np.ndarray:
+        """Sides (j, 2), or (j, 3) with the middle last, that belong to one cell only."""
+        ends = self.cells[:, : self.corners]
+        sides = np.stack([ends, np.roll(ends, -1, axis=1)], axis=-1).reshape(-1, 2)
+        _, first, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+        outer = first[count == 1]
+        if self.order == 1:
+            return sides[outer]
+        return np.column_stack([sides[outer], self.cells[:, self.corners : 2 * self.corners].reshape(-1)[outer]])
+
+
+def element_nodes(mesh: BodyMesh, element: Element) -> ElementNodes:
+    """The nodes of a body meshed with an element."""
+    if element.order == 1:
+        return ElementNodes(mesh.points, mesh.cells, element.corners, 1)
+    sides = np.stack([mesh.cells, np.roll(mesh.cells, -1, axis=1)], axis=-1).reshape(-1, 2)
+    unique, of_cell = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
+    points = [mesh.points, mesh.points[unique].mean(axis=1)]
+    cells = [mesh.cells, len(mesh.points) + of_cell.reshape(mesh.cells.shape)]
+    if element.quadrilateral:
+        points.append(mesh.points[mesh.cells].mean(axis=1))
+        cells.append(len(mesh.points) + len(unique) + np.arange(len(mesh.cells))[:, None])
+    return ElementNodes(np.vstack(points), np.hstack(cells), element.corners, 2)

@@ -1,0 +1,181 @@
+"""From forces on a gear's flanks to the displacement and stress of its whole body.
+
+The flank compliance holds what the teeth do at their flanks; what it left out is solved back. Loads inside a sector reach its cuts by one
+solve with the factored sector, the cuts of all sectors follow from the ring's cyclic system (`elasticity.ring`), and the inside of each
+sector from its two cuts by one more solve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.elements import Element, element_named
+from fenics_gears.elasticity.gear_compliance import element_sizes
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.nodal_stress import nodal_stress
+from fenics_gears.elasticity.ring import check_congruent, rotation
+from fenics_gears.elasticity.sector_interior import SectorInterior, dofs_of
+from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.scene.data import Material
+
+
+@dataclass(frozen=True)
+class RecoveredBody:
+    """A gear's sectors under load, the hub held: sector s stands s pitches counter-clockwise of the first, each in its own tooth's frame.
+
+    displacement: (teeth, n, 2), mm. stress: (teeth, n, 3), MPa: xx, yy, xy at the nodes, averaged over the elements that meet there,
+    those of the neighbouring sector at a cut included. hub_force: (3,), N per mm of face width and N: forces and couple of the hub on
+    the body, in the frame of sector 0, about the gear's centre.
+    """
+
+    displacement: np.ndarray
+    stress: np.ndarray
+    hub_force: np.ndarray
+
+
+class GearRecovery:
+    """A gear whose displacement and stress are recovered from forces on its flanks.
+
+    gear, material: lengths in mm, MPa. mesh: the sector that its compliance was computed on, in modules. Use it in a `with`, or `close` it.
+    """
+
+    def __init__(self, gear: Gear, material: Material, mesh: BodyMesh, element: Element, comm=None):
+        self.gear, self.material, self.element = gear, material, element
+        self.interior = SectorInterior(mesh, element, material.poissons_ratio, comm)
+        self.nodal_stress = nodal_stress(self.interior.nodes, material.poissons_ratio)
+        self._same, self._ahead = self._cut_stiffness(mesh, comm)
+
+    def __enter__(self) -> GearRecovery:
+        return self
+
+    def __exit__(self, *failure) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Give the factor's memory back."""
+        self.interior.close()
+
+    @property
+    def points(self) -> np.ndarray:
+        """Nodes (n, 2) of the first sector in its tooth's frame, mm."""
+        return self.gear.module * self.interior.nodes.points
+
+    def flank_loads(self, forces: dict[int, np.ndarray]) -> np.ndarray:
+        """Loads (teeth, 2 n) from line forces (2 f,) or (4 f,), N/mm, on the flank nodes of some teeth, by the sector they are of.
+
+        f: nodes of a flank, in the order of the flank compliance and in each tooth's own frame; the coast flank's after the drive flank's.
+        """
+        sides = [dofs_of(self.interior.flank_nodes(side)) for side in ("flank", "coast")]
+        loads = np.zeros((self.gear.teeth, 2 * len(self.interior.nodes.points)))
+        for tooth, force in forces.items():
+            drive = len(sides[0])
+            np.add.at(loads[tooth % self.gear.teeth], sides[0], force[:drive])
+            if len(force) > drive:
+                np.add.at(loads[tooth % self.gear.teeth], sides[1], force[drive:])
+        return loads
+
+    def recovered(self, forces: dict[int, np.ndarray]) -> RecoveredBody:
+        """Displacement and stress of the whole gear under forces on flanks, as in `flank_loads`."""
+        loads = self.flank_loads(forces)
+        unit = self.unit_displacement(loads)
+        hub_force = self._hub_force(unit)
+        displacement = unit.reshape(self.gear.teeth, -1, 2) / self.material.youngs_modulus
+        # Strains are displacements over the gear's own lengths, which the mesh has in modules.
+        return RecoveredBody(displacement, self._stress(unit) / self.gear.module, hub_force)
+
+    def unit_displacement(self, loads: np.ndarray) -> np.ndarray:
+        """Displacement (teeth, 2 n) under loads (teeth, 2 n), Young's modulus 1 MPa, the hub held."""
+        teeth = self.gear.teeth
+        loaded = np.flatnonzero(loads.any(axis=1))
+        _, on_lower, on_upper = self.interior.with_cuts_held(loads[loaded].T)
+        cut_loads = np.zeros((teeth, len(on_lower), 1))
+        turn = rotation(self.gear.angular_pitch)
+        np.add.at(cut_loads, loaded, on_lower.T[:, :, None])
+        np.add.at(cut_loads, (loaded + 1) % teeth, turned(on_upper.T, turn.T)[:, :, None])
+        lower = self.cut_motion(cut_loads)[:, :, 0]
+        upper = turned(np.roll(lower, -1, axis=0), turn)
+        return self.interior.between_cuts(lower.T, upper.T, loads.T).T
+
+    def cut_motion(self, loads: np.ndarray) -> np.ndarray:
+        """Displacement (teeth, 2 c, k) of the sectors' lower cuts under loads (teeth, 2 c, k) on them, Young's modulus 1 MPa.
+
+        The cyclic system ``ahead^T c[s-1] + same c[s] + ahead c[s+1] = loads[s]``: one small system for each harmonic.
+        """
+        harmonics = np.fft.rfft(loads, axis=0)
+        phase = np.exp(2j * np.pi * np.arange(len(harmonics)) / self.gear.teeth)
+        for k, turn in enumerate(phase):
+            stiffness = self._same + self._ahead * turn + self._ahead.T * np.conj(turn)
+            harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
+        return np.fft.irfft(harmonics, n=self.gear.teeth, axis=0)
+
+    def _cut_stiffness(self, mesh: BodyMesh, comm) -> tuple[np.ndarray, np.ndarray]:
+        points = self.interior.nodes.points
+        groups = {name: points[getattr(self.interior, name)] for name in ("lower", "upper", "hub")}
+        sector = condense(mesh, self.element, self.material.poissons_ratio, groups, comm)
+        check_congruent(sector, self.gear.teeth)
+        turn = np.kron(np.eye(len(groups["upper"])), rotation(self.gear.angular_pitch))
+        same = sector.between("lower", "lower") + turn.T @ sector.between("upper", "upper") @ turn
+        return same, sector.between("lower", "upper") @ turn
+
+    def _hub_force(self, unit: np.ndarray) -> np.ndarray:
+        """Sum over the sectors of the hub's forces on them, (3,)."""
+        hub = self.interior.hub
+        total, points = np.zeros(3), self.points[hub]
+        rows = self.interior.stiffness[dofs_of(hub)]
+        for tooth, displacement in enumerate(unit):
+            force = (rows @ displacement).reshape(-1, 2)
+            total[:2] += rotation(tooth * self.gear.angular_pitch) @ force.sum(axis=0)
+            total[2] += (points[:, 0] * force[:, 1] - points[:, 1] * force[:, 0]).sum()
+        return total
+
+    def _stress(self, unit: np.ndarray) -> np.ndarray:
+        """Averaged stress (teeth, n, 3) in modules' lengths, elements of both sectors counted at a cut."""
+        weighted = (self.nodal_stress.weighted @ unit.T).T.reshape(len(unit), -1, 3)
+        weight = self.nodal_stress.weight.copy()
+        hub = self.interior.hub
+        lower, upper = (np.concatenate([cut, self._hub_end(cut, hub)]) for cut in (self.interior.lower, self.interior.upper))
+        pitch = self.gear.angular_pitch
+        ahead, behind = np.roll(weighted, -1, axis=0)[:, lower], np.roll(weighted, 1, axis=0)[:, upper]
+        at_lower, at_upper = weight[lower], weight[upper]
+        weighted[:, upper] += turned_stress(ahead, pitch)
+        weighted[:, lower] += turned_stress(behind, -pitch)
+        weight[upper] += at_lower
+        weight[lower] += at_upper
+        return weighted / weight[:, None]
+
+    def _hub_end(self, cut: np.ndarray, hub: np.ndarray) -> np.ndarray:
+        """The hub's node at the end of a cut, (1,)."""
+        points = self.interior.nodes.points
+        angle = np.arctan2(*(points[cut[0]][::-1]))
+        ends = np.arctan2(points[hub][:, 1], points[hub][:, 0])
+        return hub[[np.argmin(np.abs(np.angle(np.exp(1j * (ends - angle)))))]]
+
+
+def gear_recovery(
+    gear: Gear, material: Material, *, element: str, flank_element_size: float, coast_flank: bool = False, comm=None
+) -> GearRecovery:
+    """A gear's recovery on the very mesh that `flank_compliance` has with the same settings."""
+    chosen = element_named(element)
+    sizes = replace(element_sizes(gear, chosen, flank_element_size), both_flanks=coast_flank)
+    mesh = sector_mesh(gear.of_module_one, sizes.in_modules_of(gear), chosen.quadrilateral)
+    return GearRecovery(gear, material, mesh, chosen, comm)
+
+
+def turned(vectors: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """Interleaved plane vectors (..., 2 k) turned by a matrix (2, 2)."""
+    return (vectors.reshape(*vectors.shape[:-1], -1, 2) @ turn.T).reshape(vectors.shape)
+
+
+def turned_stress(stress: np.ndarray, angle: float) -> np.ndarray:
+    """Stress xx, yy, xy (..., 3) of a body turned counter-clockwise by an angle (rad)."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    matrix = np.array([
+        [cosine**2, sine**2, -2.0 * sine * cosine],
+        [sine**2, cosine**2, 2.0 * sine * cosine],
+        [sine * cosine, -sine * cosine, cosine**2 - sine**2],
+    ])
+    return stress @ matrix.T

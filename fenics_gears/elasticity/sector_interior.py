@@ -1,0 +1,144 @@
+"""The inside of a tooth sector between its held cuts and hub: its stiffness factored once by PETSc, solved for any load."""
+
+from __future__ import annotations
+
+import numpy as np
+from petsc4py import PETSc
+from scipy import sparse
+
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.condensation import by_radius, without
+from fenics_gears.elasticity.element_nodes import element_nodes
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_form
+from fenics_gears.errors import ComputationError
+
+# Right-hand sides solved at once; more would take memory and no less time.
+COLUMNS_AT_ONCE = 64
+
+
+class SectorInterior:
+    """A meshed sector, Young's modulus 1 MPa, unit thickness; nodes are those of `nodes` (ElementNodes), dofs interleaved x, y.
+
+    lower, upper: (c,) nodes of the cuts by radius, without those on the hub; hub: (h,). stiffness: (2 n, 2 n) sparse, of all nodes.
+    Release the factor by `close`, or use it in a `with`.
+    """
+
+    def __init__(self, mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None):
+        self.mesh, self.element, self.poissons_ratio = mesh, element, poissons_ratio
+        self.nodes = element_nodes(mesh, element)
+        self.hub = self._at(hub := mesh.edge_nodes("hub", element.order))
+        self.lower, self.upper = (
+            self._at(by_radius(without(mesh.edge_nodes(cut, element.order), hub))) for cut in ("lower cut", "upper cut")
+        )
+        self.stiffness = self._assembled(comm)
+        held = np.concatenate([self.lower, self.upper, self.hub])
+        self.free = dofs_of(np.setdiff1d(np.arange(len(self.nodes.points)), held))
+        self._factor = _Factor(self.stiffness[self.free][:, self.free])
+        self._to_lower, self._to_upper = (self.stiffness[self.free][:, dofs_of(cut)] for cut in (self.lower, self.upper))
+
+    def __enter__(self) -> SectorInterior:
+        return self
+
+    def __exit__(self, *failure) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Give the factor's memory back."""
+        self._factor.close()
+
+    def flank_nodes(self, side: str) -> np.ndarray:
+        """Nodes (k,) of the "flank" or the "coast" flank by radius, as the flank compliance has them."""
+        return self._at(by_radius(self.mesh.edge_nodes(side, self.element.order)))
+
+    def with_cuts_held(self, loads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Displacement (2 n, k) under loads (2 n, k) on free nodes, cuts and hub held; loads (2 c, k) that reach lower and upper cut."""
+        inside = self._factor.solve(loads[self.free])
+        displacement = np.zeros_like(loads)
+        displacement[self.free] = inside
+        return displacement, -self._to_lower.T @ inside, -self._to_upper.T @ inside
+
+    def between_cuts(self, lower: np.ndarray, upper: np.ndarray, loads: np.ndarray) -> np.ndarray:
+        """Displacement (2 n, k) under loads (2 n, k) where the cuts move by lower and upper (2 c, k), the hub held."""
+        displacement = np.zeros_like(loads)
+        displacement[dofs_of(self.lower)], displacement[dofs_of(self.upper)] = lower, upper
+        displacement[self.free] = self._factor.solve(loads[self.free] - self._to_lower @ lower - self._to_upper @ upper)
+        return displacement
+
+    def _at(self, coordinates: np.ndarray) -> np.ndarray:
+        # Looked up by coordinate, as in the library's own numbering.
+        from scipy.spatial import cKDTree
+
+        distance, found = cKDTree(self.nodes.points).query(coordinates)
+        if distance.max(initial=0.0) > 1e-9 * np.abs(self.nodes.points).max():
+            raise ComputationError("recovery: a node of the sector's boundary is not among the nodes of its elements")
+        return found
+
+    def _assembled(self, comm) -> sparse.csr_matrix:
+        compile_ahead(self.element)
+        space = displacement_space(self.mesh, self.element, comm)
+        matrix = adapter.assemble_matrix(stiffness_form(space, self.element, self.poissons_ratio))
+        starts, columns, values = matrix.getValuesCSR()
+        assembled = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
+        matrix.destroy()
+        order = dofs_of(nodes_at(space, self.nodes.points))
+        return assembled[order][:, order]
+
+
+def dofs_of(nodes: np.ndarray) -> np.ndarray:
+    """Dofs (2 k,) of nodes (k,)."""
+    return (2 * np.asarray(nodes)[:, None] + [0, 1]).ravel()
+
+
+class _Factor:
+    """Cholesky factor of a sparse symmetric positive definite matrix by MUMPS."""
+
+    def __init__(self, matrix: sparse.csr_matrix):
+        matrix = matrix.tocsr()
+        matrix.sort_indices()
+        index = PETSc.IntType
+        csr = (matrix.indptr.astype(index), matrix.indices.astype(index), matrix.data)
+        self._matrix = PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
+        self._matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        self._preconditioner = PETSc.PC().create(PETSc.COMM_SELF)
+        self._preconditioner.setOperators(self._matrix)
+        self._preconditioner.setType("cholesky")
+        self._preconditioner.setFactorSolverType("mumps")
+        self._preconditioner.setFactorSetUpSolverType()
+        self._factor = self._preconditioner.getFactorMatrix()
+        try:
+            self._preconditioner.setUp()
+            status = self._factor.getMumpsInfog(1)
+        except PETSc.Error as error:
+            self.close()
+            raise ComputationError(f"PETSc could not factorise a tooth sector for its stresses: {error}") from error
+        if status < 0:
+            self.close()
+            raise ComputationError(f"MUMPS could not factorise a tooth sector for its stresses (INFOG(1) = {status}); memory may be short")
+
+    def solve(self, loads: np.ndarray) -> np.ndarray:
+        """Solution (n, k) for loads (n, k)."""
+        result = np.empty_like(loads)
+        for first in range(0, loads.shape[1], COLUMNS_AT_ONCE):
+            part = slice(first, first + COLUMNS_AT_ONCE)
+            result[:, part] = self._solved(np.asfortranarray(loads[:, part]))
+        return result
+
+    def _solved(self, loads: np.ndarray) -> np.ndarray:
+        right = PETSc.Mat().createDense(loads.shape, array=loads, comm=PETSc.COMM_SELF)
+        solution = np.zeros_like(loads, order="F")
+        left = PETSc.Mat().createDense(loads.shape, array=solution, comm=PETSc.COMM_SELF)
+        right.assemble()
+        left.assemble()
+        self._factor.matSolve(right, left)
+        result = left.getDenseArray().copy()
+        right.destroy()
+        left.destroy()
+        return result
+
+    def close(self) -> None:
+        # PETSc 3.18 leaks the factor unless both are destroyed, in this order.
+        self._preconditioner.destroy()
+        self._factor.destroy()
+        self._matrix.destroy()
