@@ -7,13 +7,14 @@ import pytest
 
 from fenics_gears.description import describe
 from fenics_gears.dynamics.drivetrain import drivetrain
-from fenics_gears.dynamics.frequencies import natural_frequencies
+from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.model import model
 from fenics_gears.resolution import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     MOST_STEPS_PER_MESH_CYCLE,
     hertz_half_width,
+    mesh_stiffness,
     resolve,
 )
 from fenics_gears.scene.data import Accuracy
@@ -78,5 +79,23 @@ def test_description_says_what_a_run_will_use(paper_scene):
     assert accuracy["flank element size"] == 0.08
     assert accuracy["steps"] == 3000
     assert "Natural frequencies with one tooth pair in mesh (about)" in sections
+    rows = {label: (value, unit) for label, value, unit in sections["Natural frequencies with one tooth pair in mesh (about)"]}
+    frequency, said = rows["mode 1"]
+    assert said.startswith(f"Hz: {1.0 / (frequency * 5e-5):.3g} steps a period, damping ratio")
+    # (omega dt)^2/12 = 1 %, and Nyquist's two steps.
+    assert rows["resolved by the time step"][0] == pytest.approx(sqrt(0.12) / (2.0 * pi * 5e-5))
+    assert rows["highest frequency that is sampled"][0] == pytest.approx(1e4)
     static = replace(paper_scene, inertia=None, damping=None)
     assert "Natural frequencies with one tooth pair in mesh (about)" not in dict(describe(static).sections)
+
+
+def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):
+    """Exact: Rayleigh damping gives a translation of frequency w the ratio (alpha w + beta/w)/2; without friction nothing moves it off the
+    line of action."""
+    for friction in (False, True):
+        modes = vibrations(drivetrain(paper_scene, paper_pair), mesh_stiffness(paper_scene), friction)
+        omega = sqrt(0.155e6 / 4.9e-3)
+        across = [mode for mode in modes if mode.frequency == pytest.approx(omega / (2.0 * pi), rel=1e-9)]
+        assert [mode.damping_ratio for mode in across] == pytest.approx(3 * [0.5 * (0.4e-3 * omega + 0.5e-3 / omega)], rel=1e-9)
+        assert any(mode.excited for mode in across) == friction
+        assert sum(mode.excited for mode in modes) >= 4

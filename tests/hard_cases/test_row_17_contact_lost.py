@@ -1,0 +1,191 @@
+"""Row 17: torque reversal, undamped resonance, sudden release: the teeth part, fly free, cross the backlash, touch behind and come back."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.frozen_gears import frozen_marcher
+
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.results import dataset
+from fenics_gears.scene.data import Motion
+from fenics_gears.show.curves import load_sharing
+from fenics_gears.simulation import gear_compliances, mesh_cycle, prepared, simulate
+
+FINE = replace(COARSE, steps_per_mesh_cycle=200)
+
+
+@pytest.fixture(scope="module")
+def both_flanks(paper_scene):
+    """The paper's pair with coast flanks, frictionless, at a coarse mesh."""
+    return replace(frictionless(coarse_scene(paper_scene)), coast_flanks=CoastFlanks(), motion=Motion(200.0, 1, 1))
+
+
+def backwards(scene):
+    return replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque))
+
+
+def with_torque(scene, part):
+    """The result of a scene whose load is multiplied by `part(step)` during the run; it starts in equilibrium under the whole load."""
+    built = model(scene)
+    _, cycle = prepared(built, SilentProgress(), user_cache())
+    change = (lambda step: (part(step) - 1.0) * built.drivetrain.load,)
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, 0.0, built.pace, built.clock, change)
+    return dataset(scene, cycle, built.drivetrain, marcher.run(built.steps, built.stored_steps), built.clock, change)
+
+
+@pytest.mark.parametrize("absent", [("shafts", "bearings"), ()], ids=["teeth alone", "whole drivetrain"])
+def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, measured):
+    """Symmetry: driven backwards the pair deflects as driven forwards, mirrored, after crossing the backlash.
+
+    Only to 0.5 %: displacements are small ones about the nominal position, from which the wheel is a backlash away: its tips pass
+    0.1 mm beside where the model has them, 0.75 % of a base pitch.
+    """
+    scene = replace(quasi_static(both_flanks), accuracy=FINE, **dict.fromkeys(absent))
+    forward, backward = simulate(scene), simulate(backwards(scene))
+    assert np.all(backward.normal_force.values == 0.0)
+    assert backward.coast_normal_force.values == pytest.approx(forward.normal_force.values, rel=1e-9)
+    crossed = -backward.transmission_error.values - paper_pair.backlash / paper_pair.wheel.base_radius
+    apart = [abs(of(crossed) / of(forward.transmission_error.values) - 1.0) for of in (np.mean, np.min, np.max)]
+    measured(f"static reversal, {len(absent)} effects left out: against the mirror image", max(apart), "5e-3")
+    assert max(apart) <= 5e-3
+    assert backward.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
+    assert backward.coast_flank_opening.values.max() <= 1e-12
+    lowest = min(np.nanmin(line.get_ydata()) for line in load_sharing(backward).axes[0].lines)
+    assert lowest == pytest.approx(-backward.pair_coast_normal_force.values.max())
+
+
+def test_reversed_torque_with_friction_balances(both_flanks, paper_scene, measured):
+    """Equilibrium: the wheel's couple is the load; friction of the single pair is mu times its normal force."""
+    scene = replace(quasi_static(both_flanks), friction=paper_scene.friction)
+    result = simulate(backwards(scene))
+    assert result.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
+    # Across the coast flanks' own line of action: the reaction's part that the normal force does not explain.
+    force = np.hypot(result.reaction_x.sel(gear="pinion").values, result.reaction_y.sel(gear="pinion").values)
+    ratio = (force / result.coast_normal_force.values).max()
+    measured("static reversal with friction: reaction over normal force", ratio / np.hypot(1.0, 0.1) - 1.0, "1e-6 of sqrt(1 + mu^2)")
+    assert ratio == pytest.approx(np.hypot(1.0, 0.1), rel=1e-6)
+
+
+def test_coast_flanks_stand_a_backlash_apart(both_flanks, paper_pair, measured):
+    """Exact: with the centres fixed the openings of drive and coast flanks sum to the geometry's backlash. At the contact nodes the hat
+    average adds to that the flanks' curvature over a node spacing, which falls as its square."""
+    scene, excess = replace(quasi_static(both_flanks), shafts=None, bearings=None), []
+    compliances = gear_compliances(model(scene), SilentProgress(), user_cache())
+    for nodes in (26, 51, 101):
+        cycle = mesh_cycle(model(replace(scene, accuracy=replace(COARSE, contact_nodes=nodes))), compliances)
+        operators = [cycle.position(step).operator for step in range(20)]
+        sums = [sum(operator.gap[operator.on_drive_flanks == drive].min() for drive in (True, False)) for operator in operators]
+        excess.append(np.mean(sums) - paper_pair.backlash)
+    orders = np.log2(np.array(excess[:-1]) / excess[1:])
+    measured("openings of drive and coast flanks less the backlash, 0.12 mm", excess[0] * 1e3, "curvature, order 2", "um")
+    measured("its order in the node spacing", orders[-1], "2 +- 0.2")
+    assert orders[-1] == pytest.approx(2.0, abs=0.2)
+
+
+def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):
+    """Uniqueness of the damped periodic motion: once the transient has died the pair moves as one that always had that torque."""
+    scene = replace(both_flanks, motion=Motion(200.0, 26, 26))
+    result = with_torque(scene, lambda step: -1.0 if 80 < step <= 560 else 1.0)
+    error = result.transmission_error.values
+    settled = {}
+    for name, run, last in (("forwards", scene, 1040), ("backwards", backwards(scene), 560)):
+        always = simulate(replace(run, motion=Motion(200.0, 12, 1))).transmission_error.values
+        settled[name] = np.abs(error[last - 40 : last + 1] - always).max() / np.abs(always).max()
+        measured(f"reversal while running, settled {name}, against always so", settled[name], "1e-4: e^-9.5 of the transient")
+    assert max(settled.values()) <= 1e-4
+    driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
+    free = ~driving & ~coasting
+    assert driving[:81].all() and free[81:561].any() and coasting[520:561].all() and driving[1000:].all()
+    first = result.attrs["contact_loss_first"]
+    measured("first loss after the reversal at 10 ms", first, "within 2 ms", "s")
+    assert 0.010 < first < 0.012
+    assert result.attrs["contact_loss_longest"] >= 0.9 * 480 * model(scene).time_step
+    assert "no meaning" not in result.attrs["warnings"]
+
+
+def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, paper_pair, measured):
+    """Newton's first law: released, with rigid shafts and bearings and no damping, the wheel crosses the backlash at constant speed, and
+    between the flanks its energy stays what the teeth gave it."""
+    scene = replace(both_flanks, damping=None, bearings=None, shafts=None, accuracy=FINE, motion=Motion(200.0, 12, 12))
+    result = with_torque(scene, lambda step: 0.0 if step > 20 else 1.0)
+    driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
+    free = ~driving & ~coasting
+    assert not np.any(driving & coasting)
+    touches = [flank for before, now, flank in _touches(driving, coasting)]
+    assert {"drive", "coast"} <= set(touches) and touches.index("coast") < len(touches) - 1 - touches[::-1].index("drive")
+    place = result.rotation.sel(gear="wheel").values * paper_pair.wheel.base_radius
+    inside = free[:-2] & free[1:-1] & free[2:] & (np.arange(len(free) - 2) > 20)
+    bend = np.abs(np.diff(place, 2))[inside].max() / np.ptp(place)
+    measured("release: change of speed in flight, of the path in a step", bend, "1e-12")
+    openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[free & (np.arange(len(free)) > 20)]
+    apart = np.abs(openings / paper_pair.backlash - 1.0).max()
+    measured("release: both openings in flight against the backlash", apart, "0.01 (hat average)")
+    assert bend <= 1e-12
+    assert apart <= 0.01
+    assert result.attrs["contact_loss_count"] >= 1 and result.attrs["contact_loss_opening"] >= paper_pair.backlash
+
+
+def _touches(driving, coasting):
+    """Steps at which a flank begins to touch: (step before, step, "drive" or "coast"), in order."""
+    found = []
+    for name, touching in (("drive", driving), ("coast", coasting)):
+        found += [(step, step + 1, name) for step in np.flatnonzero(~touching[:-1] & touching[1:])]
+    return sorted(found)
+
+
+def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(paper_scene, paper_pair, stand_in_flanks, measured):
+    """Exact solution: released, the teeth part, and from then on springs, dampers and masses move as the exponential of their linear
+    system; average acceleration approaches it with order 2, and is itself, step by step, that of the drivetrain without gears."""
+    scene, errors = frictionless(paper_scene), []
+    for count in (100, 200, 400):
+        step = 2e-3 / count
+        marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, step)
+        away = -np.eye(len(shafts.coordinates))[shafts.coordinates.index("rotation_2")]
+        start = marcher.start()
+        inverse = np.linalg.inv(shafts.mass)
+        position, velocity = start.state.position + 0.5 * away, 50.0 * away
+        marcher.loads = (lambda step, shafts=shafts: -shafts.load,)
+        acceleration = -inverse @ (shafts.stiffness @ position + shafts.damping @ velocity)
+        nothing = replace(start.solution, status=0 * start.solution.status, forces=0.0 * start.solution.forces)
+        record = replace(start, state=type(start.state)(position, velocity, acceleration), solution=nothing)
+        k, worst, alone = len(position), 0.0, record.state
+        for number in range(1, count + 1):
+            record = marcher.step(marcher.dynamic, record, number)
+            load = marcher.dynamic.load(alone) - shafts.load
+            alone = marcher.dynamic.advance(alone, np.linalg.solve(marcher.dynamic.stiffness, load))
+            worst = max(worst, np.abs(record.state.position - alone.position).max() / np.abs(position).max())
+            assert not record.solution.status.any()
+        system = np.block([[np.zeros((k, k)), np.eye(k)], [-inverse @ shafts.stiffness, -inverse @ shafts.damping]])
+        exact = (expm(2e-3 * system) @ np.concatenate([position, velocity]))[:k]
+        errors.append(np.abs(record.state.position - exact).max() / np.abs(position).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    measured("flight against the drivetrain without gears, step by step", worst, "1e-12")
+    measured("flight against the matrix exponential: order", orders[-1], "2 +- 0.1")
+    assert worst <= 1e-12
+    assert orders == pytest.approx([2.0, 2.0], abs=0.1)
+
+
+def test_undamped_resonance_crosses_the_backlash_and_comes_back(both_flanks, paper_pair, measured):
+    """Claim 10 and what the paper's model lacks: undamped at resonance the teeth part, cross the backlash, touch on the coast flanks and
+    return, again and again; in free flight, centres fixed, both openings sum to the backlash but for the hat average."""
+    fine = replace(COARSE, steps_per_mesh_cycle=320)
+    result = simulate(replace(both_flanks, damping=None, bearings=None, accuracy=fine, motion=Motion(270.0, 40, 40)))
+    driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
+    free = ~driving & ~coasting
+    order = [name for _, _, name in _touches(driving, coasting)]
+    returns = sum(before == "coast" and after == "drive" for before, after in zip(order[:-1], order[1:]))
+    openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[free]
+    measured("undamped resonance: returns from the coast flanks in 40 cycles", returns, "1 or more")
+    measured("undamped resonance: openings in flight against the backlash", np.abs(openings / paper_pair.backlash - 1.0).max(), "0.01")
+    measured("undamped resonance: share of the time without drive contact", result.attrs["contact_loss_share"], "reported")
+    assert returns >= 1 and not np.any(driving & coasting)
+    assert openings == pytest.approx(paper_pair.backlash, rel=0.01)
+    assert "lose contact" in result.attrs["warnings"] and "no meaning" not in result.attrs["warnings"]
+    assert result.attrs["contact_loss_share"] == pytest.approx((~driving[1:]).mean(), rel=1e-12)
