@@ -59,7 +59,8 @@ class RampClock:
         """
         if step == self.held and self.held > 0:
             return 0.5 * self.acceleration
-        return self.acceleration if self.held == 0 or step > self.held else 0.0
+        ramping = (self.held == 0 or step > self.held) and step <= self.last
+        return self.acceleration if ramping else 0.0
 
 
 def inertia_forces(clock: RampClock, drivetrain: Drivetrain, wheel_teeth: int) -> Callable[[float], np.ndarray]:
