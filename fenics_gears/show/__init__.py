@@ -1,4 +1,4 @@
 """Pictures of results."""
 
 # Under which names the pictures of a run are written; see show.plots.
-PICTURE_FILES = ("transmission_error.png", "mesh_forces.png", "load_sharing.png", "contact_pressure.png")
+PICTURE_FILES = ("transmission_error.png", "mesh_forces.png", "load_sharing.png", "contact_pressure.png", "order_spectrum.png")

@@ -15,9 +15,10 @@ from fenics_gears.show import PICTURE_FILES
 from fenics_gears.show.curves import load_sharing, mesh_forces, transmission_error
 from fenics_gears.show.panels import DOTS_PER_INCH, styled
 from fenics_gears.show.pressure_map import contact_pressure
+from fenics_gears.show.spectrum import order_spectrum
 
 PICTURES: dict[str, Callable[[xr.Dataset], Figure | None]] = dict(
-    zip(PICTURE_FILES, (transmission_error, mesh_forces, load_sharing, contact_pressure))
+    zip(PICTURE_FILES, (transmission_error, mesh_forces, load_sharing, contact_pressure, order_spectrum))
 )
 
 

@@ -1,0 +1,87 @@
+"""Orders of the transmission error: made-up errors whose lines are known, and the picture of them."""
+
+import numpy as np
+import pytest
+from tests.show.synthetic import made_up_run
+
+from fenics_gears.show.plots import run_figures
+from fenics_gears.show.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, order_lines, order_spectrum, origin
+
+TEETH, PERIOD, STEPS = (16, 24), 48, 40
+ERRORS = '\n[flank_errors.wheel.waviness]\namplitude = "1 um"\nwaves = 90\n[eccentricity.pinion]\ndistance = "10 um"\n'
+
+
+def error_of(lines, cycles):
+    """A sum of cosines (order, amplitude) over so many mesh cycles, with a mean."""
+    turns = np.arange(int(cycles * STEPS) + 1) / (STEPS * TEETH[0])
+    return 5.0 + sum(amplitude * np.cos(2.0 * np.pi * order * turns + order) for order, amplitude in lines)
+
+
+def test_whole_periods_have_each_line_by_itself():
+    """Exact: cosines of orders 2/3, 1, 16 and 37 give those lines with those amplitudes and nothing else, also where the record holds
+    more than a period."""
+    lines = [(2.0 / 3.0, 3.0), (1.0, 2.0), (16.0, 4.0), (37.0, 0.5)]
+    for cycles in (PERIOD, 2 * PERIOD, PERIOD + 7):
+        found = order_lines(error_of(lines, cycles), cycles, TEETH)
+        assert found.exact
+        rest = found.amplitudes.copy()
+        for order, amplitude in lines:
+            place = int(np.argmin(np.abs(found.orders - order)))
+            assert found.orders[place] == pytest.approx(order, rel=1e-12)
+            assert found.amplitudes[place] == pytest.approx(amplitude, rel=1e-12)
+            rest[place] = 0.0
+        assert rest.max() < 1e-12
+
+
+@pytest.mark.parametrize("cycles", [16, 20.5, 47])
+def test_a_shorter_record_shows_them_in_a_window(cycles):
+    """Known property of Hann's window: a line midway between two bins has 8/(3 pi) of its height (1.42 dB less), none has less; four bins away
+    less than 1 % is left."""
+    found = order_lines(error_of([(16.0, 4.0)], cycles), cycles, TEETH)
+    assert not found.exact
+    assert 0.999 * 8.0 / (3.0 * np.pi) * 4.0 <= found.amplitudes.max() <= 4.0 + 1e-3
+    assert abs(found.orders[np.argmax(found.amplitudes)] - 16.0) <= 0.5 * TEETH[0] / cycles + 1e-9
+    assert found.amplitudes[np.abs(found.orders - 16.0) > 4.0 * TEETH[0] / cycles].max() < 0.04
+
+
+def test_less_than_a_turn_of_the_pinion_has_no_orders():
+    """Definition: the lowest order needs its whole turn."""
+    assert order_lines(error_of([(16.0, 1.0)], 15), 15, TEETH) is None
+    assert order_lines(np.zeros(2), 48, TEETH) is None
+
+
+def test_orders_are_told_by_what_they_come_back_with():
+    """Arithmetic: 16 and 24 teeth; order k/3 is a whole number of turns of the pinion or, times 3/2, of the wheel."""
+    expected = {16.0: MESH, 32.0: MESH, 1.0: PINION, 37.0: PINION, 2.0 / 3.0: WHEEL, 16.0 + 2.0 / 3.0: WHEEL, 2.0: BOTH, 1.0 / 3.0: HUNTING}
+    assert {order: origin(order, TEETH) for order in expected} == expected
+
+
+def made_up_turns(scene, cycles=float(PERIOD)):
+    """A made-up result over several turns, with run-out and waves of the wheel in its transmission error."""
+    run = made_up_run(steps=int(cycles * STEPS) + 1, cycles=cycles, nodes=3, scene=scene)
+    lines = [(1.0, 2e-4), (16.0, 3e-4), (60.0, 1e-5)]
+    return run.assign(transmission_error=("time", error_of(lines, cycles) * 1e-3, {"units": "rad"}))
+
+
+def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
+    """Definition: amplitudes as lengths on the wheel's base circle; 90 waves on the wheel are order 60 of the pinion's shaft."""
+    run = made_up_turns(paper_scene.text + ERRORS)
+    axes = order_spectrum(run).axes[0]
+    words = {text.get_text() for text in axes.texts}
+    assert {"mesh", "2 × mesh", "run-out of the pinion", "ghost order: 90 waves\non the wheel"} <= words
+    assert axes.get_yscale() == "log"
+    dots = {line.get_label(): line.get_xydata() for line in axes.lines}
+    # The base radius of the made-up result is 50 mm.
+    assert dots["mesh"] == pytest.approx(np.array([[16.0, 3e-7 * 50e3]]), rel=1e-9)
+    assert dots["turn of the pinion"] == pytest.approx(np.array([[1.0, 2e-7 * 50e3]]), rel=1e-9)
+    ghost = next(text for text in axes.texts if text.get_text().startswith("ghost"))
+    assert ghost.xy == pytest.approx((60.0, 1e-8 * 50e3), rel=1e-9)
+
+
+def test_a_run_of_a_turn_has_the_picture_and_a_shorter_one_has_not(paper_scene):
+    """Definition: drawn with a run's other pictures from a turn of the pinion on, 16 mesh cycles; needs the scene for the teeth."""
+    for cycles, there in ((15.0, False), (16.0, True), (20.0, True)):
+        assert ("order_spectrum.png" in run_figures(made_up_turns(paper_scene.text, cycles))) == there
+    assert order_spectrum(made_up_turns("")) is None
+    windowed = order_spectrum(made_up_turns(paper_scene.text, 20.0)).axes[0]
+    assert "20 mesh cycles" in windowed.get_title(loc="left") and "repeats after 48" in windowed.get_title(loc="left")
