@@ -44,7 +44,11 @@ def rotation_to_touch(moving, other, centre):
 
 
 def distance(curves):
-    """Least distance (mm) between two polylines that do not touch."""
+    """Least distance (mm) between two polylines that do not touch; only what is near to where every 50th points are nearest is looked at."""
+    sparse = [curve[::50] for curve in curves]
+    apart, nearest = cKDTree(sparse[1]).query(sparse[0])
+    middles = sparse[0][apart.argmin()], sparse[1][nearest[apart.argmin()]]
+    curves = [curve[np.linalg.norm(curve - middle, axis=1) < 0.2] for curve, middle in zip(curves, middles)]
     least = np.inf
     for points, line in (curves, curves[::-1]):
         start, step = line[:-1], np.diff(line, axis=0)
