@@ -7,15 +7,18 @@ phase `i / steps`. All teeth being alike, the equations at a phase are the same 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.corner import CornerContact, corner_pair, pair_reaches
 from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
 from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
 from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.corner import CornerContact
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,8 @@ def pair_places(
 
     def can_touch(place: Place) -> bool:
         if corner is not None:
+            from fenics_gears.contact.corner import pair_reaches
+
             return pair_reaches(pair, grid, corner, place)
         lowest, highest = flank_limits(pair, place.contact_rolls)
         return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
@@ -162,6 +167,8 @@ class MeshCycle(Cycle):
 
     def _pair(self, place: Place) -> ToothPair | None:
         if self.corner is not None:
+            from fenics_gears.contact.corner import corner_pair
+
             return corner_pair(self.flanks, self.grid, self.corner, place)
         return tooth_pair(self.flanks, self.grid, place)
 

@@ -26,6 +26,7 @@ RUN_HOOKS = ("removal", "gaps", "load", "clock", "results")
 METHODS = {
     "inertia": {"fenics_gears.dynamics.frequencies", "fenics_gears.dynamics.guidance"},
     "friction": {"fenics_gears.contact.uniqueness"},
+    "corner_contact": {"fenics_gears.contact.corner", "fenics_gears.geometry.tip_edge"},
     TEETH: {"fenics_gears.elasticity.gear_compliance"},
 }
 # What only hard cases of them load: the start of a fast mesh, the stepping of unsampled vibrations, the ladder's last rung.
@@ -124,7 +125,7 @@ def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(
 
 def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_and_no_finite_elements_for_rigid_flanks(loaded):
     """Authority: house rule 9, for what several effects share."""
-    assert "fenics_gears.contact.deviating_cycle" not in loaded[TEETH]
+    assert not {"fenics_gears.contact.deviating_cycle", *METHODS["corner_contact"]} & loaded[TEETH]
     assert "cvxopt" not in loaded[TEETH]
     assert not {"dolfinx", "gmsh", "petsc4py"} & loaded["nothing"]
     # Otherwise nothing could be said of what was not loaded.
