@@ -1,0 +1,66 @@
+"""Teeth alone at one position: how far the wheel turns under its couple while the pinion's hub is held, without friction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from fenics_gears.contact.corner import CornerContact
+from fenics_gears.contact.ladder import StepProblem, StepSolution, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_span
+from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.model import model
+from fenics_gears.scene.data import Accuracy, Scene
+
+WHEEL_ROTATION = 5  # in CENTRE_COORDINATES
+
+
+def teeth_alone(scene: Scene, accuracy: Accuracy = Accuracy()) -> Scene:
+    """The gears and the load of a scene, nothing else."""
+    return replace(
+        scene, accuracy=accuracy, shafts=None, bearings=None, inertia=None, damping=None, friction=None, tip_relief=None,
+        coast_flanks=None,
+    )  # fmt: skip
+
+
+def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int) -> MeshCycle:
+    """Contact operators of a scene's teeth alone on finite elements, the wheel's rotation the only unknown."""
+    built = model(scene)
+    grid, resolution = built.resolution.contact_grid, built.resolution
+    reach = tooth_span(built.pair, grid, steps, corner=corner)
+    compliances = tuple(
+        flank_compliance(
+            gear, scene.gears.material, element=resolution.element, flank_element_size=resolution.flank_element_size,
+            tooth_offsets=reach,
+        )
+        for gear in (built.pair.pinion, built.pair.wheel)
+    )  # fmt: skip
+    return rigid_hub_cycle(Flanks(built.pair, compliances), grid, steps, corner)
+
+
+def rigid_hub_cycle(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None) -> MeshCycle:
+    """The same on any flanks."""
+    return MeshCycle(flanks, grid, steps, [WHEEL_ROTATION], tangential=False, corner=corner)
+
+
+def solved(operator: ContactOperator, force: float) -> StepSolution:
+    """The step's solution under a force (N) on the wheel's base circle; its coordinate is the wheel's arc, mm."""
+    load, free = np.array([force]), np.array([np.sign(force)])
+    problem = StepProblem(
+        np.zeros((1, 1)), load, operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(force)
+    )
+    return solve_step(problem, cold_start(operator.gap, operator.node_pair))
+
+
+def transmission_error(cycle: MeshCycle, pair: GearPair, couple: float, phase: float) -> tuple[float, float]:
+    """Transmission error (rad, of the wheel) at a phase (mesh cycles), and the pinion's couple over the wheel's."""
+    operator = cycle.position(round(phase * cycle.steps)).operator
+    solution = solved(operator, couple / pair.wheel.base_radius)
+    arms = [float(np.sum(arm * solution.forces)) for arm in operator.normal_arms]
+    return float(solution.coordinates[0]) / pair.wheel.base_radius, arms[0] / arms[1]

@@ -1,0 +1,60 @@
+"""Deflection at hand-over against full contact analyses in CalculiX (reference.csv; `python -m tests.corner_contact_reference` regenerates it)."""
+
+import shutil
+
+import pytest
+from tests.corner_contact_reference.approach import elastic_cycle, teeth_alone, transmission_error
+from tests.corner_contact_reference.reference import LEAVING, VARIANTS, case, computed, read
+
+from fenics_gears.contact.corner import corner_contact
+from fenics_gears.geometry.pair import gear_pair
+
+STEPS = 100
+ROWS = {row.case: row for row in read()}
+USUAL = [row for row in ROWS.values() if row.case not in VARIANTS]
+
+
+def name(row) -> str:
+    """A row's name as a test."""
+    return f"phase {row.case.phase:g}, edge {row.case.edge_radius:g} mm"
+
+
+@pytest.fixture(scope="module")
+def cycles(paper_scene):
+    """Contact operators at the default accuracy with sharp and with rounded tip edges, and without corner contact."""
+    scene, pair = teeth_alone(paper_scene), gear_pair(paper_scene.gears)
+    corners = {radius: corner_contact(pair, radius) for radius in sorted({row.case.edge_radius for row in USUAL})}
+    return {radius: elastic_cycle(scene, corner, STEPS) for radius, corner in (*corners.items(), (None, None))}
+
+
+@pytest.mark.parametrize("row", USUAL, ids=name)
+def test_deflection_is_that_of_a_full_contact_analysis(row, cycles, paper_scene, paper_pair, record_property):
+    """CalculiX 2.20, contact found on the true outlines: the transmission error agrees within 1 % at every phase (measured: 0.5 %)."""
+    error, couples = transmission_error(cycles[row.case.edge_radius], paper_pair, paper_scene.load.wheel_torque, row.case.phase)
+    record_property("relative_difference", error / row.transmission_error - 1.0)
+    assert error == pytest.approx(row.transmission_error, rel=0.01)
+    # Off the line of action the couples are no longer as the tooth numbers: the arms are those of the true normal.
+    assert couples == pytest.approx(row.couple_ratio, rel=0.005)
+
+
+def test_without_corner_contact_the_wheels_tip_comes_in_wrongly(cycles, paper_scene, paper_pair):
+    """CalculiX: along the line of action alone the entering tip is off by more than 1 %, so that the test above can fail."""
+    row = ROWS[case(0.95, 0.0)]
+    error, _ = transmission_error(cycles[None], paper_pair, paper_scene.load.wheel_torque, row.case.phase)
+    assert abs(error / row.transmission_error - 1.0) > 0.01
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS.values() if row.case in VARIANTS], ids=lambda row: str(getattr(row, "case", "none yet")))
+def test_the_reference_knows_its_own_answer(row):
+    """Mesh refinement, penalty and the choice of surface move the reference by far less than the 1 % asked of us."""
+    usual = ROWS[case(row.case.phase, row.case.edge_radius)]
+    assert row.transmission_error == pytest.approx(usual.transmission_error, rel=0.002)
+
+
+@pytest.mark.nightly
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed (Debian: calculix-ccx)")
+def test_calculix_gives_the_file_again(paper_scene, paper_pair, tmp_path):
+    """The file is what the script makes: one position computed anew."""
+    row = ROWS[case(LEAVING[0], 0.0)]
+    again = computed(paper_scene, paper_pair, row.case, tmp_path, guess=row.transmission_error)
+    assert again.transmission_error == pytest.approx(row.transmission_error, rel=1e-4)
