@@ -61,22 +61,20 @@ class FlankGaps:
         if index in self._kept:
             return self._kept[index]
         found, start = [], 0
-        arms = position.operator.normal_arms
         for pair in position.operator.pairs:
             nodes = slice(start, start + len(pair.offsets))
             start = nodes.stop
-            own_arms = float(arms[0][nodes.start]), float(arms[1][nodes.start])
-            found.append(_Nodes(nodes, pair.place.teeth, tuple(self._shapes(gear, pair, own_arms[gear]) for gear in range(2))))
+            found.append(_Nodes(nodes, pair.place.teeth, (self._shapes(0, pair), self._shapes(1, pair))))
         if index == int(index):
             self._kept[index] = found
         return found
 
-    def _shapes(self, gear: int, pair: PairNodes, arm: float) -> np.ndarray:
+    def _shapes(self, gear: int, pair: PairNodes) -> np.ndarray:
         """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form and both parts of the waviness.
 
         Profiles of coast flanks are true; but a tooth out of place has both its flanks there.
         """
-        own, body = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear]
+        own, body, arm = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).arms[gear]
         displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
         if pair.place.flank != DRIVE:
             return displaced[:, None]

@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
@@ -18,6 +18,7 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import without
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.flank_errors import FlankErrors, GearErrors, Waviness
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations
@@ -212,6 +213,22 @@ def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pa
     by_deviation = (up - down) / (2.0 * change)
     assert by_deviation == pytest.approx(by_load, rel=1e-5)
     assert abs(by_deviation) > 0.01
+
+
+@pytest.mark.nightly
+def test_the_remeshed_route_feels_the_same_errors(paper_scene, paper_pair):
+    """Other method: nodes that meet pair by pair, gaps at points. What class 8 errors and run-out change of T_E, up to 14 um, agrees within
+    0.4 um on 0.12 mm elements, where the two routes differ by 0.3 um without errors."""
+    coarse = teeth_alone(frictionless(coarse_scene(paper_scene)))
+    coarse = replace(coarse, accuracy=replace(coarse.accuracy, steps_per_mesh_cycle=8), motion=Motion(200.0, 3, 3))
+    errors = {"flank_errors": FlankErrors(tolerance_class=8), "eccentricity": Eccentricity(Offset(ERROR, 0.0), None)}
+    changes = []
+    for condensation in ("once", "every step"):
+        plain = replace(coarse, accuracy=replace(coarse.accuracy, condensation=condensation))
+        changes.append(length(simulate(replace(plain, **errors)), paper_pair) - length(simulate(plain), paper_pair))
+    once, every_step = changes
+    assert np.abs(once).max() > 0.01
+    assert np.abs(once - every_step).max() < 4e-4
 
 
 def test_waves_that_the_steps_do_not_sample_are_refused(paper_pair):
