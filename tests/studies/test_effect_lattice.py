@@ -236,3 +236,17 @@ def test_remarks_that_differ_in_numbers_only_are_said_once(report):
     assert table.remarks(marked) == ["contact is lost in 0 of 20 steps (numbers of the first row that says so)", "undamped"]
     assert [cells[-1] for cells in table.table_rows(marked)][:3] == ["[1]", "[1] [2]", "[1]"]
     assert [len(table.own_remarks(marked, row)) for row in rows[:2]] == [0, 0 if len(rows[-1].remarks) == 2 else 1]
+
+
+def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
+    """Authority: the exit codes; 130, and no half of a comparison is kept."""
+
+    def interrupted(scene, **options):
+        return simulate(scene, **options).assign_attrs(complete=0)
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(measured, "simulate", interrupted)
+    (tmp_path / "small.toml").write_text(text_of(TEETH, "shafts"), encoding="utf-8")
+    assert main(["effects", "small.toml", "--output", "there"]) == 130
+    assert "Interrupted" in capsys.readouterr().err
+    assert not (tmp_path / "there").exists()
