@@ -186,6 +186,18 @@ def test_far_below_resonance_the_ripple_acts_as_at_rest(paper_scene):
     assert float(difference) < 1e-3 * resting.attrs["peak_to_peak_transmission_error"]
 
 
+def test_a_ripple_far_above_all_vibrations_is_not_felt(paper_scene):
+    """Known limit: at 20 kHz the gears stay at their mean position whatever rides on the couple; they start where the loads of a whole
+    cycle balance, so that nothing rings."""
+    scene = replace(frictionless(coarse(paper_scene)), motion=Motion(20e3, 30, 2))
+    ripple = TorqueRipple((Harmonic(24.0, 200e3),))
+    off, on = (simulate(replace(scene, torque_ripple=each)) for each in (None, ripple))
+    static = simulate(quasi_static(coarse(frictionless(paper_scene))))
+    assert on.attrs["mean_transmission_error"] == pytest.approx(off.attrs["mean_transmission_error"], rel=2e-3)
+    assert on.attrs["peak_to_peak_transmission_error"] < 0.05 * static.attrs["peak_to_peak_transmission_error"]
+    assert "lose contact" not in on.attrs["warnings"]
+
+
 @pytest.mark.parametrize("absent", [(), ("friction",), ("inertia", "damping"), ("shafts", "bearings", "friction")])
 def test_the_energy_account_closes(paper_scene, absent):
     """Exact identity: with a couple that varies the account closes to round-off, its work being the mean of both ends of a step."""
