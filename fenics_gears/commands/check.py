@@ -31,14 +31,15 @@ def check(options: argparse.Namespace) -> int:
 
 def effect_rows(scene) -> list[tuple[str, str, str]]:
     """Each effect: on with what it adds, off with what the model is without it."""
-    from fenics_gears.effects import EFFECTS
+    from fenics_gears.effects import EFFECTS, result_variables
 
-    rows = []
+    rows, there = [], {variable.name for variable in result_variables(scene)}
     for effect in EFFECTS:
         if getattr(scene, effect.section) is None:
             rows.append((effect.section, f"off  {effect.absent}", ""))
             continue
-        added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": [variable.name for variable in effect.variables]}
+        results = [variable.name for variable in effect.variables if variable.name in there]
+        added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": results}
         listed = "".join(f"; {kind}: {', '.join(names)}" for kind, names in added.items() if names)
         rows.append((effect.section, f"on   {effect.description}{listed}", ""))
     return rows

@@ -74,8 +74,11 @@ def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(sec
         lines[state] = next(line for line in after if line.split()[:1] == [section])
     assert lines["on"].split()[1] == "on" and lines["off"].split()[1] == "off"
     assert effect(section).absent in lines["off"]
-    added = [*effect(section).unknowns, *effect(section).terms, *(variable.name for variable in effect(section).variables)]
+    there = {variable.name for variable in result_variables(scene_of(*with_needs(section)))}
+    own = {variable.name for variable in effect(section).variables}
+    added = [*effect(section).unknowns, *effect(section).terms, *(own & there)]
     assert added and all(words in lines["on"] for words in (effect(section).description, *added))
+    assert not any(name in lines["on"].replace(",", " ").split() for name in own - there)
 
 
 def imports_of_hooks(section):
