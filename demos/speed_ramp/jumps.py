@@ -1,0 +1,46 @@
+"""Up and down through the resonance: run both ramps, compare with steady runs, draw. Called by `run`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+
+from fenics_gears import environment
+
+# Mesh frequencies (Hz) of the steady runs.
+STEADY = (160.0, 180.0, 190.0, 200.0, 208.0, 214.0, 225.0, 240.0)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run, draw, print; returns 0."""
+    environment.prepare()
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    parser = argparse.ArgumentParser(prog="demos/speed_ramp/run", description="Jumps between branches of vibration, on the way up and down.")
+    parser.add_argument("directory", nargs="?", type=Path, default=Path("results/speed_ramp"), help="where to write (default: %(default)s)")
+    directory = parser.parse_args(arguments).directory
+    from demos.speed_ramp.picture import draw
+    from demos.speed_ramp.sweeps import ramps, steady
+    from fenics_gears.output import written_aside
+    from fenics_gears.show.panels import DOTS_PER_INCH
+    from fenics_gears.studies.workshop import Workshop
+
+    begun, workshop = time.perf_counter(), Workshop()
+    passed = ramps(workshop)
+    held = {name: np.array([steady(name, frequency, workshop) for frequency in STEADY]) for name in passed}
+    written: list[Path] = []
+    with written_aside(directory, written) as aside:
+        draw(passed, np.array(STEADY), held).savefig(aside / "speed_ramp.png", dpi=DOTS_PER_INCH)
+    print("mesh frequency (Hz), transmission error peak to peak (urad): reached from below, from above")
+    for frequency, up, down in zip(STEADY, held["up"], held["down"]):
+        print(f"{frequency:g}  {1e6 * up:.0f}  {1e6 * down:.0f}")
+    print(written[0])
+    print(f"{time.perf_counter() - begun:.0f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,54 @@
+"""The demonstration of jumps between branches of vibration."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from demos.speed_ramp import sweeps
+from demos.speed_ramp.picture import draw
+from tests.coarse import COARSE
+
+from fenics_gears import load_scene
+from fenics_gears.model import model
+from fenics_gears.scene.data import Motion
+from fenics_gears.studies.workshop import Workshop
+
+
+def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
+    """Authority: the demonstration's own words."""
+    up, down = (load_scene(sweeps.HERE / f"{name}.toml") for name in ("up", "down"))
+    assert (up.motion.mesh_frequency, up.speed_ramp.end_frequency) == (down.speed_ramp.end_frequency, down.motion.mesh_frequency) == (150.0, 260.0)
+    same = {"title": "", "text": "", "name": "", "motion": down.motion, "speed_ramp": down.speed_ramp}
+    assert replace(up, **same) == replace(down, **same)
+    assert model(up).warnings == model(down).warnings == []
+
+
+def coarsened(path):
+    """The demonstration's scene at the coarse settings, its ramp twice as fast; both branches are there at them too."""
+    scene = load_scene(path)
+    accuracy = replace(COARSE, contact_length=2.0, contact_nodes=12, steps_per_mesh_cycle=60)
+    return replace(scene, accuracy=accuracy, motion=Motion(scene.motion.mesh_frequency, 165, 1), speed_ramp=replace(scene.speed_ramp, hold_cycles=5))
+
+
+@pytest.mark.parametrize("frequency", [200.0, pytest.param(240.0, marks=pytest.mark.nightly)])
+def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
+    """Known behaviour of gears with backlash (Kahraman and Singh, Journal of Sound and Vibration 142, 1990: jumps, the branch depends on the
+    direction): at 200 Hz the steady vibration reached from above is several times that reached from below; at 240 Hz they are the same."""
+    monkeypatch.setattr(sweeps, "load_scene", coarsened)
+    monkeypatch.setattr(sweeps, "SETTLING_CYCLES", 60 if frequency == 200.0 else 120)
+    workshop = Workshop()
+    below, above = (sweeps.steady(name, frequency, workshop) for name in ("up", "down"))
+    if frequency == 200.0:
+        assert above > 4.0 * below
+    else:
+        assert above == pytest.approx(below, rel=0.05)
+
+
+def test_the_picture_has_both_ways():
+    """Authority: what it is drawn from; two lines, two rows of rings, over the frequencies of the ramps."""
+    frequency = np.linspace(150.0, 260.0, 12)
+    passed = {"up": sweeps.Sweep(frequency, 1e-3 * frequency / 200.0), "down": sweeps.Sweep(frequency[::-1], 1e-3 * np.ones(12))}
+    (axes,) = draw(passed, np.array([180.0, 200.0]), {"up": np.array([1e-3, 2e-3]), "down": np.array([3e-3, 4e-3])}).axes
+    assert [list(line.get_xdata()) for line in axes.get_lines()][1] == [180.0, 200.0]
+    assert len(axes.get_lines()) == 4 and axes.get_xlim() == (150.0, 260.0)
+    assert list(axes.get_lines()[2].get_ydata()) == pytest.approx([1.0] * 12)
