@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import flank_interpolation, hat_average, hat_integrals, quadrature_offsets
+from fenics_gears.contact.interpolation import INTERPOLATIONS, hat_integrals
 from fenics_gears.contact.tooth_pair import DRIVE, Flanks, Line, Place, ToothPair
 from fenics_gears.contact.window import ContactGrid, offsets_between
 from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
@@ -90,20 +90,21 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     offsets = offsets_between(*edge_limits(pair, corner, place), grid)
     if not len(offsets):
         return None
-    at = quadrature_offsets(offsets)
+    view = INTERPOLATIONS[grid.interpolation]
+    at = view.places(offsets)
     removals = flanks.removal if place.flank == DRIVE else (None, None)
     surfaces = [
         _surface(gear, edge, roll, line.arms[side] + SENSES[side] * at, removals[side])
         for side, (gear, edge, roll) in enumerate(zip(gears, corner.edges, place.contact_rolls))
     ]
     x_1, x_2 = surfaces
-    meeting = 0.5 * (hat_average(offsets, x_1 - x_2) + line.length)
+    meeting = 0.5 * (view.seen(offsets, x_1 - x_2) + line.length)
     rolls = [
         roll_angle_at_height(gear.base_radius, roll, arm + sense * offsets)
         for gear, roll, arm, sense in zip(gears, place.contact_rolls, line.arms, SENSES)
     ]
     interpolation = tuple(
-        flank_interpolation(
+        view.of_flank(
             # That function measures offsets from the line at the gear's own base radius.
             offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense, flank.roll_angle, flank.element_order,
         )
@@ -113,7 +114,7 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
         place=place,
         offsets=offsets,
         lengths=hat_integrals(offsets),
-        gap=hat_average(offsets, line.length - x_1 - x_2),
+        gap=view.seen(offsets, line.length - x_1 - x_2),
         pinion_arm=meeting,
         wheel_arm=line.length - meeting,
         pinion_roll=rolls[0],

@@ -1,4 +1,4 @@
-"""Averages over the hat function of a contact node: of a flank's displacements, of gaps, of positions.
+"""How contact nodes see the flanks: averages over their hat functions of displacements, gaps, positions, or values at their points.
 
 Contact force and gap use the same averages, so that energy and symmetry are kept: a nodal force acts as the line load
 `p_j hat_j / integral(hat_j)`, and a nodal displacement or gap is `integral(hat_j u) / integral(hat_j)` (model.md section 2).
@@ -114,3 +114,51 @@ def flank_interpolation(
             offsets, rolls, base_radius, contact_roll, sense, vertex_arc, element_order, GAUSS_POINTS, GAUSS_WEIGHTS
         )
     )
+
+
+class Averages:
+    """A contact node sees averages over its hat function; nothing jumps as it passes nodes of the flank."""
+
+    def places(self, offsets: np.ndarray) -> np.ndarray:
+        """Offsets (mm, any shape) at which what is seen from nodes at `offsets` (n,) has to be known."""
+        return quadrature_offsets(offsets)
+
+    def seen(self, offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """What the nodes (n,) see of values given at their `places`."""
+        return hat_average(offsets, values)
+
+    def of_flank(self, *arguments) -> FlankInterpolation:
+        """Weights of the flank's nodes; arguments as of `flank_interpolation`."""
+        return flank_interpolation(*arguments)
+
+
+class Points:
+    """Collocation: a contact node sees the values at its own point, of force, gap and displacement alike."""
+
+    def places(self, offsets: np.ndarray) -> np.ndarray:
+        """The nodes' own offsets (n,), mm."""
+        return offsets
+
+    def seen(self, offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """The values (n,) themselves."""
+        return values
+
+    def of_flank(self, offsets, rolls, base_radius, contact_roll, sense, flank_rolls, element_order) -> FlankInterpolation:
+        """The element's shape functions at the nodes' roll angles; arguments as of `flank_interpolation`."""
+        arc, places = 0.5 * base_radius * rolls**2, 0.5 * base_radius * flank_rolls[::element_order] ** 2
+        element = np.clip(np.searchsorted(places, arc, side="right") - 1, 0, len(places) - 2)
+        local = np.clip((arc - places[element]) / np.diff(places)[element], 0.0, 1.0)
+        if element_order == 1:
+            shapes = (1.0 - local, local)
+        else:
+            shapes = ((1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0))
+        first = element_order * element
+        weights = np.zeros((len(rolls), len(flank_rolls)))
+        for ahead, shape in enumerate(shapes):
+            weights[np.arange(len(rolls)), first + ahead] = shape
+        return FlankInterpolation(weights, first, first + element_order + 1)
+
+
+# By their names in a scene.
+AVERAGED, COLLOCATED = "averaged", "collocated"
+INTERPOLATIONS = {AVERAGED: Averages(), COLLOCATED: Points()}

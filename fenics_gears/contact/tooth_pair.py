@@ -7,13 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import (
-    FlankInterpolation,
-    flank_interpolation,
-    hat_average,
-    hat_integrals,
-    quadrature_offsets,
-)
+from fenics_gears.contact.interpolation import INTERPOLATIONS, FlankInterpolation, hat_integrals
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, node_offsets
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
@@ -137,16 +131,16 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
     offsets = node_offsets(flanks.pair, place.contact_rolls, grid)
     if not len(offsets):
         return None
-    pinion, wheel = flanks.pair.pinion, flanks.pair.wheel
+    pinion, wheel, view = flanks.pair.pinion, flanks.pair.wheel, INTERPOLATIONS[grid.interpolation]
     # Modifications are made on the drive flanks.
     removal = flanks.removal if place.flank == DRIVE else (None, None)
-    _, (x_1, x_2), gap = facing_points(flanks.pair, removal, place.contact_rolls, quadrature_offsets(offsets))
+    _, (x_1, x_2), gap = facing_points(flanks.pair, removal, place.contact_rolls, view.places(offsets))
     node_rolls = rolls_at(flanks.pair, place.contact_rolls, offsets)
     # Flanks that deform to touch meet midway between where they stand undeformed. Both forces of friction act there, so that
     # action and reaction leave no couple.
-    meeting = 0.5 * (hat_average(offsets, x_1 - x_2) + flanks.pair.line_of_action_length)
+    meeting = 0.5 * (view.seen(offsets, x_1 - x_2) + flanks.pair.line_of_action_length)
     interpolation = tuple(
-        flank_interpolation(
+        view.of_flank(
             offsets, rolls, gear.base_radius, contact_roll, sense, flank.roll_angle, flank.element_order
         )
         for gear, rolls, contact_roll, sense, flank in zip(
@@ -157,7 +151,7 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
         place=place,
         offsets=offsets,
         lengths=hat_integrals(offsets),
-        gap=hat_average(offsets, gap),
+        gap=view.seen(offsets, gap),
         pinion_arm=meeting,
         wheel_arm=flanks.pair.line_of_action_length - meeting,
         pinion_roll=node_rolls[0],

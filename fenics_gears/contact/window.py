@@ -11,16 +11,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 
 
 @dataclass(frozen=True)
 class ContactGrid:
-    """What spans the contact nodes: window length in mm and nodes in a whole window."""
+    """What spans the contact nodes: window length in mm, nodes in a whole window, and by its name how they see the flanks."""
 
     length: float
     nodes: int
+    interpolation: str = AVERAGED
 
     @property
     def spacing(self) -> float:
