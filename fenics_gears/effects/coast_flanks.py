@@ -45,6 +45,7 @@ EFFECT = Effect(
         ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth"),
         ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity"),
         ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank", "tooth_elasticity"),
+        ResultVariable("coast_contact_traction", "MPa", "friction traction on the coast flanks", "friction"),
         ResultVariable("drive_flank_opening", "mm", "smallest distance of the drive flanks"),
         ResultVariable("coast_flank_opening", "mm", "smallest distance of the coast flanks"),
     ),

@@ -12,6 +12,9 @@ from fenics_gears.dynamics.march import Record, smallest_opening
 from fenics_gears.scene.data import Scene
 
 
+COAST_NODE_VARIABLES = ("contact_pressure", "contact_traction", "contact_roll_angle")
+
+
 def mesh_variables(scene: Scene, records: list[Record]) -> dict:
     """Forces of the whole mesh, on the drive flanks and on the coast flanks, and what all of them ask of either gear's centre."""
     on_drive = [record.position.operator.on_drive_flanks for record in records]
@@ -60,7 +63,7 @@ def pair_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: l
     if scene.coast_flanks is not None:
         coast = _flank_variables(scene, cycle, records, numbers, COAST)
         values["pair_coast_normal_force"] = coast["pair_normal_force"]
-        values |= {f"coast_{name}": data for name, data in coast.items() if name in ("contact_pressure", "contact_roll_angle")}
+        values |= {f"coast_{name}": data for name, data in coast.items() if name in COAST_NODE_VARIABLES}
     return values
 
 

@@ -1,0 +1,127 @@
+"""``gears picture RUN``: the gears of a run in mesh, deformed and coloured by stress; as a moving picture; as a file for ParaView."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from fenics_gears.commands.run import RUN_FILE
+from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.errors import ComputationError, SceneError
+
+PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; export them for ParaView")
+    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")
+    command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help="mesh cycles after the first stored step (default: 0)")
+    command.add_argument("--scale", type=_scale, metavar="N", help="displacements are drawn N times as large (default: as fits the picture)")
+    command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"what to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)")
+    command.add_argument("--animate", action="store_true", help="a turn through the stored mesh cycles (.gif, or .mp4 where ffmpeg is installed)")
+    command.add_argument("--vtu", type=Path, metavar="FILE", help="write displacement and stress of both gears for ParaView, too")
+    command.set_defaults(command=picture)
+
+
+def picture(options: argparse.Namespace) -> int:
+    """Draw and export what is asked for; without --output and --animate, --vtu alone writes no picture."""
+    file = options.run / RUN_FILE if options.run.is_dir() else options.run
+    if not file.is_file():
+        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
+    output = options.output or file.parent / (ANIMATION_FILE if options.animate else PICTURE_FILE)
+    drawn = options.animate or options.output is not None or options.vtu is None
+    _check_outputs(options, output if drawn else None)
+    dataset, scene = _loaded(file)
+    from fenics_gears.results.stored_forces import stored_index
+
+    index = stored_index(dataset, options.at)
+    progress = told_progress(options.quiet)
+    progress.stage("factorise sectors")
+    try:
+        written = _written(options, dataset, scene, index, output if drawn else None, progress)
+    finally:
+        progress.close()
+    if not options.quiet:
+        for path in written:
+            print(path)
+    return 0
+
+
+def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
+    from fenics_gears.output import written_aside
+    from fenics_gears.run_stresses import RunStresses
+
+    written: list[Path] = []
+    with RunStresses(dataset, scene) as runs:
+        if options.vtu is not None:
+            from fenics_gears.show.stress_grid import save_vtu
+
+            with written_aside(options.vtu.parent, written) as aside:
+                save_vtu(runs.at(index), aside / options.vtu.name)
+        if output is not None:
+            progress.stage("draw")
+            with written_aside(output.parent, written) as aside:
+                _draw(options, runs, dataset, index, aside / output.name, progress)
+    return written
+
+
+def _draw(options, runs, dataset, index: int, path: Path, progress) -> None:
+    if options.animate:
+        from fenics_gears.show.stress_animation import animate
+
+        animate(runs, dataset, path, options.scale, progress.update)
+        return
+    from fenics_gears.show.drawn_scale import automatic_scale
+    from fenics_gears.show.stress_picture import colour_limit, save_picture, stress_picture
+
+    mesh = runs.at(index)
+    scale = automatic_scale([mesh]) if options.scale is None else options.scale
+    save_picture(stress_picture(mesh, dataset, scale=scale, limit=colour_limit([mesh])), path)
+
+
+def _loaded(file: Path):
+    """A run's result and its scene."""
+    from fenics_gears import results
+    from fenics_gears.show.run_scene import scene_of
+
+    try:
+        dataset = results.load(file)
+    except ComputationError as error:
+        # Nothing was computed: the call is wrong.
+        raise SceneError(str(error)) from error
+    scene = scene_of(dataset)
+    if scene is None:
+        raise SceneError(f"{file}: the scene in it is none of this version. Run the scene again.")
+    if not dataset.sizes["time"]:
+        raise SceneError(f"{file}: no step is stored; there is nothing to draw")
+    return dataset, scene
+
+
+def _check_outputs(options, output: Path | None) -> None:
+    from fenics_gears.output import check_writable
+
+    for path in (output, options.vtu):
+        if path is not None:
+            check_writable(path.parent)
+    if options.vtu is not None and options.vtu.suffix != ".vtu":
+        raise SceneError(f"{options.vtu}: --vtu writes a .vtu file; give it such a name")
+    if output is None:
+        return
+    if options.animate:
+        from fenics_gears.show.stress_animation import check_suffix
+
+        check_suffix(output)
+    elif output.suffix != ".png":
+        raise SceneError(f"{output}: a picture is a .png file; give --output such a name, or ask for a moving one with --animate")
+
+
+def _scale(text: str) -> float:
+    """A finite number from zero, for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0")
+    return value

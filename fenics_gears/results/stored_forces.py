@@ -1,0 +1,79 @@
+"""Contact forces of a stored time, taken from a result and put on the flanks they act on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.contact.flank_forces import flank_forces
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, ToothPair
+from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.model import Model
+
+# Offsets in a result and those of its scene are the same numbers, but for what they lose on a file.
+SAME_OFFSETS = 1e-9
+
+
+@dataclass(frozen=True)
+class StoredForces:
+    """The contact of one stored step: its tooth pairs, and the forces (n,) or (2 n,), N, of each one's contact nodes.
+
+    `index`: place of the step among the stored ones; `phase`: mesh cycles, of the last whole one the part.
+    """
+
+    index: int
+    phase: float
+    pairs: tuple[ToothPair, ...]
+    forces: tuple[np.ndarray, ...]
+
+    def on_flanks(self, built: Model, gear: int) -> dict[int, np.ndarray]:
+        """Line forces (N/mm) on the flank nodes of a gear's loaded teeth; see `contact.flank_forces`."""
+        data = (built.pair.pinion, built.pair.wheel)[gear]
+        return flank_forces(gear, data, self.pairs, self.forces, built.pair.face_width)
+
+
+def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
+    """The stored step nearest to `mesh_phase` mesh cycles after the first stored one.
+
+    Raises SceneError outside the stored cycles.
+    """
+    phases = result["mesh_phase"].values
+    since = phases - phases[0]
+    spacing = np.diff(since).max(initial=0.0)
+    if not -spacing <= mesh_phase <= since[-1] + spacing:
+        raise SceneError(f"--at {mesh_phase:g}: the run has stored mesh cycles 0 to {since[-1]:g}, counted from its first stored step")
+    return int(np.argmin(np.abs(since - mesh_phase)))
+
+
+def stored_forces(result: xr.Dataset, built: Model, cycle: Cycle, index: int) -> StoredForces:
+    """The contact forces of a stored step; `cycle`: the one that the run had.
+
+    Raises ComputationError where the result was computed from another scene than `built` is of.
+    """
+    step = round(float(result["mesh_phase"].values[index]) * cycle.steps)
+    pairs = cycle.pairs_at(step % cycle.steps)
+    row = {int(number): i for i, number in enumerate(result["pair"].values)}
+    forces = tuple(_forces_of(result, built, pair, index, row[int(cycle.pair_number(step, pair.place.index))]) for pair in pairs)
+    return StoredForces(index, step % cycle.steps / cycle.steps, pairs, forces)
+
+
+def _forces_of(result: xr.Dataset, built: Model, pair: ToothPair, index: int, row: int) -> np.ndarray:
+    side = {DRIVE: "", COAST: "coast_"}[pair.place.flank]
+    count = len(pair.offsets)
+    rolls = result[f"{side}contact_roll_angle"].values[index, row]
+    if np.count_nonzero(~np.isnan(rolls)) != count or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS:
+        raise ComputationError(
+            "the stored contact nodes are not those of the scene that the result carries; stresses are recovered from runs whose scene is "
+            "the one in their file, with [accuracy] condensation = \"once\". Run the scene again."
+        )
+    kinds = [f"{side}contact_pressure"]
+    if built.scene.friction is not None:
+        kinds.append(f"{side}contact_traction")
+    missing = [name for name in kinds if name not in result]
+    if missing:
+        raise ComputationError(f"the result has no {', '.join(missing)}, which the stresses need; run the scene again with this version")
+    area = pair.lengths * built.pair.face_width
+    return np.concatenate([result[name].values[index, row, :count] * area for name in kinds])

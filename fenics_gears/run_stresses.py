@@ -1,0 +1,156 @@
+"""Both gears of a run in mesh at a stored time: where every node stands, how it is displaced, and the stress there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.model import Model, model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.resolution import ONCE
+from fenics_gears.results.stored_forces import StoredForces, stored_forces
+from fenics_gears.scene.data import Scene
+from fenics_gears.simulation import gear_compliances, mesh_cycle
+
+
+@dataclass(frozen=True)
+class GearInSpace:
+    """One gear at a stored time, in the frame of the line of action: x along it from T1, the pinion's centre at the origin.
+
+    points: (n, 2), mm, where the nodes are without load. cells: (m, 3) or (m, 4) of first order. outline: (k, 2) sides of the
+    boundary. elastic, displacement: (n, 2), mm, from where the hub is held, and from the nominal motion. stress: (n, 4), MPa: xx, yy,
+    xy and zz of plane strain.
+    """
+
+    points: np.ndarray
+    cells: np.ndarray
+    outline: np.ndarray
+    centre: np.ndarray
+    elastic: np.ndarray
+    displacement: np.ndarray
+    stress: np.ndarray
+
+    @property
+    def von_mises(self) -> np.ndarray:
+        """Equivalent stress (n,), MPa."""
+        xx, yy, xy, zz = self.stress.T
+        return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3.0 * xy**2)
+
+
+@dataclass(frozen=True)
+class GearsInMesh:
+    """Pinion and wheel at a stored time; `approach`: mm along the line of action that the hubs' motion brings the drive flanks together."""
+
+    time: float
+    mesh_phase: float
+    gears: tuple[GearInSpace, GearInSpace]
+    pair: GearPair
+    approach: float
+
+
+class RunStresses:
+    """Displacement and stress of both gears at any stored step of a result. Use it in a `with`, or `close` it.
+
+    scene: the one that was run. Raises ComputationError where the run has no elastic teeth, or met its contact by remeshing.
+    """
+
+    def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None):
+        self.result, self.built = result, model(scene)
+        self._check()
+        cache = cache if cache is not None else user_cache()
+        self.cycle: Cycle = mesh_cycle(self.built, gear_compliances(self.built, SilentProgress(), cache))
+        self.recoveries = tuple(recovery_of(self.built, gear) for gear in (0, 1))
+
+    def __enter__(self) -> RunStresses:
+        return self
+
+    def __exit__(self, *failure) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Give the factors' memory back."""
+        for recovery in self.recoveries:
+            recovery.close()
+
+    def at(self, index: int) -> GearsInMesh:
+        """Both gears at a stored step."""
+        stored = stored_forces(self.result, self.built, self.cycle, index)
+        motion = hub_motion(self.result, index)
+        pair = self.built.pair
+        approach = float(motion[0, 0] - motion[1, 0] + pair.pinion.base_radius * motion[0, 2] + pair.wheel.base_radius * motion[1, 2])
+        gears = tuple(self._gear(gear, stored, motion[gear]) for gear in (0, 1))
+        phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
+        return GearsInMesh(time, phase, gears, pair, approach)
+
+    def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
+        recovery = self.recoveries[gear]
+        body = recovery.recovered(stored.on_flanks(self.built, gear))
+        centre, angles = standing(self.built.pair, gear, stored.phase)
+        turns = [rotation(angle) for angle in angles]
+        local = recovery.points
+        about_centre = np.vstack([local @ turn.T for turn in turns])
+        elastic = np.vstack([moved @ turn.T for moved, turn in zip(body.displacement, turns)])
+        stress = np.vstack([turned_stress(sector, angle) for sector, angle in zip(body.stress, angles)])
+        across = self.built.scene.gears.material.poissons_ratio * (stress[:, 0] + stress[:, 1])
+        rigid = motion[:2] + motion[2] * np.column_stack([-about_centre[:, 1], about_centre[:, 0]])
+        cells, outline = whole_cells(recovery)
+        return GearInSpace(centre + about_centre, cells, outline, centre, elastic, elastic + rigid, np.column_stack([stress, across]))
+
+    def _check(self) -> None:
+        if self.built.scene.tooth_elasticity is None:
+            raise ComputationError("the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and run it again.")
+        if self.built.resolution.condensation != ONCE:
+            raise ComputationError('stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run the scene with "once".')
+
+
+def recovery_of(built: Model, gear: int) -> GearRecovery:
+    """The recovery of a gear of a model, on the mesh of its compliance."""
+    return gear_recovery(
+        (built.pair.pinion, built.pair.wheel)[gear],
+        built.scene.gears.material,
+        element=built.resolution.element,
+        flank_element_size=built.resolution.flank_element_size,
+        coast_flank=built.scene.coast_flanks is not None,
+    )
+
+
+def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray]:
+    """Centre (2,), mm, and angles (teeth,), rad, of a gear's sectors in the frame of the line of action, at a phase of the mesh cycle.
+
+    Sector 0 has the tooth of pair 0, which reached the start of contact last.
+    """
+    contact = pair.path_start + phase * pair.base_pitch
+    if gear == 0:
+        return np.zeros(2), contact / pair.pinion.base_radius + pair.pinion.angular_pitch * np.arange(pair.pinion.teeth)
+    radii = pair.pinion.base_radius + pair.wheel.base_radius
+    first = np.pi + (pair.line_of_action_length - contact) / pair.wheel.base_radius
+    return np.array([pair.line_of_action_length, -radii]), first + pair.wheel.angular_pitch * np.arange(pair.wheel.teeth)
+
+
+def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
+    """Motion (2, 3) of both hubs from their nominal one: mm along and off the line of action, rad."""
+    motion = np.zeros((2, 3))
+    for place, name in enumerate(("centre_x", "centre_y", "rotation")):
+        if name in result:
+            motion[:, place] = result[name].values[index]
+    return motion
+
+
+def whole_cells(recovery: GearRecovery) -> tuple[np.ndarray, np.ndarray]:
+    """First-order cells of all sectors, one sector's nodes after the other's, and sides (k, 2) of the gear's own boundary."""
+    nodes, mesh = recovery.interior.nodes, recovery.interior.mesh
+    sides, count = nodes.boundary_sides, len(nodes.points)
+    cuts = np.sort(np.vstack([mesh.edges["lower cut"], mesh.edges["upper cut"]]), axis=1)
+    ends = np.sort(sides[:, :2], axis=1)
+    sides = sides[~np.isin(ends @ [count, 1], cuts @ [count, 1])]
+    outline = np.vstack([sides[:, [0, 2]], sides[:, [2, 1]]]) if sides.shape[1] == 3 else sides
+    first = count * np.arange(recovery.gear.teeth)[:, None, None]
+    return tuple((part[None] + first).reshape(-1, part.shape[1]) for part in (nodes.subcells, outline))

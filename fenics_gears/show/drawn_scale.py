@@ -1,0 +1,76 @@
+"""How much larger than life displacements may be drawn before teeth that do not touch are drawn into each other."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.path import Path
+from scipy.spatial import cKDTree
+
+from fenics_gears.run_stresses import GearsInMesh
+from fenics_gears.show.stress_grid import largest_movement, shown_points
+
+# In modules: how far the largest displacement may be drawn, and how deep one tooth into another. Gaps are drawn as large as they are, so
+# that a pair about to touch overlaps as soon as what closes it is enlarged enough.
+SHOWN_MOVEMENT = 0.12
+DRAWN_OVERLAP = 0.02
+STEPS = (1.0, 2.0, 5.0)
+
+
+def automatic_scale(meshes: list[GearsInMesh]) -> float:
+    """The largest of 1, 2, 5, 10, ... at which displacements are well seen and no tooth is visibly drawn into another; one for all meshes."""
+    module = meshes[0].pair.pinion.module
+    wanted = SHOWN_MOVEMENT * module / max(max(largest_movement(mesh) for mesh in meshes), 1e-9 * module)
+    scales = [step * 10.0**power for power in range(9) for step in STEPS if step * 10.0**power <= wanted]
+    for scale in reversed(scales):
+        if all(overlap(mesh, scale) <= DRAWN_OVERLAP * module for mesh in meshes):
+            return scale
+    return 1.0
+
+
+def overlap(mesh: GearsInMesh, scale: float) -> float:
+    """How deep (mm) one gear's teeth are drawn into the other's, displacements `scale` times as large as they are."""
+    loops = [shown_points(mesh, gear, scale)[outer_loop(mesh, gear)] for gear in (0, 1)]
+    deepest = 0.0
+    for own, other in ((loops[0], loops[1]), (loops[1], loops[0])):
+        centre = 0.5 * (other.min(axis=0) + other.max(axis=0))
+        reached = own[np.linalg.norm(own - centre, axis=1) < np.linalg.norm(other - centre, axis=1).max()]
+        inside = reached[Path(other).contains_points(reached)]
+        if len(inside):
+            # Depth from the sides, not from the nodes alone: these stand apart by up to an element.
+            deepest = max(deepest, float(_distance_to_line(inside, other).max()))
+    return deepest
+
+
+def outer_loop(mesh: GearsInMesh, gear: int) -> np.ndarray:
+    """Nodes along a gear's outline without the bore, by the angle at which they are reached going round it."""
+    body = mesh.gears[gear]
+    follows = {}
+    for first, second in body.outline.tolist():
+        follows.setdefault(first, []).append(second)
+        follows.setdefault(second, []).append(first)
+    # Nodes at the ends of sectors are there twice, once for either sector.
+    twins = cKDTree(body.points[list(follows)]).query_pairs(1e-7 * mesh.pair.pinion.module)
+    names = list(follows)
+    for one, other in twins:
+        follows[names[one]].append(names[other])
+        follows[names[other]].append(names[one])
+    start = max(follows, key=lambda node: float(np.sum((body.points[node] - body.centre) ** 2)))
+    loop, last, node = [start], None, start
+    while True:
+        ahead = [each for each in follows[node] if each != last]
+        last, node = node, ahead[0]
+        if node == start or len(loop) > len(follows):
+            return np.array(loop)
+        loop.append(node)
+
+
+def _distance_to_line(points: np.ndarray, loop: np.ndarray) -> np.ndarray:
+    """Distance (n,) of points from the sides of a closed loop next to its nearest node."""
+    nearest = cKDTree(loop).query(points)[1]
+    distances = []
+    for step in (-1, 0):
+        first, second = loop[(nearest + step) % len(loop)], loop[(nearest + step + 1) % len(loop)]
+        along = second - first
+        part = np.clip(((points - first) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
+        distances.append(np.linalg.norm(first + part[:, None] * along - points, axis=1))
+    return np.minimum(*distances)

@@ -1,0 +1,88 @@
+"""A turn through the stored mesh cycles as a moving picture: GIF everywhere, MP4 where ffmpeg is installed."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.run_stresses import RunStresses
+from fenics_gears.show.drawn_scale import automatic_scale
+from fenics_gears.show.stress_picture import colour_limit, stress_picture
+
+FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
+FRAMES_PER_SECOND = 12
+# Inches at 100 dots: 16 to 9.
+WIDTH = 9.6
+SUFFIXES = (".gif", ".mp4")
+# A scale is looked for, and the colours are fixed, on so many of the frames.
+SAMPLED = 8
+
+
+def check_suffix(path: Path) -> None:
+    """Say before anything is computed that a moving picture cannot be written. Raises SceneError."""
+    if path.suffix not in SUFFIXES:
+        raise SceneError(f"{path}: a moving picture is a .gif or a .mp4 file; give --output such a name")
+    if path.suffix == ".mp4" and shutil.which("ffmpeg") is None:
+        raise SceneError(f"{path}: there is no ffmpeg on PATH, which writes .mp4 files. Install it (Debian: ffmpeg), or name a .gif file.")
+
+
+def animate(runs: RunStresses, dataset: xr.Dataset, path: Path, scale: float | None, told: Callable[[int, int], None]) -> None:
+    """Write the moving picture; `told(done, all)` hears of every frame.
+
+    Colours and scale are the same in all frames. The first and the last stored step are the same position in the mesh where whole cycles
+    are stored, so that the last is left out and the turn has no seam.
+    """
+    steps = frame_steps(dataset)
+    sampled = [runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]]
+    limit = colour_limit(sampled)
+    scale = automatic_scale(sampled) if scale is None else scale
+    del sampled
+    frames = []
+    for done, index in enumerate(steps):
+        told(done, len(steps))
+        frames.append(_image(runs, dataset, index, scale, limit))
+    told(len(steps), len(steps))
+    (_write_gif if path.suffix == ".gif" else _write_mp4)(frames, path)
+
+
+def frame_steps(dataset: xr.Dataset) -> list[int]:
+    """The stored steps that are drawn, evenly spaced in the mesh phase."""
+    phases = dataset["mesh_phase"].values
+    cycles = float(phases[-1] - phases[0])
+    count = int(min(MOST_FRAMES, max(1, round(cycles * FRAMES_PER_CYCLE)), max(1, len(phases) - 1)))
+    return sorted({int(round(place)) for place in np.linspace(0, len(phases) - 1, count, endpoint=False)})
+
+
+def _image(runs: RunStresses, dataset: xr.Dataset, index: int, scale: float, limit: float) -> np.ndarray:
+    figure = stress_picture(runs.at(index), dataset, scale=scale, limit=limit, close_up=False, width=WIDTH)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
+def _write_gif(frames: list[np.ndarray], path: Path) -> None:
+    from PIL import Image
+
+    # One palette for all frames, or flat colours would flicker.
+    images = [Image.fromarray(frame) for frame in frames]
+    palette = Image.fromarray(np.vstack(frames[:: max(1, len(frames) // SAMPLED)])).quantize(128, dither=Image.Dither.NONE)
+    quantised = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    quantised[0].save(path, save_all=True, append_images=quantised[1:], duration=round(1000 / FRAMES_PER_SECOND), loop=0, optimize=False)
+
+
+def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
+    height, width = (size // 2 * 2 for size in frames[0].shape[:2])  # the coder wants even numbers
+    command = [
+        "ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}",
+        "-r", str(FRAMES_PER_SECOND), "-i", "-", "-pix_fmt", "yuv420p", "-f", "mp4", str(path),
+    ]  # fmt: skip
+    done = subprocess.run(command, input=b"".join(frame[:height, :width].tobytes() for frame in frames), capture_output=True)
+    if done.returncode:
+        raise ComputationError(f"{path}: ffmpeg could not write the moving picture: {done.stderr.decode(errors='replace').strip()}")

@@ -1,0 +1,121 @@
+"""Two gears in mesh as grids for VTK: coloured bodies seen from the front, and a file that ParaView opens.
+
+Pictures have the line of centres upright, the pinion above; files have the frame of the line of action.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.errors import ComputationError
+from fenics_gears.run_stresses import GearInSpace, GearsInMesh
+
+# VTK's numbers of cell types, by corners.
+VTK_CELL = {3: 5, 4: 9}
+
+
+@dataclass(frozen=True)
+class Frame:
+    """From the frame of the line of action to the picture's: turned until the line of centres is upright."""
+
+    angle: float
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """Points or vectors (..., 2) as the picture has them."""
+        return np.asarray(points) @ rotation(self.angle).T
+
+
+def upright(mesh: GearsInMesh) -> Frame:
+    """The picture's frame of a pair."""
+    return Frame(-mesh.pair.operating_pressure_angle)
+
+
+def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
+    """Nodes (n, 2), mm, of a gear in the picture, their displacement `scale` times as large as it is.
+
+    The hubs stay on their nominal centres and either gear turns by half of the approach of the flanks, which their teeth give way to: so
+    flanks that touch are drawn touching at any scale.
+    """
+    body = mesh.gears[gear]
+    radius = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius
+    arm = body.points - body.centre
+    turned = 0.5 * mesh.approach / radius * np.column_stack([-arm[:, 1], arm[:, 0]])
+    return upright(mesh)(body.points + scale * (body.elastic + turned))
+
+
+def largest_movement(mesh: GearsInMesh) -> float:
+    """Largest displacement (mm) among those drawn at scale 1."""
+    return max(float(np.linalg.norm(shown_points(mesh, gear, 1.0) - shown_points(mesh, gear, 0.0), axis=1).max()) for gear in (0, 1))
+
+
+def surface(points: np.ndarray, cells: np.ndarray, values: np.ndarray):
+    """Plane cells with a value at each node, as pyvista has it."""
+    import pyvista
+
+    faces = np.column_stack([np.full(len(cells), cells.shape[1]), cells]).ravel()
+    mesh = pyvista.PolyData(np.column_stack([points, np.zeros(len(points))]), faces)
+    mesh.point_data["value"] = values
+    return mesh
+
+
+def outline(points: np.ndarray, sides: np.ndarray):
+    """Lines along sides (k, 2), as pyvista has them, before the bodies they bound."""
+    import pyvista
+
+    lines = np.column_stack([np.full(len(sides), 2), sides]).ravel()
+    return pyvista.PolyData(np.column_stack([points, np.ones(len(points))]), lines=lines)
+
+
+def save_vtu(mesh: GearsInMesh, path: Path) -> None:
+    """Both gears' displacement (mm) and stress (MPa) as a .vtu file, in the frame of the line of action.
+
+    Raises ComputationError where neither pyvista nor meshio is there.
+    """
+    points, cells, data = _merged(mesh.gears)
+    points = np.column_stack([points, np.zeros(len(points))])
+    try:
+        import pyvista
+    except ImportError:
+        _save_by_meshio(points, cells, data, path)
+        return
+    corners = cells.shape[1]
+    flat = np.column_stack([np.full(len(cells), corners), cells]).ravel()
+    grid = pyvista.UnstructuredGrid(flat, np.full(len(cells), VTK_CELL[corners], dtype=np.uint8), points)
+    for name, values in data.items():
+        grid.point_data[name] = values
+    grid.save(str(path))
+
+
+def _save_by_meshio(points, cells, data, path: Path) -> None:
+    try:
+        import meshio
+    except ImportError as error:
+        raise ComputationError("a .vtu file needs pyvista or meshio, and neither is installed") from error
+    meshio.write(path, meshio.Mesh(points, [({3: "triangle", 4: "quad"}[cells.shape[1]], cells)], point_data=data))
+
+
+def _merged(gears: tuple[GearInSpace, ...]) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """Points, cells and named values at the points of several bodies, one after the other."""
+    first = np.cumsum([0] + [len(body.points) for body in gears])[:-1]
+    points = np.vstack([body.points for body in gears])
+    cells = np.vstack([body.cells + start for body, start in zip(gears, first)])
+
+    def in_space(name: str) -> np.ndarray:
+        plane = np.vstack([getattr(body, name) for body in gears])
+        return np.column_stack([plane, np.zeros(len(plane))])
+
+    stress = np.vstack([body.stress for body in gears])
+    return points, cells, {
+        "displacement": in_space("displacement"),
+        "elastic_displacement": in_space("elastic"),
+        "stress_xx": stress[:, 0],
+        "stress_yy": stress[:, 1],
+        "stress_xy": stress[:, 2],
+        "stress_zz": stress[:, 3],
+        "von_mises_stress": np.concatenate([body.von_mises for body in gears]),
+        "gear": np.repeat(np.arange(1, len(gears) + 1), [len(body.points) for body in gears]),
+    }

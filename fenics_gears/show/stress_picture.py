@@ -1,0 +1,298 @@
+"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress: VTK draws the bodies, matplotlib the rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
+from matplotlib.patheffects import withStroke
+
+from fenics_gears.run_stresses import GearsInMesh
+from fenics_gears.show.panels import DARK, WARNING, styled
+from fenics_gears.show.run_scene import conditions, scene_of
+from fenics_gears.show.stress_grid import outline, shown_points, surface, upright
+
+# Pale where nothing happens, so that the bodies stay in the background; every step darker or more saturated than the one before.
+COLOURS = LinearSegmentedColormap.from_list("stress", ["#F1F3F5", "#B4D0E8", "#539FD0", "#35A388", "#F0D24A", "#EB7A2F", "#A90E18"])
+# Bodies are drawn so many times finer than shown, and averaged: anti-aliasing that every VTK has.
+FINER = 2
+# The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the roots.
+ROOTS_IN_COLOURS = 3.0
+# In millimetres of flank around the most loaded contact, in Hertz half-widths.
+CLOSE_UP_HALF_WIDTHS = 5.0
+
+
+@dataclass(frozen=True)
+class View:
+    """A part of the picture's plane: its centre (x, y) and half its width and height, mm."""
+
+    centre: np.ndarray
+    half: np.ndarray
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom, top, mm."""
+        (x, y), (w, h) = self.centre, self.half
+        return x - w, x + w, y - h, y + h
+
+
+def colour_limit(meshes: list[GearsInMesh]) -> float:
+    """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it by far."""
+    peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
+    roots = max(_stress_of_roots(mesh) for mesh in meshes)
+    limit = min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak
+    if limit <= 0.0:
+        return 1.0
+    step = 10.0 ** (np.floor(np.log10(limit)) - 1.0)
+    return float(np.ceil(limit / step - 1e-9) * step)
+
+
+def _stress_of_roots(mesh: GearsInMesh) -> float:
+    found = 0.0
+    for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
+        radius = np.linalg.norm(body.points - body.centre, axis=1)
+        below = (radius < gear.form_radius) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))
+        found = max(found, float(body.von_mises[below].max(initial=0.0)))
+    return found
+
+
+@styled
+def stress_picture(
+    mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0
+) -> Figure:
+    """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
+
+    scale: of the displacement. limit: MPa, where the colours end. width: inches of a figure 16 to 9.
+    """
+    figure = Figure(figsize=(16.0, 9.0), dpi=100.0 * width / 16.0)
+    whole, teeth = whole_view(mesh), teeth_view(mesh)
+    contact = contact_view(mesh, dataset) if close_up else None
+    bottom, high = 0.06, 0.79
+    left = _panel(figure, (0.015, bottom, 0.30, high), fitted(whole, 0.30 * 16, high * 9), mesh, scale, limit)
+    wide = 0.40 if contact is not None else 0.585
+    middle = _panel(figure, (0.325, bottom, wide, high), fitted(teeth, wide * 16, high * 9), mesh, scale, limit)
+    _name_gears(left, mesh)
+    _line_of_action(left, mesh, labelled=False)
+    _line_of_action(middle, mesh, labelled=True)
+    left.set_title(f"The pair, displacements × {scale:g}")
+    middle.set_title(f"Teeth in contact, displacements × {scale:g}")
+    _frame_in(left, middle)
+    if contact is not None:
+        right = _panel(figure, (0.735, 0.36, 0.19, 0.49), fitted(contact, 0.19 * 16, 0.49 * 9), mesh, 1.0, limit)
+        right.set_title("Most loaded contact, displacements × 1")
+        _frame_in(middle, right, moved=_moved_contact(mesh, dataset, scale))
+        _length_bar(right)
+        _numbers(figure, mesh, dataset, (0.735, 0.30))
+    _colour_bar(figure, mesh, limit)
+    _heading(figure, mesh, dataset)
+    return figure
+
+
+def whole_view(mesh: GearsInMesh) -> View:
+    """Both gears with some room around them."""
+    tips = mesh.pair.pinion.tip_radius, mesh.pair.wheel.tip_radius
+    low, high = -mesh.pair.centre_distance - tips[1], tips[0]
+    half = np.array([max(tips), 0.5 * (high - low)]) * 1.04
+    return View(np.array([0.0, 0.5 * (low + high)]), half)
+
+
+def teeth_view(mesh: GearsInMesh) -> View:
+    """The teeth along the path of contact, their roots included."""
+    pair = mesh.pair
+    middle = 0.5 * (pair.path_start + pair.path_end)
+    centre = upright(mesh)(np.array([middle, -pair.pinion.base_radius]))
+    depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 4.0 * pair.pinion.module
+    return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
+
+
+def contact_view(mesh: GearsInMesh, dataset: xr.Dataset) -> View | None:
+    """The contact with the largest force, some Hertz half-widths around it; None where nothing touches."""
+    found = most_loaded(mesh, dataset)
+    if found is None:
+        return None
+    point, half_width = found
+    return View(upright(mesh)(point), CLOSE_UP_HALF_WIDTHS * half_width * np.ones(2))
+
+
+def most_loaded(mesh: GearsInMesh, dataset: xr.Dataset) -> tuple[np.ndarray, float] | None:
+    """Where the drive flanks' largest pair force acts (x, y), mm in the frame of the line of action, and half the closed length, mm."""
+    index = int(np.argmin(np.abs(dataset["mesh_phase"].values - mesh.mesh_phase)))
+    force = np.nan_to_num(dataset["pair_normal_force"].values[index])
+    row = int(np.argmax(force))
+    if force[row] <= 0.0:
+        return None
+    pressure, offset = dataset["contact_pressure"].values[index, row], dataset["contact_offset"].values[index, row]
+    closed = np.nan_to_num(pressure) > 0.0
+    here = float(np.average(offset[closed], weights=pressure[closed]))
+    number = int(dataset["pair"].values[row])
+    x = mesh.pair.path_start + (mesh.mesh_phase - number) * mesh.pair.base_pitch
+    spacing = float(np.nanmedian(np.diff(offset[~np.isnan(offset)])))
+    return np.array([x, here - mesh.pair.pinion.base_radius]), max(0.5 * spacing * closed.sum(), 2.0 * spacing)
+
+
+def _moved_contact(mesh: GearsInMesh, dataset: xr.Dataset, scale: float) -> np.ndarray:
+    """How far the most loaded contact is drawn from where it is, in the picture at a scale."""
+    point = upright(mesh)(most_loaded(mesh, dataset)[0])
+    nearest = [np.argmin(((shown_points(mesh, gear, 0.0) - point) ** 2).sum(axis=1)) for gear in (0, 1)]
+    return np.mean([shown_points(mesh, gear, scale)[node] - shown_points(mesh, gear, 1.0)[node] for gear, node in enumerate(nearest)], axis=0)
+
+
+def fitted(view: View, width: float, height: float) -> View:
+    """The view widened one way until it has a panel's shape."""
+    half = view.half
+    return View(view.centre, np.array([max(half[0], half[1] * width / height), max(half[1], half[0] * height / width)]))
+
+
+def _panel(figure: Figure, place, view: View, mesh: GearsInMesh, scale: float, limit: float) -> Axes:
+    axes = figure.add_axes(place)
+    pixels = np.round(np.array([place[2] * 16.0, place[3] * 9.0]) * figure.dpi).astype(int)
+    axes.imshow(rendered(mesh, view, pixels, scale, limit), extent=view.extent, interpolation="antialiased", aspect="auto")
+    axes.set_xlim(view.extent[:2])
+    axes.set_ylim(view.extent[2:])
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.grid(False)
+    for spine in axes.spines.values():
+        spine.set_visible(True)
+        spine.set_color("#BBBBBB")
+    return axes
+
+
+def rendered(mesh: GearsInMesh, view: View, pixels: np.ndarray, scale: float, limit: float) -> np.ndarray:
+    """The bodies in a view as an image (height, width, 3), flat colours, drawn off screen."""
+    from fenics_gears.environment import provide_display
+
+    provide_display()
+    import pyvista
+
+    plotter = pyvista.Plotter(off_screen=True, window_size=[int(FINER * each) for each in pixels])
+    plotter.set_background("white")
+    for gear, body in enumerate(mesh.gears):
+        points = shown_points(mesh, gear, scale)
+        cells, sides = (_in_view(points, part, view) for part in (body.cells, body.outline))
+        if not len(cells):
+            continue
+        coloured = surface(points, cells, np.minimum(body.von_mises, limit))
+        plotter.add_mesh(coloured, scalars="value", cmap=COLOURS, clim=(0.0, limit), lighting=False, show_scalar_bar=False)
+        if len(sides):
+            plotter.add_mesh(outline(points, sides), color="#222222", line_width=1.3 * FINER, lighting=False)
+    x, y = view.centre
+    plotter.enable_parallel_projection()
+    plotter.camera.position, plotter.camera.focal_point, plotter.camera.up = (x, y, 1e3), (x, y, 0.0), (0.0, 1.0, 0.0)
+    plotter.camera.parallel_scale = view.half[1]
+    plotter.camera.clipping_range = (1.0, 2e3)
+    image = np.asarray(plotter.screenshot(return_img=True))[..., :3]
+    plotter.close()
+    height, width = (FINER * pixels[::-1]).tolist()
+    # A window may come out a pixel smaller than asked for.
+    image = image[: height // FINER * FINER, : width // FINER * FINER]
+    return image.reshape(image.shape[0] // FINER, FINER, image.shape[1] // FINER, FINER, 3).mean(axis=(1, 3)).astype(np.uint8)
+
+
+def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
+    """Cells or sides (k, j) that reach into a view."""
+    left, right, bottom, top = view.extent
+    x, y = points[parts, 0], points[parts, 1]
+    return parts[(x.max(axis=1) > left) & (x.min(axis=1) < right) & (y.max(axis=1) > bottom) & (y.min(axis=1) < top)]
+
+
+def _line_of_action(axes: Axes, mesh: GearsInMesh, labelled: bool) -> None:
+    """The line between the base circles, its part that is the path of contact, and the pitch point."""
+    pair, frame = mesh.pair, upright(mesh)
+    height = -pair.pinion.base_radius
+    ends = frame(np.array([[0.0, height], [pair.line_of_action_length, height]]))
+    path = frame(np.array([[pair.path_start, height], [pair.path_end, height]]))
+    pitch = frame(np.array([pair.pitch_point, height]))
+    for colour, wider in (("white", 1.6), (DARK, 0.0)):
+        axes.plot(*ends.T, color=colour, linewidth=1.0 + wider, solid_capstyle="butt", linestyle="-")
+        axes.plot(*path.T, color=colour, linewidth=2.4 + wider, solid_capstyle="butt")
+    axes.plot(*pitch, "o", markersize=8 if labelled else 5, markerfacecolor="white", markeredgecolor="black", markeredgewidth=1.4)
+    if labelled:
+        _note(axes, "pitch point", pitch, (14, 16))
+        _note(axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (12, 30))
+
+
+def _note(axes: Axes, words: str, point, offset) -> None:
+    box = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#BBBBBB", "alpha": 0.92}
+    axes.annotate(words, point, xytext=offset, textcoords="offset points", fontsize=11.5, color=DARK, bbox=box, ha="left" if offset[0] > 0 else "right")
+
+
+def _name_gears(axes: Axes, mesh: GearsInMesh) -> None:
+    """Names in the bores and the sense in which either gear turns."""
+    for gear, name, turns in ((mesh.pair.pinion, "pinion\ndrives", 1), (mesh.pair.wheel, "wheel", -1)):
+        centre = np.zeros(2) if turns > 0 else np.array([0.0, -mesh.pair.centre_distance])
+        axes.text(*centre, name, ha="center", va="center", fontsize=11.5, color=DARK)
+        radius = 0.78 * gear.bore_radius
+        start, end = 200.0, 340.0
+        axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
+        tip = np.radians(end if turns > 0 else start)
+        head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
+        back = centre + radius * np.array([np.cos(tip - turns * 0.06), np.sin(tip - turns * 0.06)])
+        axes.add_patch(FancyArrowPatch(back, head, arrowstyle="-|>", mutation_scale=14, color=DARK, shrinkA=0, shrinkB=0))
+
+
+def _frame_in(axes: Axes, enlarged: Axes, moved: np.ndarray | None = None) -> None:
+    """Where in one panel another one is."""
+    (left, right), (bottom, top) = enlarged.get_xlim(), enlarged.get_ylim()
+    x, y = (0.0, 0.0) if moved is None else moved
+    for colour, width in (("black", 2.6), ("white", 1.2)):
+        axes.add_patch(Rectangle((left + x, bottom + y), right - left, top - bottom, fill=False, edgecolor=colour, linewidth=width))
+
+
+def _length_bar(axes: Axes) -> None:
+    """A bar of a round length at the panel's lower edge."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    wanted = 0.3 * (right - left)
+    power = 10.0 ** np.floor(np.log10(wanted))
+    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted)
+    x, y = left + 0.06 * (right - left), bottom + 0.06 * (top - bottom)
+    axes.plot([x, x + length], [y, y], color="black", linewidth=5.0, solid_capstyle="butt")
+    axes.plot([x, x + length], [y, y], color="white", linewidth=2.5, solid_capstyle="butt")
+    axes.text(x, y + 0.03 * (top - bottom), f"{length:g} mm", fontsize=11.0, color="black", path_effects=[withStroke(linewidth=3.0, foreground="white")])
+
+
+def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
+    index = int(np.argmin(np.abs(dataset["mesh_phase"].values - mesh.mesh_phase)))
+    force = float(dataset["normal_force"].values[index])
+    peaks = [float(body.von_mises.max()) for body in mesh.gears]
+    lines = [
+        f"mesh force {force:.0f} N",
+        f"largest contact pressure {np.nanmax(dataset['contact_pressure'].values[index]):.0f} MPa",
+        f"largest von Mises stress {max(peaks):.0f} MPa",
+        f"largest in the fillets {_stress_of_roots(mesh):.0f} MPa",
+        f"approach of the flanks {1e3 * mesh.approach:.1f} µm",
+    ]
+    figure.text(*place, "\n".join(lines), fontsize=11.5, color=DARK, va="top", linespacing=1.45)
+
+
+def _colour_bar(figure: Figure, mesh: GearsInMesh, limit: float) -> None:
+    above = max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
+    colours = ScalarMappable(Normalize(0.0, limit), COLOURS)
+    axes = figure.add_axes((0.942, 0.08, 0.014, 0.72))
+    bar = figure.colorbar(colours, cax=axes, extend="max" if above else "neither")
+    bar.set_label("von Mises stress (MPa), plane strain")
+    axes.grid(False)
+
+
+def _heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
+    title = " ".join(str(dataset.attrs.get("title", "")).split())
+    complete = bool(dataset.attrs.get("complete", 1))
+    scene = scene_of(dataset)
+    figure.text(0.015, 0.955, f"Stress in the gears: {title}", fontsize=18, color=DARK if complete else WARNING, parse_math=False)
+    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start), time {1e3 * mesh.time:.4g} ms"
+    words = f"{conditions(scene)}  ·  {said}" if scene is not None else said
+    figure.text(0.015, 0.917, words if complete else f"{words}  ·  INCOMPLETE RUN", fontsize=13, color=DARK if complete else WARNING, parse_math=False)
+
+
+def save_picture(figure: Figure, path: Path) -> None:
+    """Save the picture as PNG, in the pixels it was drawn in."""
+    FigureCanvasAgg(figure)
+    figure.savefig(path, dpi=figure.dpi, metadata={"Software": None})
