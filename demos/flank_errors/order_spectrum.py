@@ -2,9 +2,9 @@
 
     python -m demos.flank_errors.order_spectrum [directory]
 
-runs flank_errors.toml and draws its order spectrum. Mesh orders are multiples of 16, the pinion's teeth. Run-out of the pinion is order 1, of
-the wheel 2/3; pitch deviations fill the multiples of both, beside the mesh orders as sidebands; 37 waves on the pinion's flanks are
-order 37. Orders of neither gear alone come from teeth of both that meet, and repeat with the hunting tooth.
+runs flank_errors.toml and draws its order spectrum. Mesh orders are multiples of 16, the pinion's teeth. Run-out of the pinion is order
+1, of the wheel 2/3; pitch deviations fill the multiples of both, beside the mesh orders as sidebands; 37 waves on the pinion's
+flanks are order 37. Orders of neither gear alone come from both teeth that meet, and repeat with the hunting tooth.
 """
 
 from __future__ import annotations

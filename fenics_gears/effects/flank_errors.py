@@ -115,7 +115,8 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
 
 def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
     """Deviations are small against the tooth, whose place and shape stay what they are."""
-    values = {(name,): errors.get(name) for name in LISTS} | {("waviness", "amplitude"): (table(errors, "waviness") or {}).get("amplitude")}
+    values = {(name,): errors.get(name) for name in LISTS}
+    values["waviness", "amplitude"] = (table(errors, "waviness") or {}).get("amplitude")
     for path, written in values.items():
         yield from too_large_for_the_module(tree, ("flank_errors", gear, *path), written)
 

@@ -37,7 +37,7 @@ class ReliefCurve:
 
 @dataclass(frozen=True)
 class _Side:
-    """One end of a gear's flank: of which gear, named in which section, at which roll angle (rad), and where relief usually starts (rad)."""
+    """One end of a gear's flank: whose, in which section, at which roll angle (rad), and where relief usually starts (rad)."""
 
     gear: Gear
     name: str

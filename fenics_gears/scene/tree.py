@@ -43,5 +43,5 @@ def too_large_for_the_module(tree: Tree, path: Path, written: Any) -> Iterator[P
     sizes = [abs(quantity_in(value) or 0.0) for value in (written if isinstance(written, list) else [written])]
     if module is not None and max(sizes, default=0.0) > LARGEST_ERROR * module > 0.0:
         largest = LARGEST_ERROR * module
-        message = f"is too large an error of manufacture for a module of {module:g} mm: up to {max(sizes):.4g} mm. Allowed: up to {largest:g} mm."
-        yield Problem(path, as_written(written), message)
+        message = f"is too large an error of manufacture for a module of {module:g} mm: up to {max(sizes):.4g} mm."
+        yield Problem(path, as_written(written), f"{message} Allowed: up to {largest:g} mm.")

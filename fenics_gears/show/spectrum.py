@@ -124,7 +124,8 @@ def _name_mesh_orders(axes: Axes, teeth: int) -> None:
     top, (_, highest) = axes.get_ylim()[1], axes.get_xlim()
     for multiple in range(1, int(highest / teeth) + 1):
         words = "mesh" if multiple == 1 else f"{multiple} × mesh"
-        axes.annotate(words, (multiple * teeth, top), xytext=(0, -4), textcoords="offset points", ha="center", va="top", color=PALETTE[0], fontsize=11)
+        place = {"xytext": (0, -4), "textcoords": "offset points", "ha": "center", "va": "top"}
+        axes.annotate(words, (multiple * teeth, top), color=PALETTE[0], fontsize=11, **place)
 
 
 def _known_orders(scene: Scene) -> list[tuple[float, str]]:

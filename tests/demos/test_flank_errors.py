@@ -1,0 +1,28 @@
+"""The demonstration of errors of manufacture: its scene, and what its picture names."""
+
+from dataclasses import replace
+
+from tests.coarse import COARSE
+
+from demos.flank_errors.order_spectrum import HERE
+from fenics_gears.scene.read import load_scene
+from fenics_gears.show.spectrum import order_spectrum
+from fenics_gears.simulation import simulate
+
+
+def test_the_picture_names_every_error_of_the_scene():
+    """The scene's own sections: run-out of both gears, 37 waves on the pinion, tolerance class 6; a whole hunting tooth period of 48 mesh
+    cycles, so that every line stands alone. On coarse teeth."""
+    scene = load_scene(HERE / "flank_errors.toml")
+    assert (scene.motion.mesh_cycles, scene.motion.recorded_cycles) == (48, 48)
+    assert scene.flank_errors.tolerance_class == 6
+    axes = order_spectrum(simulate(replace(scene, accuracy=COARSE))).axes[0]
+    words = {text.get_text() for text in axes.texts}
+    named = {"mesh", "mesh − 1", "mesh + 1", "run-out of the pinion", "run-out of the wheel", "ghost order: 37 waves\non the pinion"}
+    assert named <= words
+    heights = {line.get_label(): line.get_ydata() for line in axes.lines}
+    # Run-out of 10 and 15 um and pitch errors of the same size: the largest lines are those of the turns.
+    assert 5.0 < heights["turn of the pinion"].max() < 25.0 and 5.0 < heights["turn of the wheel"].max() < 30.0
+    ghost = next(text for text in axes.texts if text.get_text().startswith("ghost"))
+    # A wave of 1 um, seen by one or two pairs in contact patches shorter than itself.
+    assert ghost.xy[0] == 37.0 and 0.5 < ghost.xy[1] < 1.1
