@@ -7,10 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from demos.undamped_resonance.sweeps import WITH, WITHOUT, Sweep
 from fenics_gears.show.panels import GREY, PALETTE, legend, styled
 
+# The curves lie on each other where contact is kept: the wider one shows behind the other.
+WIDTHS, SIZES = {WITH: 4.5, WITHOUT: 1.6}, {WITH: 9.0, WITHOUT: 5.5}
 COLOURS = {WITH: PALETTE[0], WITHOUT: PALETTE[1]}
 SHADE = "#F3EBDD"
 
@@ -26,12 +29,14 @@ def draw(curves: Mapping[str, Sweep]) -> Figure:
     micrometres = curves[WITH].base_radius * 1e3
     for name, curve in curves.items():
         _line(above, curve, curve.amplitude * micrometres, COLOURS[name], name)
-        below.plot(curve.frequency, 100.0 * curve.share, color=COLOURS[name], marker="o", markersize=3.5)
+        below.plot(curve.frequency, 100.0 * curve.share, color=COLOURS[name], linewidth=WIDTHS[name])
     _marks(above)
     _shade(above, below, curves[WITH])
     above.set_ylabel("Transmission error, peak to peak,\non the wheel's base circle (µm)")
     above.set_yscale("log")
+    above.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     above.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    above.yaxis.set_minor_formatter(NullFormatter())
     below.set_ylabel("Time without contact\nof the drive flanks (%)")
     below.set_ylim(bottom=0.0)
     below.set_xlabel("Mesh frequency (Hz)")
@@ -41,11 +46,11 @@ def draw(curves: Mapping[str, Sweep]) -> Figure:
 
 
 def _line(axes: Axes, curve: Sweep, values: np.ndarray, colour: str, name: str) -> None:
-    axes.plot(curve.frequency, values, color=colour, label=name)
+    axes.plot(curve.frequency, values, color=colour, linewidth=WIDTHS[name], label=name)
     kept, open_ = ~curve.lost, curve.lost & ~curve.meaningless
-    axes.plot(curve.frequency[kept], values[kept], "o", color=colour, markersize=7)
-    axes.plot(curve.frequency[open_], values[open_], "o", color=colour, markerfacecolor="white", markersize=7)
-    axes.plot(curve.frequency[curve.meaningless], values[curve.meaningless], "x", color=colour, markersize=8, markeredgewidth=2.0)
+    axes.plot(curve.frequency[kept], values[kept], "o", color=colour, markersize=SIZES[name])
+    axes.plot(curve.frequency[open_], values[open_], "o", color=colour, markerfacecolor="white", markersize=SIZES[name])
+    axes.plot(curve.frequency[curve.meaningless], values[curve.meaningless], "x", color=colour, markersize=9, markeredgewidth=2.4, zorder=4)
 
 
 def _marks(axes: Axes) -> None:
@@ -59,7 +64,8 @@ def _shade(above: Axes, below: Axes, curve: Sweep) -> None:
     """A band over the frequencies at which contact is lost."""
     if not curve.lost.any():
         return
-    frequency, half = curve.frequency, 0.5 * np.diff(curve.frequency).mean()
+    middles = 0.5 * (curve.frequency[:-1] + curve.frequency[1:])
+    edges = np.concatenate((curve.frequency[:1], middles, curve.frequency[-1:]))
     for axes in (above, below):
-        for at in frequency[curve.lost]:
-            axes.axvspan(at - half, at + half, color=SHADE, linewidth=0.0, zorder=0)
+        for low, high in zip(edges[:-1][curve.lost], edges[1:][curve.lost]):
+            axes.axvspan(low, high, color=SHADE, linewidth=0.0, zorder=0)

@@ -16,7 +16,7 @@ def small(tmp_path_factory):
     """Results of two frequencies, one far from resonance and one at it, over fewer cycles at a coarser step, and their picture."""
     directory = tmp_path_factory.mktemp("undamped")
     text = resonance.STUDY.read_text()
-    text = re.sub(r"motion.mesh_frequency = \{[^}]*\}", 'motion.mesh_frequency = ["100 Hz", "210 Hz"]', text)
+    text = re.sub(r"motion.mesh_frequency = \[[^]]*\]", 'motion.mesh_frequency = ["100 Hz", "210 Hz"]', text)
     for name, value in (("mesh_cycles", 20), ("recorded_cycles", 5), ("contact_nodes", 26), ("steps_per_mesh_cycle", 160)):
         text, count = re.subn(rf"{name} = \d+", f"{name} = {value}", text)
         assert count == 1
