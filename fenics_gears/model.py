@@ -13,7 +13,7 @@ from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.modification import removals
+from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.resolution import Resolution, locking_warnings, mesh_stiffness, resolution_warnings, resolve
@@ -58,6 +58,11 @@ class Model:
     def stored_steps(self) -> int:
         """Steps that are kept: the recorded cycles, both ends included."""
         return self.scene.motion.recorded_cycles * self.resolution.steps_per_mesh_cycle + 1
+
+    @property
+    def corner(self):
+        """How tips touch off the line of action (`contact.corner`); None where the scene does not ask for it."""
+        return corner(self.scene, self.pair)
 
     @property
     def stored_bytes(self) -> float:

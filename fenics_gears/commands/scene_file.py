@@ -12,11 +12,13 @@ def checked_scene(path: Path):
     from fenics_gears.scene.read import load_scene
 
     scene = load_scene(path)
-    from fenics_gears.geometry.modification import removals
+    from fenics_gears.geometry.modification import corner, removals
     from fenics_gears.geometry.pair import gear_pair
 
     try:
-        removals(scene, gear_pair(scene.gears))
+        pair = gear_pair(scene.gears)
+        removals(scene, pair)
+        corner(scene, pair)
     except GeometryError as error:
         raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
     return scene

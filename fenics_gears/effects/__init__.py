@@ -12,6 +12,7 @@ from dataclasses import replace
 from fenics_gears.effects import (
     bearings,
     coast_flanks,
+    corner_contact,
     damping,
     eccentricity,
     flank_errors,
@@ -38,6 +39,7 @@ EFFECTS: tuple[Effect, ...] = (
     flank_errors.EFFECT,
     eccentricity.EFFECT,
     coast_flanks.EFFECT,
+    corner_contact.EFFECT,
     torque_ripple.EFFECT,
     speed_ramp.EFFECT,
 )

@@ -37,6 +37,7 @@ class Effect:
     Hooks, each with the effect's data first:
 
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or None.
+    ``corner(data, pair)``: how tips touch off the line of action (``contact.corner``).
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
@@ -57,6 +58,7 @@ class Effect:
     read: Callable[[Any], Any] | None = None
     rules: Callable[[Mapping[str, Any]], Iterator[Problem]] | None = None
     removal: Callable | None = None
+    corner: Callable | None = None
     gaps: Callable | None = None
     load: Callable | None = None
     clock: Callable | None = None

@@ -22,6 +22,15 @@ class Removals:
         return sum(part(roll_angle) for part in self.parts)
 
 
+def corner(scene: Scene, pair: GearPair):
+    """How the scene's tips touch off the line of action, as contact sees it; None where no effect says so.
+
+    Raises GeometryError for an edge that does not fit a tip.
+    """
+    found = [effect.corner(getattr(scene, effect.section), pair) for effect in effects_on(scene) if effect.corner is not None]
+    return found[0] if found else None
+
+
 def removals(scene: Scene, pair: GearPair) -> tuple:
     """Material that the scene's effects remove from the drive flanks of pinion and wheel: functions of the roll angle, or None.
 

@@ -91,6 +91,10 @@ distance = "10 um"
     "coast_flanks": """
 [coast_flanks]
 """,
+    "corner_contact": """
+[corner_contact]
+edge_radius = "0.1 mm"
+""",
     "torque_ripple": """
 [torque_ripple]
 harmonics = [{ order = 1, amplitude = "20 N m" }]

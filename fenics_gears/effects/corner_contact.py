@@ -1,0 +1,66 @@
+"""``[corner_contact]``: tips touch before and after the theoretical path of contact (``contact.corner``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Optional
+
+from fenics_gears.effects.effect import Effect
+from fenics_gears.scene.fields import Section, quantity
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, table
+
+
+@dataclass(frozen=True)
+class CornerContact:
+    """Radius of the edge between flank and tip circle, of pinion and wheel, mm; 0 for a sharp edge."""
+
+    edge_radii: tuple[float, float]
+
+
+class EdgeText(Section):
+    """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``."""
+
+    edge_radius: Optional[float] = quantity("0 mm", "1 m", "0.1 mm", optional=True)
+
+
+class CornerContactText(EdgeText):
+    """``[corner_contact]``: the edge radius of both gears; sharp edges where it is left out."""
+
+    pinion: Optional[EdgeText] = None
+    wheel: Optional[EdgeText] = None
+
+
+def read(text: CornerContactText) -> CornerContact:
+    """Each gear's own radius before that of both."""
+    own = [gear.edge_radius if gear is not None else None for gear in (text.pinion, text.wheel)]
+    return CornerContact(tuple(float(text.edge_radius or 0.0) if radius is None else radius for radius in own))
+
+
+def route_has_corners(tree: Tree) -> Iterator[Problem]:
+    """Remeshing at every step has no nodes beside the path of contact."""
+    if "corner_contact" in tree and (table(tree, "accuracy") or {}).get("condensation") == "every step":
+        message = 'has no contact of tips off the line of action. Take "once", or leave the section [corner_contact] out.'
+        yield Problem(("accuracy", "condensation"), '"every step"', message)
+
+
+def corner(data: CornerContact, pair):
+    """The tip edges, as contact sees them. Raises GeometryError for a radius that does not fit the tip."""
+    from fenics_gears.contact.corner import corner_contact
+
+    return corner_contact(pair, data.edge_radii)
+
+
+EFFECT = Effect(
+    section="corner_contact",
+    description="tips touch before and after the path of contact, along the mate's own normal",
+    absent="tips touch along the line of action only",
+    text=CornerContactText,
+    data=CornerContact,
+    terms=("contact of tip edges off the line of action",),
+    needs=("tooth_elasticity",),
+    read=read,
+    rules=route_has_corners,
+    corner=corner,
+)

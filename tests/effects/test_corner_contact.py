@@ -1,0 +1,46 @@
+"""The section `[corner_contact]`: from the scene to the contact operators; the method itself is tested in tests/contact."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import COARSE, teeth_alone
+
+from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.geometry.modification import corner
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def scene(paper_scene):
+    """The paper's teeth alone, coarse, one mesh cycle, with a window that reaches beyond the path of contact."""
+    return replace(teeth_alone(paper_scene), friction=None, accuracy=replace(COARSE, contact_length=4.0, contact_nodes=35), motion=Motion(200.0, 1, 1))
+
+
+def test_each_gear_has_its_own_radius(paper_scene):
+    """Authority: the page of the section; a gear's own radius before that of both, sharp where none is given."""
+    text = paper_scene.text
+    assert scene_from_text(text + "\n[corner_contact]\n").corner_contact.edge_radii == (0.0, 0.0)
+    both = '\n[corner_contact]\nedge_radius = "0.1 mm"\n[corner_contact.wheel]\nedge_radius = "0.2 mm"\n'
+    assert scene_from_text(text + both).corner_contact.edge_radii == pytest.approx((0.1, 0.2))
+
+
+def test_tips_matter_at_hand_over_only(scene):
+    """Where no tip is near the contact the effect changes little; it adds no variable."""
+    plain, cornered = simulate(scene), simulate(replace(scene, corner_contact=CornerContact((0.0, 0.0))))
+    difference = np.abs(cornered.transmission_error - plain.transmission_error).values / np.abs(plain.transmission_error).values
+    assert difference.max() > 1e-4
+    assert np.sort(difference)[: len(difference) // 4].max() <= 1e-3
+    assert set(plain.data_vars) == set(cornered.data_vars)
+
+
+def test_edges_that_do_not_fit_are_refused(paper_scene, paper_pair):
+    """A radius of more than half the tip's thickness leaves no tip."""
+    with pytest.raises(GeometryError, match="corner_contact.edge_radius"):
+        corner(replace(paper_scene, corner_contact=CornerContact((2.0, 0.0))), paper_pair)
+    text = paper_scene.text.replace("[accuracy]", '[corner_contact]\n[accuracy]\ncondensation = "every step"').replace('condensation = "once"', "")
+    with pytest.raises(SceneError, match="has no contact of tips off the line of action"):
+        scene_from_text(text)
