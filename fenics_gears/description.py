@@ -50,7 +50,7 @@ def _tangential(built: Model) -> int:
 def _contact_rows(built: Model) -> float:
     """Rows of the contact operator, on the average over the mesh cycle."""
     grid = built.resolution.contact_grid
-    pairs = [len(pair_places(built.pair, grid, phase / 16, built.scene.coast_flanks is not None)) for phase in range(16)]
+    pairs = [len(pair_places(built.pair, grid, phase / 16, built.scene.coast_flanks is not None, built.corner)) for phase in range(16)]
     return _tangential(built) * grid.nodes * sum(pairs) / len(pairs)
 
 

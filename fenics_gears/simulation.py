@@ -97,7 +97,7 @@ def tooth_reach(built: Model) -> int:
     """Pitches between the outermost teeth that can be loaded together."""
     resolution = built.resolution
     return tooth_span(
-        built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None
+        built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None, built.corner
     )
 
 
@@ -126,6 +126,7 @@ def mesh_cycle(built: Model, compliances: Compliances) -> Cycle:
         built.resolution.steps_per_mesh_cycle,
         built.drivetrain.indices,
         tangential=built.scene.friction is not None,
+        corner=built.corner,
     )
     return deviating(built, cycle)
 

@@ -78,5 +78,5 @@ def cycle_key(built: Model) -> tuple:
         resolution.contact_grid,
         resolution.steps_per_mesh_cycle,
     )
-    in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps)
+    in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.corner)
     return scene.gears, in_operators, scene.coast_flanks is not None, accuracy, tuple(built.drivetrain.indices), scene.friction is not None
