@@ -118,6 +118,7 @@ def recovery_of(built: Model, gear: int) -> GearRecovery:
         built.scene.gears.material,
         element=built.resolution.element,
         flank_element_size=built.resolution.flank_element_size,
+        body_element_size=built.resolution.body_element_size,
         coast_flank=built.scene.coast_flanks is not None,
     )
 

@@ -7,6 +7,7 @@ sector from its two cuts by one more solve.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -91,14 +92,32 @@ class GearRecovery:
         """Displacement (teeth, 2 n) under loads (teeth, 2 n), Young's modulus 1 MPa, the hub held."""
         teeth = self.gear.teeth
         loaded = np.flatnonzero(loads.any(axis=1))
-        _, on_lower, on_upper = self.interior.with_cuts_held(loads[loaded].T)
+        on_lower, on_upper = self.interior.at_held_cuts(loads[loaded].T)
         cut_loads = np.zeros((teeth, len(on_lower), 1))
-        turn = rotation(self.gear.angular_pitch)
         np.add.at(cut_loads, loaded, on_lower.T[:, :, None])
-        np.add.at(cut_loads, (loaded + 1) % teeth, turned(on_upper.T, turn.T)[:, :, None])
+        np.add.at(cut_loads, (loaded + 1) % teeth, self._turned(on_upper.T, -1)[:, :, None])
         lower = self.cut_motion(cut_loads)[:, :, 0]
-        upper = turned(np.roll(lower, -1, axis=0), turn)
+        upper = self._turned(np.roll(lower, -1, axis=0), 1)
         return self.interior.between_cuts(lower.T, upper.T, loads.T).T
+
+    def unit_responses(self, loads: np.ndarray, sectors: Sequence[int]) -> list[np.ndarray]:
+        """Displacement (2 n, k) of some sectors under each of the loads (2 n, k) on sector 0, Young's modulus 1 MPa, the hub held."""
+        on_lower, on_upper = self.interior.at_held_cuts(loads)
+        cut_loads = np.zeros((self.gear.teeth, *on_lower.shape))
+        cut_loads[0] += on_lower
+        cut_loads[1 % self.gear.teeth] += self._turned(on_upper.T, -1).T
+        motion = self.cut_motion(cut_loads)
+        found = []
+        for sector in sectors:
+            lower, ahead = motion[sector % self.gear.teeth], motion[(sector + 1) % self.gear.teeth]
+            inside = loads if sector % self.gear.teeth == 0 else np.zeros_like(loads)
+            found.append(self.interior.between_cuts(lower, self._turned(ahead.T, 1).T, inside))
+        return found
+
+    def _turned(self, vectors: np.ndarray, pitches: int) -> np.ndarray:
+        """Interleaved plane vectors (..., 2 k) turned counter-clockwise by pitches."""
+        turn = rotation(pitches * self.gear.angular_pitch)
+        return (vectors.reshape(*vectors.shape[:-1], -1, 2) @ turn.T).reshape(vectors.shape)
 
     def cut_motion(self, loads: np.ndarray) -> np.ndarray:
         """Displacement (teeth, 2 c, k) of the sectors' lower cuts under loads (teeth, 2 c, k) on them, Young's modulus 1 MPa.
@@ -156,18 +175,20 @@ class GearRecovery:
 
 
 def gear_recovery(
-    gear: Gear, material: Material, *, element: str, flank_element_size: float, coast_flank: bool = False, comm=None
+    gear: Gear,
+    material: Material,
+    *,
+    element: str,
+    flank_element_size: float,
+    body_element_size: float | None = None,
+    coast_flank: bool = False,
+    comm=None,
 ) -> GearRecovery:
     """A gear's recovery on the very mesh that `flank_compliance` has with the same settings."""
     chosen = element_named(element)
-    sizes = replace(element_sizes(gear, chosen, flank_element_size), both_flanks=coast_flank)
+    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
     mesh = sector_mesh(gear.of_module_one, sizes.in_modules_of(gear), chosen.quadrilateral)
     return GearRecovery(gear, material, mesh, chosen, comm)
-
-
-def turned(vectors: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """Interleaved plane vectors (..., 2 k) turned by a matrix (2, 2)."""
-    return (vectors.reshape(*vectors.shape[:-1], -1, 2) @ turn.T).reshape(vectors.shape)
 
 
 def turned_stress(stress: np.ndarray, angle: float) -> np.ndarray:

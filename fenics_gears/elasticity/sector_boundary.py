@@ -72,7 +72,7 @@ def sector_boundary(
     """
     outline = tooth_outline(gear, FILLET_SAMPLES)
     flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank))
-    root = _root_curve(outline)
+    root = root_curve(outline)
     tip = _arc(gear.tip_radius, flank[-1], outline.coast(flank[-1]))
     coast = outline.coast(flank[::-1])
     hub_angles = outline.centreline_angle + 0.5 * gear.angular_pitch * np.array([-1.0, 1.0])
@@ -134,7 +134,7 @@ def _cut_radii(gear: Gear, field: SizeField, hub_angles) -> np.ndarray:
     return gear.bore_radius + (gear.root_radius - gear.bore_radius) * divided(sides[1], size, 4)
 
 
-def _root_curve(outline: ToothOutline) -> np.ndarray:
+def root_curve(outline: ToothOutline) -> np.ndarray:
     """Root circle from the tooth space's centre, then the drive side's fillet, finely sampled."""
     gear = outline.gear
     corner = gear.root_radius * _directions(np.array([outline.space_angle]))[0]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from petsc4py import PETSc
 from scipy import sparse
+from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius, without
 from fenics_gears.elasticity.element_nodes import element_nodes
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_form
+from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.errors import ComputationError
 
 # Right-hand sides solved at once; more would take memory and no less time.
@@ -52,24 +52,22 @@ class SectorInterior:
         """Nodes (k,) of the "flank" or the "coast" flank by radius, as the flank compliance has them."""
         return self._at(by_radius(self.mesh.edge_nodes(side, self.element.order)))
 
-    def with_cuts_held(self, loads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Displacement (2 n, k) under loads (2 n, k) on free nodes, cuts and hub held; loads (2 c, k) that reach lower and upper cut."""
+    def at_held_cuts(self, loads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Loads (2 c, k) that reach the lower and the upper cut from loads (2 n, k) on any nodes while cuts and hub are held."""
         inside = self._factor.solve(loads[self.free])
-        displacement = np.zeros_like(loads)
-        displacement[self.free] = inside
-        return displacement, -self._to_lower.T @ inside, -self._to_upper.T @ inside
+        return tuple(
+            loads[dofs_of(cut)] - coupling.T @ inside
+            for cut, coupling in ((self.lower, self._to_lower), (self.upper, self._to_upper))
+        )
 
     def between_cuts(self, lower: np.ndarray, upper: np.ndarray, loads: np.ndarray) -> np.ndarray:
-        """Displacement (2 n, k) under loads (2 n, k) where the cuts move by lower and upper (2 c, k), the hub held."""
+        """Displacement (2 n, k) under loads (2 n, k) inside, where the cuts move by lower and upper (2 c, k), the hub held."""
         displacement = np.zeros_like(loads)
         displacement[dofs_of(self.lower)], displacement[dofs_of(self.upper)] = lower, upper
         displacement[self.free] = self._factor.solve(loads[self.free] - self._to_lower @ lower - self._to_upper @ upper)
         return displacement
 
     def _at(self, coordinates: np.ndarray) -> np.ndarray:
-        # Looked up by coordinate, as in the library's own numbering.
-        from scipy.spatial import cKDTree
-
         distance, found = cKDTree(self.nodes.points).query(coordinates)
         if distance.max(initial=0.0) > 1e-9 * np.abs(self.nodes.points).max():
             raise ComputationError("recovery: a node of the sector's boundary is not among the nodes of its elements")
@@ -78,7 +76,7 @@ class SectorInterior:
     def _assembled(self, comm) -> sparse.csr_matrix:
         compile_ahead(self.element)
         space = displacement_space(self.mesh, self.element, comm)
-        matrix = adapter.assemble_matrix(stiffness_form(space, self.element, self.poissons_ratio))
+        matrix = stiffness_matrix(space, self.element, self.poissons_ratio)
         starts, columns, values = matrix.getValuesCSR()
         assembled = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
         matrix.destroy()

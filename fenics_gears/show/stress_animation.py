@@ -14,7 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.run_stresses import RunStresses
 from fenics_gears.show.drawn_scale import automatic_scale
-from fenics_gears.show.stress_picture import colour_limit, stress_picture
+from fenics_gears.show.stress_picture import COLOURS, colour_limit, exceeds, stress_picture
 
 FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
 FRAMES_PER_SECOND = 12
@@ -23,6 +23,7 @@ WIDTH = 9.6
 SUFFIXES = (".gif", ".mp4")
 # A scale is looked for, and the colours are fixed, on so many of the frames.
 SAMPLED = 8
+STRESS_COLOURS = 208
 
 
 def check_suffix(path: Path) -> None:
@@ -43,11 +44,12 @@ def animate(runs: RunStresses, dataset: xr.Dataset, path: Path, scale: float | N
     sampled = [runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]]
     limit = colour_limit(sampled)
     scale = automatic_scale(sampled) if scale is None else scale
+    beyond = any(exceeds(mesh, limit) for mesh in sampled)
     del sampled
     frames = []
     for done, index in enumerate(steps):
         told(done, len(steps))
-        frames.append(_image(runs, dataset, index, scale, limit))
+        frames.append(_image(runs, dataset, index, scale, limit, beyond))
     told(len(steps), len(steps))
     (_write_gif if path.suffix == ".gif" else _write_mp4)(frames, path)
 
@@ -60,8 +62,8 @@ def frame_steps(dataset: xr.Dataset) -> list[int]:
     return sorted({int(round(place)) for place in np.linspace(0, len(phases) - 1, count, endpoint=False)})
 
 
-def _image(runs: RunStresses, dataset: xr.Dataset, index: int, scale: float, limit: float) -> np.ndarray:
-    figure = stress_picture(runs.at(index), dataset, scale=scale, limit=limit, close_up=False, width=WIDTH)
+def _image(runs: RunStresses, dataset: xr.Dataset, index: int, scale: float, limit: float, beyond: bool) -> np.ndarray:
+    figure = stress_picture(runs.at(index), dataset, scale=scale, limit=limit, close_up=False, width=WIDTH, beyond=beyond)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()
@@ -70,9 +72,12 @@ def _image(runs: RunStresses, dataset: xr.Dataset, index: int, scale: float, lim
 def _write_gif(frames: list[np.ndarray], path: Path) -> None:
     from PIL import Image
 
-    # One palette for all frames, or flat colours would flicker.
+    # One palette for all frames, or flat colours would flicker; made of the colours of stress and greys, since one made from the frames
+    # would spend itself on the pale bodies.
+    colours = np.vstack([COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3], np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3)])
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.round(255.0 * colours).astype(np.uint8).tobytes())
     images = [Image.fromarray(frame) for frame in frames]
-    palette = Image.fromarray(np.vstack(frames[:: max(1, len(frames) // SAMPLED)])).quantize(128, dither=Image.Dither.NONE)
     quantised = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     quantised[0].save(path, save_all=True, append_images=quantised[1:], duration=round(1000 / FRAMES_PER_SECOND), loop=0, optimize=False)
 

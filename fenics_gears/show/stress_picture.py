@@ -66,11 +66,12 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
 
 @styled
 def stress_picture(
-    mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0
+    mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0, beyond: bool = False
 ) -> Figure:
     """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
 
-    scale: of the displacement. limit: MPa, where the colours end. width: inches of a figure 16 to 9.
+    scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether this mesh exceeds it
+    or not. width: inches of a figure 16 to 9.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=100.0 * width / 16.0)
     whole, teeth = whole_view(mesh), teeth_view(mesh)
@@ -91,7 +92,7 @@ def stress_picture(
         _frame_in(middle, right, moved=_moved_contact(mesh, dataset, scale))
         _length_bar(right)
         _numbers(figure, mesh, dataset, (0.735, 0.30))
-    _colour_bar(figure, mesh, limit)
+    _colour_bar(figure, limit, beyond or exceeds(mesh, limit))
     _heading(figure, mesh, dataset)
     return figure
 
@@ -273,11 +274,15 @@ def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> N
     figure.text(*place, "\n".join(lines), fontsize=11.5, color=DARK, va="top", linespacing=1.45)
 
 
-def _colour_bar(figure: Figure, mesh: GearsInMesh, limit: float) -> None:
-    above = max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
+def exceeds(mesh: GearsInMesh, limit: float) -> bool:
+    """Whether there is more stress than the colours go to."""
+    return max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
+
+
+def _colour_bar(figure: Figure, limit: float, beyond: bool) -> None:
     colours = ScalarMappable(Normalize(0.0, limit), COLOURS)
     axes = figure.add_axes((0.942, 0.08, 0.014, 0.72))
-    bar = figure.colorbar(colours, cax=axes, extend="max" if above else "neither")
+    bar = figure.colorbar(colours, cax=axes, extend="max" if beyond else "neither")
     bar.set_label("von Mises stress (MPa), plane strain")
     axes.grid(False)
 
