@@ -84,6 +84,9 @@ def _accuracy_rows(built: Model) -> Rows:
         ("Hertz half-width at full load", resolution.half_width, "mm"),
         ("element", resolution.element, origin(asked.element).lstrip(", ")),
         ("flank element size", resolution.flank_element_size, "mm" + origin(asked.flank_element_size)),
+        *([("body element size", asked.body_element_size, "mm, from the scene")] if asked.body_element_size else []),
+        *([("interpolation", asked.interpolation, "from the scene")] if asked.interpolation else []),
+        *([("elastic teeth", asked.elastic_teeth, "from the scene")] if asked.elastic_teeth else []),
     ]
     condensation: Rows = [("condensation", resolution.condensation, origin(asked.condensation).lstrip(", "))]
     return [

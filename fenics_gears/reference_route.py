@@ -49,6 +49,7 @@ def remeshed(
                 [both[number] for both in teeth],
                 element=resolution.element,
                 flank_element_size=resolution.flank_element_size,
+                body_element_size=resolution.body_element_size,
                 cache=cache,
                 comm=comm,
                 report=progress.update,

@@ -12,6 +12,7 @@ from math import ceil, inf, pi, sqrt
 
 import numpy as np
 
+from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.geometry.pair import GearPair
@@ -49,7 +50,8 @@ RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
 class Resolution:
     """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle, condensation.
 
-    `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load.
+    `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm): largest in tooth
+    and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1: not at all), None for all.
     """
 
     element: str
@@ -58,6 +60,8 @@ class Resolution:
     steps_per_mesh_cycle: int
     half_width: float
     condensation: str
+    body_element_size: float | None = None
+    elastic_teeth: int | None = None
 
 
 def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:
@@ -96,10 +100,12 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
-        contact_grid=ContactGrid(length, nodes),
+        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED),
         steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
         half_width=half_width,
         condensation=asked.condensation or ONCE,
+        body_element_size=asked.body_element_size,
+        elastic_teeth=asked.elastic_teeth,
     )
 
 

@@ -113,6 +113,8 @@ def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) ->
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         tooth_offsets=reach,
+        body_element_size=resolution.body_element_size,
+        elastic_teeth=resolution.elastic_teeth,
         coast_flank=built.scene.coast_flanks is not None,
         cache=cache,
     )

@@ -34,6 +34,7 @@ def flank_compliance(
     flank_element_size: float,
     tooth_offsets: int,
     body_element_size: float | None = None,
+    elastic_teeth: int | None = None,
     coast_flank: bool = False,
     cache: Cache | None = None,
     comm=None,
@@ -44,14 +45,16 @@ def flank_compliance(
     they share an entry of the cache.
 
     flank_element_size, body_element_size: mm, along the working flank and the largest anywhere (None: from the module).
-    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. coast_flank: know the coast flank too. comm: communicator of one rank, COMM_SELF when
-    None. Raises SceneError for an unknown element or an impossible size, ComputationError when a stage fails.
+    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. elastic_teeth: teeth this many pitches apart and
+    further do not feel each other (1: each feels itself alone), all do when None. coast_flank: know the coast flank too.
+    comm: communicator of one rank, COMM_SELF when None. Raises SceneError for an unknown element or an impossible size, ComputationError when a stage fails.
     """
     chosen = element_named(element)
     sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
     _check(gear, material, tooth_offsets)
     similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
     clock = perf_counter()
+    wanted, tooth_offsets = tooth_offsets, tooth_offsets if elastic_teeth is None else min(tooth_offsets, elastic_teeth - 1)
     key = content_key({
         "version": ALGORITHM_VERSION,
         "gear": asdict(similar),
@@ -67,13 +70,35 @@ def flank_compliance(
         arrays, timings = _computed(similar, chosen, sizes, material.poissons_ratio, tooth_offsets, comm)
         if cache is not None:
             cache.store(key, arrays)
+    blocks = arrays["unit_blocks"] / material.youngs_modulus
     return FlankCompliance(
         roll_angle=arrays["roll_angle"],
         element_order=chosen.order,
-        blocks=arrays["unit_blocks"] / material.youngs_modulus,
+        blocks=blocks if wanted == tooth_offsets else with_unfelt_teeth(blocks, wanted),
         timings={**timings, "unknowns": int(arrays["unknowns"]), "condensed_unknowns": int(arrays["condensed_unknowns"])},
         flanks=2 if coast_flank else 1,
     )
+
+
+def with_unfelt_teeth(blocks: np.ndarray, offsets: int) -> np.ndarray:
+    """Compliance blocks (offsets + 1, n, n) with zeros for teeth further away than those that are known.
+
+    Raises SceneError where what is left is no compliance: the load of teeth whose coupling is left out in part would do negative work.
+    """
+    known, size = len(blocks) - 1, blocks.shape[1]
+    padded = np.concatenate([blocks, np.zeros((offsets - known, size, size))])
+    if known:
+        whole = np.block([
+            [padded[b - a].T if b >= a else padded[a - b] for b in range(offsets + 1)] for a in range(offsets + 1)
+        ])
+        try:
+            np.linalg.cholesky(whole)
+        except np.linalg.LinAlgError:
+            raise SceneError(
+                f"accuracy.elastic_teeth = {known + 1}: the gear's body couples its teeth too strongly to leave out the farther ones alone; "
+                f"choose 1, or at least {offsets + 1}, or leave it out"
+            ) from None
+    return padded
 
 
 def element_sizes(gear: Gear, element: Element, flank: float, body: float | None = None) -> ElementSizes:

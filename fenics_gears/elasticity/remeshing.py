@@ -34,6 +34,7 @@ def remeshed_stiffness(
     *,
     element: str,
     flank_element_size: float,
+    body_element_size: float | None = None,
     cache: Cache | None = None,
     comm=None,
     report: Callable[[int, int], None] | None = None,
@@ -49,7 +50,7 @@ def remeshed_stiffness(
         "gear": asdict(gear),
         "poissons_ratio": material.poissons_ratio,
         "element": element,
-        "sizes": asdict(element_sizes(gear, element_named(element), flank_element_size)),
+        "sizes": asdict(element_sizes(gear, element_named(element), flank_element_size, body_element_size)),
         "positions": [[[tooth.angle, tooth.rolls.tolist()] for tooth in teeth] for teeth in positions],
     })
     clock = perf_counter()
@@ -63,20 +64,22 @@ def remeshed_stiffness(
         timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
         return RemeshedStiffness(stiffness, timings)
     parts, timings = _shared(
-        lambda mine: _computed(gear, material, element, flank_element_size, positions, mine, report), len(positions), comm
+        lambda mine: _computed(gear, material, element, (flank_element_size, body_element_size), positions, mine, report),
+        len(positions),
+        comm,
     )
     if cache is not None and first:
         cache.store(key, {str(i): parts[i] / material.youngs_modulus for i in parts})
     return RemeshedStiffness([parts[i] for i in sorted(parts)], {"from_cache": False, **timings})
 
 
-def _computed(gear, material, element, flank_element_size, positions, mine, report) -> tuple[dict[int, np.ndarray], dict]:
+def _computed(gear, material, element, sizes, positions, mine, report) -> tuple[dict[int, np.ndarray], dict]:
     """Positions `mine`, each meshed and condensed by this process."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.remeshed_gear import RemeshedGear
 
     chosen = element_named(element)
-    body = RemeshedGear(gear, material, chosen, element_sizes(gear, chosen, flank_element_size))
+    body = RemeshedGear(gear, material, chosen, element_sizes(gear, chosen, *sizes))
     found = {}
     for done, index in enumerate(mine, 1):
         found[index] = body.stiffness(positions[index])

@@ -55,7 +55,10 @@ class Motion:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """How the scene is computed; None where the program shall choose from the scene."""
+    """How the scene is computed; None where the program shall choose from the scene.
+
+    ``elastic_teeth``: teeth this many pitches apart and further do not feel each other; None: all that can be loaded together do.
+    """
 
     element: str | None = None
     flank_element_size: float | None = None
@@ -63,6 +66,9 @@ class Accuracy:
     contact_nodes: int | None = None
     steps_per_mesh_cycle: int | None = None
     condensation: str | None = None
+    body_element_size: float | None = None
+    interpolation: str | None = None
+    elastic_teeth: int | None = None
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,8 @@ from fenics_gears.scene.tree import Tree, quantity_in, table, teeth_in
 from fenics_gears.scene.written import as_written
 
 # In modules: the dense compliance of a flank of such elements has gigabytes.
-FINEST_ELEMENT = 1e-3
+FINEST_ELEMENT, FINEST_BODY = 1e-3, 5e-3
+EVERY_STEP = "every step"
 
 
 def broken_rules(tree: Tree) -> list[Problem]:
@@ -71,17 +72,43 @@ def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
     if module is None:
         return
     accuracy = table(tree, "accuracy") or {}
-    for name, modules in (("flank_element_size", 1.0), ("contact_length", 3.0)):
+    for name, modules in (("flank_element_size", 1.0), ("body_element_size", 10.0), ("contact_length", 3.0)):
         size = quantity_in(accuracy.get(name))
         if size is not None and size > modules * module:
             yield Problem(("accuracy", name), as_written(accuracy[name]), f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.")
-    size, finest = quantity_in(accuracy.get("flank_element_size")), FINEST_ELEMENT * module
-    if size is not None and 0 < size < finest:
-        message = f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from {finest:g} mm."
-        yield Problem(("accuracy", "flank_element_size"), as_written(accuracy["flank_element_size"]), message)
+    for name, modules in (("flank_element_size", FINEST_ELEMENT), ("body_element_size", FINEST_BODY)):
+        size, finest = quantity_in(accuracy.get(name)), modules * module
+        if size is not None and 0 < size < finest:
+            message = f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from {finest:g} mm."
+            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
 
-_RULES = (_effects_fit_together, _one_speed, _recorded_cycles_are_run, _resolution_fits_the_teeth)
+def _body_is_no_finer_than_the_flank(tree: Tree) -> Iterator[Problem]:
+    accuracy = table(tree, "accuracy") or {}
+    body, flank = (quantity_in(accuracy.get(name)) for name in ("body_element_size", "flank_element_size"))
+    if body is not None and flank is not None and 0 < body < flank:
+        message = f"is smaller than flank_element_size = {as_written(accuracy['flank_element_size'])}. Allowed: from that size on."
+        yield Problem(("accuracy", "body_element_size"), as_written(accuracy["body_element_size"]), message)
+
+
+def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
+    accuracy = table(tree, "accuracy") or {}
+    if accuracy.get("condensation") != EVERY_STEP:
+        return
+    for name in ("interpolation", "elastic_teeth"):
+        if name in accuracy:
+            message = f'has no meaning beside condensation = "{EVERY_STEP}", where flank nodes meet and the whole gear is meshed. Leave one of the two out.'
+            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
+
+
+_RULES = (
+    _effects_fit_together,
+    _one_speed,
+    _recorded_cycles_are_run,
+    _resolution_fits_the_teeth,
+    _body_is_no_finer_than_the_flank,
+    _remeshing_has_its_own_nodes,
+)
 
 
 def _module(tree: Tree) -> float | None:

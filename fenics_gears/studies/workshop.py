@@ -65,7 +65,8 @@ def gear_key(built: Model, name: str, reach: int) -> tuple:
     """What a gear's flank compliance depends on."""
     resolution = built.resolution
     coast = built.scene.coast_flanks is not None
-    return getattr(built.pair, name), built.scene.gears.material, resolution.element, resolution.flank_element_size, reach, coast
+    sizes = resolution.flank_element_size, resolution.body_element_size
+    return getattr(built.pair, name), built.scene.gears.material, resolution.element, sizes, reach, resolution.elastic_teeth, coast
 
 
 def cycle_key(built: Model) -> tuple:
@@ -75,6 +76,8 @@ def cycle_key(built: Model) -> tuple:
         resolution.condensation,
         resolution.element,
         resolution.flank_element_size,
+        resolution.body_element_size,
+        resolution.elastic_teeth,
         resolution.contact_grid,
         resolution.steps_per_mesh_cycle,
     )

@@ -1,0 +1,124 @@
+"""Knobs of `[accuracy]`: the default is the limit that each approaches."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, teeth_alone
+
+from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATIONS
+from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.errors import SceneError
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.reference_route import remeshed
+from fenics_gears.scene.data import GearData, Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+from fenics_gears.studies.workshop import cycle_key, gear_key
+
+
+@pytest.fixture
+def error_of(paper_scene):
+    """Transmission error (12,), rad, of the paper's teeth alone without friction, with accuracy settings."""
+
+    def run(scene=None, **accuracy):
+        static = replace(scene or frictionless(teeth_alone(coarse_scene(paper_scene))), motion=Motion(200.0, 1, 1))
+        settings = {"steps_per_mesh_cycle": 12, **accuracy}
+        return simulate(replace(static, accuracy=replace(static.accuracy, **settings))).transmission_error.values
+
+    return run
+
+
+def test_defaults_are_the_limits_to_the_last_bit(paper_scene):
+    """Exact: naming what is there by default changes no bit of a run with friction and inertia."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    named = {
+        "body_element_size": scene.gears.module * DEFAULT_SIZES[1].body, "interpolation": AVERAGED, "elastic_teeth": 15,
+    }  # fmt: skip
+    expected = simulate(scene)
+    for name, value in named.items():
+        found = simulate(replace(scene, accuracy=replace(scene.accuracy, **{name: value})))
+        for variable in expected.data_vars:
+            assert np.array_equal(expected[variable], found[variable], equal_nan=True), (name, variable)
+
+
+def test_smaller_elements_in_the_body(error_of):
+    """Known: conforming elements are too stiff, and less so the smaller they are; 0.2 mm everywhere is the reference."""
+    reference = error_of(element="P2", body_element_size=0.2).mean()
+    errors = [error_of(element="P2", body_element_size=size).mean() / reference - 1.0 for size in (3.0, 0.75, 0.4)]
+    assert errors[0] < errors[1] < errors[2] < 0.0
+    assert abs(errors[2]) < 0.2 * abs(errors[0])
+
+
+def test_teeth_that_feel_each_other(error_of, paper_scene):
+    """Limit: with as many teeth as are loaded together the result is the default's; with fewer the error falls from one to the next."""
+    scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
+    module, teeth = 4.5, (40, 60)
+    pinion, wheel = (GearData(z, 0.0, module * (z + 2.7), module * (z - 3.2), 0.7 * module * (z - 3.2), 0.2) for z in teeth)
+    gears = replace(scene.gears, centre_distance=0.5 * module * sum(teeth) + 0.1, pinion=pinion, wheel=wheel)
+    high = replace(scene, gears=gears)
+    assert model(high).pair.contact_ratio > 2.0
+    expected = error_of(high)
+    errors = [np.abs(error_of(high, elastic_teeth=teeth) - expected).max() / expected.mean() for teeth in (1, 2, 3)]
+    assert errors[0] > 0.1
+    assert errors[1] < 0.3 * errors[0]
+    assert errors[2] == 0.0
+
+
+def test_collocation_approaches_averages(error_of):
+    """Limit: both are consistent, and their difference vanishes as elements and contact nodes are refined together."""
+    differences = []
+    for size, nodes in ((0.24, 13), (0.12, 26), (0.06, 51)):
+        averaged, collocated = (
+            error_of(flank_element_size=size, contact_nodes=nodes, interpolation=name) for name in (AVERAGED, COLLOCATED)
+        )
+        differences.append(np.sqrt(np.mean((collocated - averaged) ** 2)) / averaged.mean())
+    assert differences[1] < 0.5 * differences[0]
+    assert differences[2] < 0.5 * differences[1]
+    assert differences[2] < 2e-3
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_collocation_takes_values_at_points(order):
+    """Exact: a polynomial of the element's order in the arc length is met at the contact nodes, to round-off."""
+    flank = np.sqrt(np.linspace(0.01, 0.36, 20 * order + 1))
+    rolls = np.sqrt(np.linspace(0.011, 0.35, 37))
+    view = INTERPOLATIONS[COLLOCATED].of_flank(rolls, rolls, 30.0, 0.4, -1.0, flank, order)
+    for power in range(order + 1):
+        assert view.weights @ flank ** (2 * power) == pytest.approx(rolls ** (2 * power), abs=1e-13)
+    assert all(not np.delete(row, np.arange(a, b)).any() for row, a, b in zip(view.weights, view.first, view.last))
+
+
+@pytest.mark.parametrize("change", [{"body_element_size": 1.0}, {"elastic_teeth": 1}, {"interpolation": COLLOCATED}])
+def test_studies_keep_apart_what_differs(change, paper_scene):
+    """From the task: what changes the operators changes the keys under which a study keeps them."""
+    scene = coarse_scene(paper_scene)
+    built, other = model(scene), model(replace(scene, accuracy=replace(scene.accuracy, **change)))
+    assert cycle_key(built) != cycle_key(other)
+    assert (gear_key(built, "pinion", 2) == gear_key(other, "pinion", 2)) == ("interpolation" in change)
+
+
+@pytest.mark.parametrize("line", ['interpolation = "collocated"', "elastic_teeth = 2"])
+def test_remeshing_refuses_what_it_does_not_have(line, paper_scene):
+    """Rule of the house: no option is ignored silently."""
+    text = paper_scene.text.replace('condensation = "once"', f'condensation = "every step"\n{line}')
+    with pytest.raises(SceneError, match='has no meaning beside condensation = "every step"'):
+        scene_from_text(text)
+
+
+def test_remeshed_bodies_take_the_size_too(paper_scene):
+    """Exact: a smaller size in the body gives other stiffness by the reference route as well."""
+    scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
+    accuracy = replace(
+        scene.accuracy, element="Q1 incompatible", condensation="every step", contact_length=1.2, contact_nodes=5,
+        flank_element_size=0.3, steps_per_mesh_cycle=2,
+    )  # fmt: skip
+
+    def stiffness(size):
+        built = model(replace(scene, accuracy=replace(accuracy, body_element_size=size)))
+        return remeshed(built, SilentProgress(), None)[0][0].positions[0]
+
+    default, fine = stiffness(None), stiffness(0.3)
+    assert default.shape == fine.shape
+    assert np.abs(default - fine).max() > 1e-6 * np.abs(default).max()
