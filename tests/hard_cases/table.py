@@ -26,7 +26,7 @@ class Collector:
     """A pytest plugin that gathers measurements and outcomes by row."""
 
     def __init__(self):
-        self.measured = defaultdict(dict)
+        self.measured = defaultdict(lambda: defaultdict(list))
         self.tests = defaultdict(lambda: defaultdict(int))
 
     def pytest_runtest_logreport(self, report):
@@ -38,7 +38,7 @@ class Collector:
         for kind, line in report.user_properties:
             if kind == "hard_case":
                 row, what, value, limit = line.split("|")
-                self.measured[int(row)][what] = (value, limit)
+                self.measured[int(row)][what].append((value, limit))
                 rows.add(int(row))
         for row in rows:
             self.tests[row][report.outcome] += 1
@@ -50,11 +50,24 @@ def page(collector: Collector) -> str:
     lines += ["| # | case | must hold | measured | limit | tests |", "|---|---|---|---|---|---|"]
     for row, (name, must_hold) in CASES.items():
         outcomes = ", ".join(f"{count} {outcome}" for outcome, count in sorted(collector.tests[row].items())) or "none"
-        entries = list(collector.measured[row].items()) or [("", ("", ""))]
-        for i, (what, (value, limit)) in enumerate(entries):
+        entries = list(collector.measured[row].items()) or [("", [("", "")])]
+        for i, (what, lines_of_it) in enumerate(entries):
+            value, limit = spread([each for each, _ in lines_of_it]), lines_of_it[-1][1]
             start = f"| {row} | {name} | {must_hold} " if i == 0 else "| | | "
             lines.append(f"{start}| {what + ': ' if what else ''}{value} | {limit} | {outcomes if i == 0 else ''} |")
     return "\n".join(lines) + "\n"
+
+
+def spread(values: list[str]) -> str:
+    """One measurement as it is; of several under one name the smallest and the largest, or all that differ where they are words."""
+    different = list(dict.fromkeys(values))
+    if len(different) == 1:
+        return different[0]
+    try:
+        ordered = sorted(different, key=lambda value: float(value.split()[0]))
+    except ValueError:
+        return "; ".join(different)
+    return f"{ordered[0]} ... {ordered[-1]}"
 
 
 def main(options: list[str]) -> int:
