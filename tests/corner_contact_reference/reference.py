@@ -57,7 +57,9 @@ ROUNDED = (0.5, 0.52, 0.54, 0.95, 0.96, 0.98)
 def tip_touching(phase: float) -> int:
     """The gear whose tip comes into or leaves contact about that phase: 0 the pinion, 1 the wheel.
 
-    CalculiX takes the normal of the other surface, the master: at a sharp edge only the mate's is the true one.
+    Its surface is the slave, over which CalculiX integrates contact, along normals of the other surface, the master. A sharp edge has
+    no normal, so that only the mate's is the true one; and only the edge's mesh resolves the narrow contact of a rounded edge. The other
+    way round the entering tip is 0.6 % (sharp) to 1.5 % (0.1 mm) off at phase 0.95.
     """
     return 1 if phase > 0.935 else 0
 
@@ -70,7 +72,6 @@ def case(phase: float, edge_radius: float, **change) -> Case:
 VARIANTS = (
     *(case(phase, radius, refinement=0.7) for phase in (0.5, 0.95) for radius in (0.0, 0.1)),
     *(case(phase, 0.0, penalty=1e7) for phase in (0.5, 0.95)),
-    *(case(phase, 0.1, slave=1 - tip_touching(phase)) for phase in (0.5, 0.95)),
 )
 CASES = (
     *(case(phase, 0.0) for phase in LEAVING + ENTERING + ELSEWHERE),
