@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 from tests.stand_in import stand_in_compliance
+from threadpoolctl import threadpool_limits
 
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.geometry.pair import gear_pair
@@ -20,6 +21,13 @@ settings.register_profile("explore", deadline=None, suppress_health_check=PATIEN
 settings.load_profile("suite")
 
 DEMOS = Path(__file__).parents[1] / "demos"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_thread():
+    """BLAS with one thread: on the tests' small matrices several wait for one another, and much longer where other work shares the cores."""
+    with threadpool_limits(limits=1):
+        yield
 
 
 @pytest.fixture(scope="session")
