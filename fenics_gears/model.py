@@ -66,9 +66,10 @@ class Model:
 
     @property
     def stored_bytes(self) -> float:
-        """Size of the result in memory: four arrays over stored steps, the tooth pairs counted through them, and contact nodes."""
+        """Size of the result in memory: four arrays over stored steps, the tooth pairs counted through them, and contact nodes; root stress."""
         pairs = self.scene.motion.recorded_cycles + self.pair.contact_ratio + 2.0
-        return 8.0 * 4.0 * self.stored_steps * pairs * self.resolution.contact_grid.nodes
+        root_stress = ROOT_STRESS_VALUES if self.scene.output.root_stress else 0
+        return 8.0 * self.stored_steps * pairs * (4.0 * self.resolution.contact_grid.nodes + root_stress)
 
     @property
     def vibrations(self) -> list[Vibration]:
@@ -103,6 +104,9 @@ class Model:
 
 
 MOST_STORED_BYTES = 4e9
+# Of one tooth pair at one time: both gears, both fillets, 25 points.
+ROOT_STRESS_VALUES = 100
+
 
 def model(scene: Scene) -> Model:
     """Everything about a scene that needs no computing to speak of.

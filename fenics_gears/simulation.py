@@ -47,7 +47,8 @@ def simulate(
     progress = progress if progress is not None else SilentProgress()
     built = model(scene)
     preparation = preparation or functools.partial(prepared, comm=comm)
-    gears, cycle = preparation(built, progress, cache if cache is not None else user_cache())
+    cache = cache if cache is not None else user_cache()
+    gears, cycle = preparation(built, progress, cache)
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
     friction = scene.friction.coefficient if scene.friction else 0.0
@@ -58,7 +59,13 @@ def simulate(
     except ContactNotConverged as failure:
         failure.partial = _result(built, cycle, failure.partial, gears, compiled, complete=False)
         raise
-    return _result(built, cycle, march, gears, compiled, complete=not march.interrupted)
+    result = _result(built, cycle, march, gears, compiled, complete=not march.interrupted)
+    if not scene.output.root_stress:
+        return result
+    # Imported here: a run without it does not load it.
+    from fenics_gears.root_stress_output import with_root_stress
+
+    return with_root_stress(result, built, cycle, march, progress, cache)
 
 
 def assist(scene: Scene, comm) -> None:

@@ -72,12 +72,20 @@ class Accuracy:
 
 
 @dataclass(frozen=True)
+class Output:
+    """Results besides those that every run has."""
+
+    root_stress: bool = False
+
+
+@dataclass(frozen=True)
 class _AlwaysThere:
     title: str
     gears: GearPairData
     load: Load
     motion: Motion
     accuracy: Accuracy = Accuracy()
+    output: Output = Output()
     text: str = ""
     name: str = "scene"
 

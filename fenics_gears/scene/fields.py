@@ -219,5 +219,10 @@ def text(longest: int) -> Any:
     return _field(Allowed(f"a text of at most {longest} characters"), optional=True, max_length=longest)
 
 
+def switch() -> Any:
+    """True or false; false unless given."""
+    return Field(False, json_schema_extra={"allowed": Allowed("true or false")})
+
+
 def _field(allowed: Allowed, optional: bool, **bounds: Any) -> Any:
     return Field(None if optional else ..., json_schema_extra={"allowed": allowed}, **bounds)

@@ -55,6 +55,7 @@ _REASONS = {
     "literal_error": "is not known.",
     "string_too_long": "is too long.",
     "string_type": "is not a text.",
+    "bool_type": "is neither true nor false.",
 }
 
 

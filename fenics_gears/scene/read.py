@@ -79,6 +79,7 @@ def _scene(checked, text: str, name: str) -> data.Scene:
         load=same_names(data.Load, checked.load),
         motion=_motion(checked.motion, checked.gears),
         accuracy=same_names(data.Accuracy, checked.accuracy),
+        output=same_names(data.Output, checked.output),
         text=text,
         name=name,
         **{effect.section: effect.from_text(getattr(checked, effect.section)) for effect in top_level()},

@@ -101,6 +101,16 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
 
+def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
+    if (table(tree, "output") or {}).get("root_stress") is not True:
+        return
+    gears = table(tree, "gears")
+    if gears is not None and not any(nearest(name, ["material"]) for name in gears):
+        yield Problem(("output", "root_stress"), "true", "needs teeth that give way. Add [gears.material], or leave root_stress out.")
+    if (table(tree, "accuracy") or {}).get("condensation") == EVERY_STEP:
+        yield Problem(("output", "root_stress"), "true", f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.')
+
+
 _RULES = (
     _effects_fit_together,
     _one_speed,
@@ -108,6 +118,7 @@ _RULES = (
     _resolution_fits_the_teeth,
     _body_is_no_finer_than_the_flank,
     _remeshing_has_its_own_nodes,
+    _root_stress_has_its_teeth,
 )
 
 

@@ -11,7 +11,7 @@ from pydantic import create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText
-from fenics_gears.scene.fields import Section, choice, number, quantity, text, whole_number
+from fenics_gears.scene.fields import Section, choice, number, quantity, switch, text, whole_number
 
 
 def _diameter(example: str):
@@ -75,12 +75,19 @@ class Accuracy(Section):
     condensation: Optional[Literal["once", "every step"]] = choice("once", "every step", planned={})
 
 
+class Output(Section):
+    """``[output]``: results that cost something of their own."""
+
+    root_stress: bool = switch()
+
+
 class _AlwaysThere(Section):
     title: Optional[str] = text(500)
     gears: Gears
     load: Load
     motion: Motion
     accuracy: Accuracy = Accuracy()
+    output: Output = Output()
 
 
 SceneText = create_model(

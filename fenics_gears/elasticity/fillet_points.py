@@ -1,0 +1,110 @@
+"""Points along both fillets of a tooth, and the stress along the surface there from the nodes of a meshed sector."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.spatial import cKDTree
+
+from fenics_gears.elasticity.nodal_stress import NodalStress
+from fenics_gears.elasticity.sector_boundary import root_curve
+from fenics_gears.elasticity.sector_interior import SectorInterior
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import ToothOutline, tooth_outline
+
+# Points of one fillet; the one where the tangent stands at 30 degrees to the tooth's centreline comes besides.
+POINTS = 24
+SECTION_ANGLE = np.radians(30.0)
+CURVE_SAMPLES = 2001
+
+
+@dataclass(frozen=True)
+class FilletCurve:
+    """Where stress is told along the drive side's fillet; the coast side's is its mirror image.
+
+    samples: (k, 2), the root finely sampled from the middle of the tooth space. length: (p,), along it. tangents: (p, 2).
+    tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first POINTS go from the root circle to the form circle, the
+    last is the one at SECTION_ANGLE, not a number where the fillet has no such tangent.
+    """
+
+    outline: ToothOutline
+    samples: np.ndarray
+    length: np.ndarray
+    tangents: np.ndarray
+    tangent_angle: np.ndarray
+
+
+def fillet_curve(gear: Gear) -> FilletCurve:
+    """The points of a gear's fillets."""
+    outline = tooth_outline(gear, CURVE_SAMPLES)
+    samples = root_curve(outline)
+    along = _lengths(samples)
+    start = along[-1] - _lengths(outline.fillet)[-1]
+    length = start + (along[-1] - start) * (np.arange(POINTS) + 0.5) / POINTS
+    angles = _angles(outline, samples)
+    inside = along >= start
+    section = np.interp(SECTION_ANGLE, angles[inside][::-1], along[inside][::-1], left=np.nan, right=np.nan)
+    length = np.append(length, section)
+    tangents = np.column_stack([np.interp(length, along, part) for part in _tangents(samples).T])
+    tangents /= np.linalg.norm(tangents, axis=1)[:, None]
+    return FilletCurve(outline, samples, length, tangents, np.append(np.interp(length[:-1], along, angles), SECTION_ANGLE))
+
+
+def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStress) -> np.ndarray:
+    """Stress along the surface (2 p, 2 n), MPa per displacement in the mesh's unit, E = 1 MPa: drive side, then coast side."""
+    parts = []
+    for side in (0, 1):
+        nodes, place = _root_nodes(curve, interior, side)
+        at_points = sparse.csr_matrix(_interpolation(place, curve.length))
+        tangents = curve.tangents if side == 0 else curve.outline.coast(curve.tangents)
+        along = sparse.csr_matrix(np.vstack([
+            tangents[:, 0] ** 2, tangents[:, 1] ** 2, 2.0 * tangents[:, 0] * tangents[:, 1]
+        ]).T)
+        components = [sparse.kron(at_points, [[1.0 if i == k else 0.0 for i in range(3)]]) for k in range(3)]
+        combined = sum(sparse.diags(along[:, k].toarray().ravel()) @ components[k] for k in range(3))
+        parts.append((combined @ stress.rows(nodes)).toarray())
+    return np.vstack(parts)
+
+
+def _root_nodes(curve: FilletCurve, interior: SectorInterior, side: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (k,) along the root on one side, those on the cut left out, and their lengths (k,) along the curve, ascending."""
+    nodes, gear = interior.nodes, curve.outline.gear
+    boundary = np.unique(nodes.boundary_sides)
+    free = np.setdiff1d(boundary, np.concatenate([interior.lower, interior.upper, interior.hub]))
+    radius = np.linalg.norm(nodes.points[free], axis=1)
+    free = free[(radius < gear.form_radius * (1.0 + 1e-9)) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
+    points = nodes.points[free] if side == 0 else curve.outline.coast(nodes.points[free])
+    distance, nearest = cKDTree(curve.samples).query(points)
+    # Of either side's nodes those of the other are far away; chords keep the middles of sides a hair off the curve.
+    own = distance < 0.02 * gear.module
+    order = np.argsort(_lengths(curve.samples)[nearest[own]])
+    return free[own][order], _lengths(curve.samples)[nearest[own]][order]
+
+
+def _interpolation(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Weights (p, k) of linear interpolation between ascending places (k,), constant beyond them; nan where nothing is wanted."""
+    ahead = np.clip(np.searchsorted(nodes, np.nan_to_num(wanted)), 1, len(nodes) - 1)
+    part = np.clip((wanted - nodes[ahead - 1]) / (nodes[ahead] - nodes[ahead - 1]), 0.0, 1.0)
+    weights = np.zeros((len(wanted), len(nodes)))
+    rows = np.arange(len(wanted))
+    weights[rows, ahead - 1], weights[rows, ahead] = 1.0 - part, part
+    return weights
+
+
+def _lengths(points: np.ndarray) -> np.ndarray:
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+
+
+def _tangents(points: np.ndarray) -> np.ndarray:
+    tangents = np.gradient(points, _lengths(points), axis=0)
+    return tangents / np.linalg.norm(tangents, axis=1)[:, None]
+
+
+def _angles(outline: ToothOutline, points: np.ndarray) -> np.ndarray:
+    """Angle (rad) between the curve's tangent and the tooth's centreline, falling from the root on; negative where the tooth widens outwards."""
+    axis = np.array([np.cos(outline.centreline_angle), np.sin(outline.centreline_angle)])
+    tangents = _tangents(points)
+    angles = np.arctan2(tangents[:, 0] * axis[1] - tangents[:, 1] * axis[0], tangents @ axis)
+    return angles if angles[0] > 0.0 else -angles

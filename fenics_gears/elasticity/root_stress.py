@@ -1,0 +1,92 @@
+"""Stress in a tooth's fillets per force on the flanks: a row for each fillet point, so that a time step's stress is one small product.
+
+The rows come by reciprocity (Betti): the load that stands for a fillet point's stress moves the flanks by what forces there do to that
+stress. One solve for each fillet point serves all flank nodes of all teeth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+
+from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, element_sizes
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.scene.data import Material
+
+# To be raised by one whenever the same inputs give other numbers.
+ROWS_VERSION = 1
+
+
+@dataclass(frozen=True)
+class RootStressRows:
+    """Stress along the surface at the fillet points of a tooth per line force on flank nodes, MPa per N/mm.
+
+    rows: (2 reach + 1, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the loaded one; the drive
+    side's p points, then the coast side's; d dofs of the loaded tooth's flank or flanks in its own frame, as the flank compliance has them
+    but not mirrored. tangent_angle: (p,), rad, between the fillet's tangent and the tooth's centreline; the last point is the one at 30 degrees.
+    """
+
+    rows: np.ndarray
+    tangent_angle: np.ndarray
+
+    @property
+    def reach(self) -> int:
+        """Largest distance, in pitches, of a loaded tooth that is known."""
+        return len(self.rows) // 2
+
+
+def root_stress_rows(
+    gear: Gear,
+    material: Material,
+    *,
+    element: str,
+    flank_element_size: float,
+    reach: int,
+    body_element_size: float | None = None,
+    coast_flank: bool = False,
+    cache: Cache | None = None,
+    comm=None,
+) -> RootStressRows:
+    """The rows of a gear, from the cache or by solving; settings as in `flank_compliance`. Stress does not depend on Young's modulus."""
+    chosen = element_named(element)
+    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank).in_modules_of(gear)
+    similar = gear.of_module_one
+    key = content_key({
+        "kind": "root stress",
+        "version": [ALGORITHM_VERSION, ROWS_VERSION],
+        "gear": asdict(similar),
+        "poissons_ratio": material.poissons_ratio,
+        "element": chosen.name,
+        "sizes": asdict(sizes),
+        "reach": reach,
+    })
+    arrays = cache.load(key) if cache is not None else None
+    if arrays is None:
+        arrays = _computed(similar, material, chosen, sizes, reach, comm)
+        if cache is not None:
+            cache.store(key, arrays)
+    # A stress is a force over a length, which is in modules there.
+    return RootStressRows(arrays["unit_rows"] / gear.module, arrays["tangent_angle"])
+
+
+def _computed(gear: Gear, material: Material, element, sizes, reach: int, comm) -> dict[str, np.ndarray]:
+    # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_rows
+    from fenics_gears.elasticity.recovery import GearRecovery
+    from fenics_gears.elasticity.sector_interior import dofs_of
+    from fenics_gears.elasticity.sector_mesh import sector_mesh
+
+    mesh = sector_mesh(gear, sizes, element.quadrilateral)
+    with GearRecovery(gear, material, mesh, element, comm) as recovery:
+        curve = fillet_curve(gear)
+        wanted = fillet_rows(curve, recovery.interior, recovery.nodal_stress)
+        sides = ("flank", "coast") if sizes.both_flanks else ("flank",)
+        flank = np.concatenate([dofs_of(recovery.interior.flank_nodes(side)) for side in sides])
+        # A tooth m pitches ahead of the loaded one: the loaded one is m pitches behind the tooth whose stress is wanted.
+        responses = recovery.unit_responses(np.nan_to_num(wanted).T, [-m for m in range(-reach, reach + 1)])
+    rows = np.stack([response[flank].T for response in responses])
+    rows[:, ~np.isfinite(wanted).all(axis=1)] = np.nan
+    return {"unit_rows": rows, "tangent_angle": curve.tangent_angle}
