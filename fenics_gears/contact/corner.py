@@ -1,10 +1,10 @@
 """Corner contact: a tip's edge on the mate's flank, before and after the theoretical path of contact.
 
-There the tip touches off the line of action, along the mate's own normal. That normal is tangent to the mate's base circle and
-passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the theoretical one, at the
-base radius from the mate's centre and at another arm from the tip's. Seen along it, a pair has contact nodes, gaps and compliance as any
-other pair, the tip standing at its window's edge. Where the edge leaves the path of contact both lines are one: nothing jumps,
-and no contact is counted twice.
+There the tip touches off the line of action, along the mate's own normal. That normal is tangent to the mate's base circle
+and passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the theoretical
+one, at the base radius from the mate's centre and at another arm from the tip's. Seen along it, a pair has contact nodes, gaps
+and compliance as any other pair, the tip standing at its window's edge. Where the edge leaves the path of contact both lines
+are one: nothing jumps, and no contact is counted twice.
 """
 
 from __future__ import annotations
@@ -123,7 +123,7 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
 
 
 def edge_limits(pair: GearPair, corner: CornerContact, place: Place) -> tuple[float, float]:
-    """Offsets (mm) between which both flanks exist, seen along the place's line: tip edges' ends on one side, form circles on the other."""
+    """Offsets (mm) between which both flanks exist, seen along the place's line: from tip edges' ends to form circles."""
     line, ends = place.line_in(pair), []
     for gear, edge, roll, arm, sense in zip((pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.arms, SENSES):
         tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
@@ -134,7 +134,7 @@ def edge_limits(pair: GearPair, corner: CornerContact, place: Place) -> tuple[fl
 
 
 def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
-    """Distance (mm, shape of `height`) from the foot of the line to a tooth's surface at heights (mm): involute, then the edge's arc."""
+    """Distance (mm, shape of `height`) from the line's foot to a tooth's surface at heights (mm): involute, then the edge's arc."""
     roll = roll_angle_at_height(gear.base_radius, contact_roll, height)
     x = flank_point(gear.base_radius, roll, contact_roll)[0]
     if edge.radius > 0.0:
@@ -145,7 +145,7 @@ def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, remov
 
 
 def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> bool:
-    """Whether a pair's flanks may touch: its window is not empty, and its tip edge no further beyond the path than a window's length.
+    """Whether a pair's flanks may touch: a window that is not empty, and a tip edge at most a window's length beyond the path.
 
     A tip's gap grows with the distance squared, as the gap between flanks does across the window, but slower: half a window's
     length is not always enough.

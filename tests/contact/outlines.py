@@ -34,7 +34,7 @@ def placed(pair, edges, place, count=20001, moved=np.zeros((2, 3))):
 
 
 def rotation_to_touch(moving, other, centre):
-    """Counter-clockwise rotation (rad) of a curve about its gear's `centre` that lets it touch another: the least angle at any radius."""
+    """Counter-clockwise rotation (rad) of a curve about its gear's `centre` that lets it touch another: least angle at any radius."""
     (radius, angle), (other_radius, other_angle) = (
         (np.linalg.norm(curve - centre, axis=1), np.arctan2(*(curve - centre).T[::-1])) for curve in (moving, other)
     )
@@ -44,7 +44,7 @@ def rotation_to_touch(moving, other, centre):
 
 
 def distance(curves):
-    """Least distance (mm) between two polylines that do not touch; only what is near to where every 50th points are nearest is looked at."""
+    """Least distance (mm) between two polylines that do not touch, looked for around where every 50th points are nearest."""
     sparse = [curve[::50] for curve in curves]
     apart, nearest = cKDTree(sparse[1]).query(sparse[0])
     middles = sparse[0][apart.argmin()], sparse[1][nearest[apart.argmin()]]

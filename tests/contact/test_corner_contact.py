@@ -30,7 +30,7 @@ def beyond(pair, tip, by):
 @pytest.mark.parametrize("tip", TIPS)
 @pytest.mark.parametrize("by", [0.1, 0.5, 1.0, 2.0])
 def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_flanks, paper_pair):
-    """Brute force: the mate's outline turned about its centre until it meets the tip's edge; an involute moves by rb phi along its normal."""
+    """Brute force: the mate's outline turned until it meets the tip's edge; an involute moves by rb phi along its normal."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, by)
     nodes = corner_pair(stand_in_flanks, FINE, corner, place)
     mate, curves = 1 - tip, placed(paper_pair, corner.edges, place)
@@ -42,7 +42,7 @@ def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_fl
 @pytest.mark.parametrize("error", [0.01, 0.04])
 @pytest.mark.parametrize("tip", TIPS)
 def test_a_pitch_error_lets_the_tip_touch_where_the_outlines_do(tip, error, radius, stand_in_flanks, paper_pair):
-    """Brute force: rigid gears, the mate's tooth `error` mm of base arc too far ahead; outlines first meet at the position that the gap says."""
+    """Brute force: rigid gears, the mate's tooth `error` mm of base arc ahead; outlines first meet where the gap says."""
     corner, mate = corner_contact(paper_pair, radius), 1 - tip
     base = (paper_pair.pinion, paper_pair.wheel)[mate].base_radius
 

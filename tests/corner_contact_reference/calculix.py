@@ -1,7 +1,7 @@
 """A pair of gears at one position as an input file of CalculiX, and the couple on the wheel from what it prints.
 
-Frame: pinion's centre at the origin, line of action y = -rb1, as in the program. The pinion's bore is held, the wheel's is turned by
-given angles; the couple that this takes is the sum over the bore's reactions. Plane strain, thickness 1 mm.
+Frame: pinion's centre at the origin, line of action y = -rb1, as in the program. The pinion's bore is held, the wheel's is
+turned by given angles; the couple that this takes is the sum over the bore's reactions. Plane strain, thickness 1 mm.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ from fenics_gears.scene.data import Material
 
 # MPa per mm of overlap. At a pressure of 1500 MPa that is 1.5e-5 mm, 0.04 % of the teeth's deflection.
 PENALTY = 1e8
+# What CalculiX prints of a set of nodes: name, total time, a line of node and force for each.
+FORCES = r" forces \(fx,fy,fz\) for set (\S+) and time\s+(\S+)\n\n((?:\s+\d+.*\n)+)"
 
 
 class CalculixFailed(RuntimeError):
@@ -50,7 +52,7 @@ def couples(
     (folder / "pair.inp").write_text(deck)
     done = subprocess.run(["ccx", "-i", "pair"], cwd=folder, capture_output=True, text=True)
     (folder / "pair.log").write_text(done.stdout + done.stderr)
-    printed = re.findall(r" forces \(fx,fy,fz\) for set (\S+) and time\s+(\S+)\n\n((?:\s+\d+.*\n)+)", (folder / "pair.dat").read_text())
+    printed = re.findall(FORCES, (folder / "pair.dat").read_text())
     # A step that CalculiX had to divide prints at times between, too.
     found = [(name, block) for name, time, block in printed if abs(float(time) - round(float(time))) < 1e-6]
     if len(found) != 2 * len(rotations):

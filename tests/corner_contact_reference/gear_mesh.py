@@ -89,35 +89,42 @@ def _outline(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded) -> tuple[
 
 def _tooth(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: bool) -> tuple[np.ndarray, np.ndarray]:
     """Outline of one tooth from space to space, clockwise, middles of edges included, last point left out."""
-    edge_radius = edge_radius if loaded else 0.0
-    edge = tip_edge(gear, edge_radius)
+    edge = tip_edge(gear, edge_radius if loaded else 0.0)
     outline = tooth_outline(gear, 401)
-    ends = arc_length(gear.base_radius, np.array([gear.form_roll_angle, edge.flank_roll]))
-    flank_size, tip_size = (sizes.flank, sizes.tip) if loaded else (sizes.coarse, sizes.coarse)
-    arcs = _graded(ends[1] - ends[0], tip_size, flank_size, sizes.growth)
-    flank = canonical_point(gear.base_radius, roll_angle_at_arc_length(gear.base_radius, ends[1] - arcs[::-1]))
-    rounding = edge.points(np.linspace(0.0, 1.0, _even(0.5 * np.pi * edge_radius / min(tip_size, 0.25 * edge_radius)))) if edge_radius else None
-    corner = edge.points(1.0)
-    opposite = outline.coast(corner)
-    start, end = (np.angle(complex(*point)) for point in (corner, opposite))
-    land_length = gear.tip_radius * abs(end - start)
-    half_land = _graded(0.5 * land_length, tip_size, sizes.coarse, sizes.growth)
-    from_start = half_land / land_length
-    shares = np.concatenate([from_start[:-1], 0.5 * np.ones(1), 1.0 - from_start[:-1][::-1]])
-    land = gear.tip_radius * _unit(start + shares * (end - start))
-    fillet_size = sizes.fillet if loaded else sizes.coarse
-    fillet = _resampled(outline.fillet, fillet_size)
+    flank_size, tip_size, size = (
+        (sizes.flank, sizes.tip, sizes.fillet) if loaded else (sizes.coarse, sizes.coarse, sizes.coarse)
+    )
+    fillet = _resampled(outline.fillet, size)
     root_angle = np.angle(complex(*outline.fillet[0]))
-    root = gear.root_radius * _unit(np.linspace(outline.space_angle, root_angle, _even(gear.root_radius * abs(outline.space_angle - root_angle) / fillet_size)))
-    coast_flank = canonical_point(gear.base_radius, roll_angle_at_arc_length(
-        gear.base_radius, np.linspace(*ends, _even((ends[1] - ends[0]) / (2.0 * fillet_size)))))
-    drive = [root, fillet, flank] + ([rounding] if edge_radius else [])
-    back = [root, fillet, coast_flank] + ([edge.points(np.linspace(0, 1, 5))] if edge_radius else [])
-    pieces = drive + [land] + [outline.coast(piece)[::-1] for piece in reversed(back)]
-    may_touch = [False, False, True] + ([True] if edge_radius else []) + [True] + [False] * len(back)
+    root_points = _even(gear.root_radius * abs(outline.space_angle - root_angle) / size)
+    root = gear.root_radius * _unit(np.linspace(outline.space_angle, root_angle, root_points))
+    ends = arc_length(gear.base_radius, np.array([gear.form_roll_angle, edge.flank_roll]))
+    arcs = ends[1] - _graded(ends[1] - ends[0], tip_size, flank_size, sizes.growth)[::-1]
+    coast_arcs = np.linspace(*ends, _even((ends[1] - ends[0]) / (2.0 * size)))
+    flank, coast_flank = (
+        canonical_point(gear.base_radius, roll_angle_at_arc_length(gear.base_radius, each)) for each in (arcs, coast_arcs)
+    )
+    drive, back, may_touch = [root, fillet, flank], [root, fillet, coast_flank], [False, False, True]
+    if edge.radius:
+        edges = 0.5 * np.pi * edge.radius / min(tip_size, 0.25 * edge.radius)
+        drive.append(edge.points(np.linspace(0.0, 1.0, _even(edges))))
+        back.append(edge.points(np.linspace(0.0, 1.0, 5)))
+        may_touch.append(True)
+    land = _land(gear, edge.points(1.0), outline.coast(edge.points(1.0)), tip_size, sizes)
+    pieces = [*drive, land, *(outline.coast(piece)[::-1] for piece in reversed(back))]
+    may_touch += [True] + [False] * len(back)
     points = np.vstack([piece[:-1] for piece in pieces])
     flags = np.concatenate([np.full((len(piece) - 1) // 2, loaded and touch) for piece, touch in zip(pieces, may_touch)])
     return points, flags
+
+
+def _land(gear: Gear, corner: np.ndarray, opposite: np.ndarray, tip_size: float, sizes: MeshSizes) -> np.ndarray:
+    """The tip circle from one edge to the other, fine at both."""
+    start, end = (np.angle(complex(*point)) for point in (corner, opposite))
+    length = gear.tip_radius * abs(end - start)
+    half = _graded(0.5 * length, tip_size, sizes.coarse, sizes.growth)[:-1] / length
+    shares = np.concatenate([half, [0.5], 1.0 - half[::-1]])
+    return gear.tip_radius * _unit(start + shares * (end - start))
 
 
 def _unit(angles) -> np.ndarray:
@@ -190,7 +197,7 @@ def _triangles(doubled, touching, bore, sizes: MeshSizes) -> tuple[np.ndarray, n
 
 
 def _six_nodes(corners: np.ndarray, triangles: np.ndarray):
-    """Points and cells with the sides' middles; and for each edge (smaller corner first) a cell, its side and the middle's index."""
+    """Points and cells with the sides' middles; for each edge (smaller corner first) a cell, its side, the middle's index."""
     side_of, cells, middles = {}, np.empty((len(triangles), 6), dtype=int), []
     cells[:, :3] = triangles
     for number, triangle in enumerate(triangles):

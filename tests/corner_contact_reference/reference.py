@@ -57,9 +57,9 @@ ROUNDED = (0.5, 0.52, 0.54, 0.95, 0.96, 0.98)
 def tip_touching(phase: float) -> int:
     """The gear whose tip comes into or leaves contact about that phase: 0 the pinion, 1 the wheel.
 
-    Its surface is the slave, over which CalculiX integrates contact, along normals of the other surface, the master. A sharp edge has
-    no normal, so that only the mate's is the true one; and only the edge's mesh resolves the narrow contact of a rounded edge. The other
-    way round the entering tip is 0.6 % (sharp) to 1.5 % (0.1 mm) off at phase 0.95.
+    Its surface is the slave, over which CalculiX integrates contact, along normals of the other surface, the master. A sharp
+    edge has no normal, so that only the mate's is the true one; and only the edge's mesh resolves the narrow contact of a
+    rounded edge. The other way round the entering tip is 0.6 % (sharp) to 1.5 % (0.1 mm) off at phase 0.95.
     """
     return 1 if phase > 0.935 else 0
 
@@ -120,8 +120,8 @@ def read(file: Path = FILE) -> list[Row]:
     rows = []
     with file.open() as lines:
         for line in csv.DictReader(lines):
-            case = Case(*(type(field.default)(line[field.name]) if field.name in ("refinement", "slave", "penalty") else float(line[field.name]) for field in fields(Case)))
-            rows.append(Row(case, float(line["transmission_error"]), float(line["couple_ratio"]), int(line["nodes"]), line["code"]))
+            done = Case(**{field.name: (int if field.name == "slave" else float)(line[field.name]) for field in fields(Case)})
+            rows.append(Row(done, float(line["transmission_error"]), float(line["couple_ratio"]), int(line["nodes"]), line["code"]))
     return rows
 
 

@@ -1,4 +1,7 @@
-"""Deflection at hand-over against full contact analyses in CalculiX (reference.csv; `python -m tests.corner_contact_reference` regenerates it)."""
+"""Deflection at hand-over against full contact analyses in CalculiX.
+
+Its results are in reference.csv; `python -m tests.corner_contact_reference` regenerates them.
+"""
 
 import shutil
 
@@ -30,7 +33,8 @@ def cycles(paper_scene):
 @pytest.mark.parametrize("row", USUAL, ids=name)
 def test_deflection_is_that_of_a_full_contact_analysis(row, cycles, paper_scene, paper_pair, record_property):
     """CalculiX 2.20, contact found on the true outlines: the transmission error agrees within 1 % at every phase (measured: 0.5 %)."""
-    error, couples = transmission_error(cycles[row.case.edge_radius], paper_pair, paper_scene.load.wheel_torque, row.case.phase)
+    couple, cycle = paper_scene.load.wheel_torque, cycles[row.case.edge_radius]
+    error, couples = transmission_error(cycle, paper_pair, couple, row.case.phase)
     record_property("relative_difference", error / row.transmission_error - 1.0)
     assert error == pytest.approx(row.transmission_error, rel=0.01)
     # Off the line of action the couples are no longer as the tooth numbers: the arms are those of the true normal.
