@@ -104,9 +104,9 @@ def whole_scene() -> dict[str, Any]:
     tree["eccentricity"] = {"pinion": {"distance": "10 um"}, "wheel": {"distance": "10 um"}}
     tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
     tree["gears"]["pinion"]["rack_tip_radius"] = tree["gears"]["wheel"]["rack_tip_radius"] = 0.38
-    tree["accuracy"] |= {"body_element_size": "1.3 mm", "interpolation": "averaged", "elastic_teeth": 2}
+    tree["accuracy"] |= {"body_element_size": "1.3 mm", "interpolation": "averaged", "elastic_teeth": 2, "model": "elastic"}
     ripple = {"harmonics": [{"order": 1, "amplitude": "20 N m", "phase": "30 deg"}]}
-    return tree | {"coast_flanks": {}, "torque_ripple": ripple, "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0}}
+    return tree | {"coast_flanks": {}, "output": {"root_stress": True}, "torque_ripple": ripple, "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0}}
 
 
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None) -> str:

@@ -90,7 +90,8 @@ def wrong_unit(field: Field) -> list[str]:
 def wrong_type(field: Field) -> list[str]:
     if field.path[-1] == "title":
         return ["true", "3", "[1, 2]", '"' + 501 * "x" + '"']
-    return [*WRONG_TYPES, *(["1.5"] if field.whole else []), *(['"3"'] if not field.allowed.kind else [])]
+    right = ("true", "false") if field.allowed.description == "true or false" else ()
+    return [*(each for each in WRONG_TYPES if each not in right), *(["1.5"] if field.whole else []), *(['"3"'] if not field.allowed.kind else [])]
 
 
 KINDS = {
@@ -306,7 +307,7 @@ def test_a_wrong_value_in_a_study_is_refused(tmp_path, monkeypatch, capsys, meas
     for field in fields():
         if field.path == ("title",):
             continue
-        for literal in [*not_numbers(field)[:1], *huge(field)[:1], *negative(field)[:1], *zero(field)[:1], *wrong_unit(field)[:1], "true"]:
+        for literal in [*not_numbers(field)[:1], *huge(field)[:1], *negative(field)[:1], *zero(field)[:1], *wrong_unit(field)[:1], wrong_type(field)[0]]:
             for study in (f"[sweep]\n{field.name} = [{literal}]", f'[set]\n{field.name} = {literal}\n[sweep]\nfriction = ["absent", "present"]'):
                 tries += 1
                 text = 'scene = "pair.toml"\n' + ('without = ["motion.mesh_frequency"]\n' if "pinion_speed" in field.name else "") + study + "\n"
