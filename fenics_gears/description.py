@@ -90,7 +90,8 @@ def _accuracy_rows(built: Model) -> Rows:
     ]
     condensation: Rows = [("condensation", resolution.condensation, origin(asked.condensation).lstrip(", "))]
     return [
-        *(elastic if built.scene.tooth_elasticity is not None else []),
+        *([("model of the mesh", asked.model, "from the scene")] if asked.model else []),
+        *(elastic if built.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
         ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
         *(condensation if built.scene.tooth_elasticity is not None else []),
@@ -127,7 +128,7 @@ def _cost_rows(built: Model) -> Rows:
 
 
 def _cost(built: Model) -> Rows:
-    if built.scene.tooth_elasticity is None:
+    if built.resolution.element not in SECTOR_UNKNOWNS:
         memory = BYTES_OF_PROGRAM + built.stored_bytes
         return [("marching", f"{built.steps * SECONDS_PER_STEP:.1f}", "s"), ("memory", f"{memory / 1e6:.0f}", "MB")]
     order = 2 if built.resolution.element.endswith("2") else 1

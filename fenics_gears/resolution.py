@@ -7,7 +7,7 @@ action; the time step from the mesh cycle and the drivetrain's frequencies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, inf, pi, sqrt
 
 import numpy as np
@@ -16,7 +16,7 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.scene.data import Material, Scene
+from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 DEFAULT_ELEMENT = "P2"
 ELEMENTS_PER_HALF_WIDTH = 4.0
@@ -87,6 +87,9 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     """Decide every accuracy setting: the scene's where it has one, else the default."""
     if scene.tooth_elasticity is None:
         return _rigid_resolution(scene, drivetrain)
+    if scene.accuracy.model == ISO_6336:
+        steps = scene.accuracy.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain)
+        return replace(_rigid_resolution(scene, drivetrain), element=ISO_6336, steps_per_mesh_cycle=steps)
     asked, module = scene.accuracy, scene.gears.module
     line_load = abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))

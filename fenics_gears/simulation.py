@@ -19,7 +19,7 @@ from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results import dataset
-from fenics_gears.scene.data import Scene
+from fenics_gears.scene.data import ELASTIC, ISO_6336, STIFFNESS_TABLE, Scene
 from fenics_gears.warm_up import compile_kernels
 
 if TYPE_CHECKING:
@@ -78,7 +78,8 @@ def assist(scene: Scene, comm) -> None:
 
 
 def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
-    """The gears' elasticity and the contact operators on it, by the route that the scene's condensation asks for."""
+    """The gears' elasticity and the contact operators on it, by the model and the condensation that the scene asks for."""
+    chosen = built.scene.accuracy.model
     if built.scene.tooth_elasticity is None:
         return (), rigid_cycle(built)
     if built.resolution.condensation == EVERY_STEP:
@@ -87,7 +88,17 @@ def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
 
         gears, cycle = remeshed(built, progress, cache, comm)
         return gears, deviating(built, cycle)
+    if chosen == ISO_6336:
+        from fenics_gears.mesh_springs import iso_cycle
+
+        return (), deviating(built, iso_cycle(built))
     compliances = gear_compliances(built, progress, cache)
+    if chosen == STIFFNESS_TABLE:
+        from fenics_gears.mesh_springs import table_cycle
+
+        progress.stage("tabulate the mesh stiffness")
+        compliances, cycle = table_cycle(built, compliances)
+        return compliances, deviating(built, cycle)
     return compliances, mesh_cycle(built, compliances)
 
 
@@ -173,9 +184,10 @@ def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, co
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         contact_length=resolution.contact_grid.length,
-        contact_nodes=cycle.grid.nodes,
+        contact_nodes=(cycle.grid if cycle.resolves_flanks else resolution.contact_grid).nodes,
         steps_per_mesh_cycle=resolution.steps_per_mesh_cycle,
         condensation=resolution.condensation,
+        model=built.scene.accuracy.model or ELASTIC,
         time_mesh=sum(gear.timings["time_mesh"] for gear in gears),
         time_condense=sum(gear.timings["time_condense"] for gear in gears),
         time_compile=compiled + sum(gear.timings["time_compile"] for gear in gears),

@@ -43,8 +43,9 @@ def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     Window, sharp edges, rank, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
     """
     records = list(march.records)
+    of_flanks = [*_window(cycle, records), *_sharp_edge(cycle, records), *_rank(records)] if cycle.resolves_flanks else []
     return [
-        *_window(cycle, records), *_sharp_edge(cycle, records), *_rank(records), *_rotation(drivetrain, records),
+        *of_flanks, *_rotation(drivetrain, records),
         *_separation(cycle, march, clock), *_locking(cycle, march), *_uniqueness(march),
     ]  # fmt: skip
 

@@ -75,6 +75,8 @@ class Cycle:
     """
 
     divisible = False
+    # Whether contact nodes are points of the flanks, among which a pressure is spread.
+    resolves_flanks = True
 
     def __init__(
         self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None

@@ -62,6 +62,11 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
 )
 
+# What only contact that is spread over nodes has.
+OVER_CONTACT_NODES = tuple(
+    f"{side}contact_{name}" for side in ("", "coast_") for name in ("pressure", "traction", "offset", "roll_angle")
+)
+
 
 def effect(section: str) -> Effect:
     """The effect of that section; raises KeyError for a name that is not in the list."""
@@ -77,7 +82,8 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     """Every variable that the result of a scene has."""
     on = effects_on(scene)
     named = {each.section for each in on}
-    return COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
+    found = COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
+    return found if scene.resolves_contact else tuple(each for each in found if each.name not in OVER_CONTACT_NODES)
 
 
 def top_level() -> tuple[Effect, ...]:

@@ -9,6 +9,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import rigid_rows
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.dynamics.march import Record, smallest_opening
+from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.scene.data import Scene
 
 
@@ -64,6 +65,8 @@ def pair_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: l
         coast = _flank_variables(scene, cycle, records, numbers, COAST)
         values["pair_coast_normal_force"] = coast["pair_normal_force"]
         values |= {f"coast_{name}": data for name, data in coast.items() if name in COAST_NODE_VARIABLES}
+    if not scene.resolves_contact:
+        values = {name: data for name, data in values.items() if name not in OVER_CONTACT_NODES}
     return values
 
 

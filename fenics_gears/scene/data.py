@@ -53,6 +53,10 @@ class Motion:
     recorded_cycles: int
 
 
+# What a mesh is computed as: the full contact of elastic flanks, and the cheaper models.
+ELASTIC, RIGID_TEETH, STIFFNESS_TABLE, ISO_6336 = "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
+
+
 @dataclass(frozen=True)
 class Accuracy:
     """How the scene is computed; None where the program shall choose from the scene.
@@ -69,6 +73,7 @@ class Accuracy:
     body_element_size: float | None = None
     interpolation: str | None = None
     elastic_teeth: int | None = None
+    model: str | None = None
 
 
 @dataclass(frozen=True)
@@ -98,7 +103,12 @@ class _AlwaysThere:
     @property
     def tooth_elasticity(self) -> Material | None:
         """What makes the flanks elastic; None for rigid ones."""
-        return self.gears.material
+        return None if self.accuracy.model == RIGID_TEETH else self.gears.material
+
+    @property
+    def resolves_contact(self) -> bool:
+        """Whether contact is spread over nodes of elastic flanks, so that there are pressures."""
+        return self.tooth_elasticity is not None and self.accuracy.model in (None, ELASTIC)
 
 
 # Everything a run needs to know, and the text it was read from; one field for each effect, None where the scene does not name it.

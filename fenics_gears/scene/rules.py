@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from math import inf, lcm
 
 from fenics_gears import effects
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
 from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Gears
@@ -101,6 +102,27 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
 
+def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
+    accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
+    chosen = accuracy.get("model")
+    if chosen not in (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336):
+        return
+
+    def problem(message: str) -> Problem:
+        return Problem(("accuracy", "model"), as_written(chosen), message)
+
+    if chosen != RIGID_TEETH and "material" not in gears:
+        yield problem("needs the section [gears.material], which is missing. Add it, or leave accuracy.model out.")
+    if accuracy.get("condensation") == EVERY_STEP:
+        yield problem(f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.')
+    if (table(tree, "output") or {}).get("root_stress") is True:
+        yield problem('has no stresses for output.root_stress. Allowed beside it: "elastic". Leave one of the two out.')
+    lacking = {RIGID_TEETH: ("friction", "corner_contact"), ISO_6336: ("corner_contact",), STIFFNESS_TABLE: ()}[chosen]
+    for section in lacking:
+        if section in tree:
+            yield problem(f"cannot stand beside [{section}], which it knows nothing of. Leave one of the two out.")
+
+
 def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
     if (table(tree, "output") or {}).get("root_stress") is not True:
         return
@@ -119,6 +141,7 @@ _RULES = (
     _body_is_no_finer_than_the_flank,
     _remeshing_has_its_own_nodes,
     _root_stress_has_its_teeth,
+    _cheaper_models_have_what_they_need,
 )
 
 

@@ -73,6 +73,9 @@ class Accuracy(Section):
     elastic_teeth: Optional[int] = whole_number(1, 1000, 2, optional=True)
     steps_per_mesh_cycle: Optional[int] = whole_number(2, 1_000_000, 100, optional=True)
     condensation: Optional[Literal["once", "every step"]] = choice("once", "every step", planned={})
+    model: Optional[Literal["elastic", "rigid teeth", "stiffness table", "ISO 6336-1"]] = choice(
+        "elastic", "rigid teeth", "stiffness table", "ISO 6336-1", planned={}
+    )
 
 
 class Output(Section):

@@ -37,7 +37,7 @@ class Workshop:
             compliances, cycle = self._prepared
             return tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances), cycle
         self._cycle_key = self._prepared = None  # frees its memory before the next is made
-        if built.resolution.condensation == EVERY_STEP:
+        if built.resolution.condensation == EVERY_STEP or not built.scene.resolves_contact:
             self._cycle_key, self._prepared = key, prepared(built, progress, cache)
             return self._prepared
         reach = tooth_reach(built)
@@ -82,4 +82,5 @@ def cycle_key(built: Model) -> tuple:
         resolution.steps_per_mesh_cycle,
     )
     in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.corner)
-    return scene.gears, in_operators, scene.coast_flanks is not None, accuracy, tuple(built.drivetrain.indices), scene.friction is not None
+    model = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, model), tuple(built.drivetrain.indices), scene.friction is not None

@@ -1,0 +1,116 @@
+"""The mesh cycle of a mesh that is nothing but springs along the line of action: stiffness tables, stiffness by a standard.
+
+A mesh spring that stiffens with its load, piecewise linear, is a row of linear springs side by side, each with a gap of its own:
+``F(u) = sum k_i (u - g_i)_+``. Each is a contact node, so that all that marches contact marches a mesh spring, and its energy is
+``sum p_i^2/(2 k_i)``, exactly. The springs of a tooth pair stand where its flanks meet on the line of action, with the arms that friction has
+there; across it they give way as much as along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.operator import (
+    ContactOperator,
+    earlier_rigid_tangent,
+    involute_arms,
+    over_nodes,
+    rigid_rows,
+    rigid_slip,
+)
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, coast_place, drive_place
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.geometry.pair import GearPair
+
+# The springs of a pair stand at one point; so far apart (mm) they are known from one another from step to step.
+APART = 1e-9
+
+
+@dataclass(frozen=True)
+class PairSprings:
+    """Springs of a tooth pair: its `index`, `flank` DRIVE or COAST, `level` (m,) numbers, `gap` (m,), mm, `stiffness` (m,), N/mm."""
+
+    index: int
+    flank: int
+    level: np.ndarray
+    gap: np.ndarray
+    stiffness: np.ndarray
+
+
+# The springs at a phase (0 <= phase < 1).
+Springs = Callable[[float], list[PairSprings]]
+
+
+@dataclass(frozen=True)
+class SpringNodes(PairNodes):
+    """Contact nodes (m,) that are springs of `stiffness` (m,), N/mm."""
+
+    stiffness: np.ndarray
+
+
+class SpringCycle(Cycle):
+    """A mesh of springs. `levels`: at most so many of a pair; `coordinates`: which centre coordinates are unknowns; `tangential`: friction."""
+
+    divisible = True
+    resolves_flanks = False
+
+    def __init__(
+        self, pair: GearPair, springs: Springs, levels: int, steps: int, coordinates: list[int], tangential: bool, coast_flanks: bool
+    ):
+        super().__init__(pair, ContactGrid(APART * max(levels - 1, 1), max(levels, 2)), steps, coast_flanks)
+        self._springs, self._coordinates, self._tangential = springs, coordinates, tangential
+
+    def _pairs_of(self, index: float) -> tuple[SpringNodes, ...]:
+        return tuple(self._nodes(springs, index / self.steps) for springs in self._springs(index / self.steps))
+
+    def _nodes(self, springs: PairSprings, phase: float) -> SpringNodes:
+        pair, count = self.pair, len(springs.gap)
+        xi = pair.path_start + (phase + springs.index) * pair.base_pitch
+        place: Place = (drive_place if springs.flank == DRIVE else coast_place)(pair, springs.index, xi)
+        arm = place.contact_rolls[0] * pair.pinion.base_radius
+        roll = float(np.clip(place.contact_rolls[0], pair.pinion.form_roll_angle, pair.pinion.tip_roll_angle))
+        return SpringNodes(
+            place=place,
+            offsets=APART * springs.level,
+            lengths=np.ones(count),
+            gap=springs.gap,
+            pinion_arm=np.full(count, arm),
+            wheel_arm=np.full(count, pair.line_of_action_length - arm),
+            pinion_roll=np.full(count, roll),
+            stiffness=springs.stiffness,
+        )
+
+    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
+        radii = (self.pair.pinion.base_radius, self.pair.wheel.base_radius)
+        arms, softness = involute_arms(pairs, radii), 1.0 / over_nodes(pairs, "stiffness")
+        sliding = previous_compliance = previous_rigid = None
+        if self._tangential:
+            turned = (advance, -advance * radii[0] / radii[1])
+            sliding = rigid_slip(pairs, self.pair.rotation_ratio, advance)
+            previous_rigid = np.ascontiguousarray(earlier_rigid_tangent(pairs, radii, turned)[:, self._coordinates])
+            previous_compliance = _carried_softness(previous, carried)
+        operator = ContactOperator(
+            pairs=pairs,
+            base_radii=radii,
+            normal_arms=arms,
+            compliance=np.diag(np.tile(softness, 2 if self._tangential else 1)),
+            rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, self._tangential)[:, self._coordinates]),
+            gap=over_nodes(pairs, "gap"),
+            sliding=sliding,
+            previous_compliance=previous_compliance,
+            previous_rigid=previous_rigid,
+        )
+        return Position(operator, carried)
+
+
+def _carried_softness(previous, carried: np.ndarray) -> np.ndarray:
+    """Tangential displacement (n, 2 m) that springs (n,) had a step before per force on the springs (m,) of then."""
+    softness = 1.0 / over_nodes(previous, "stiffness")
+    count, known = len(softness), np.flatnonzero(carried >= 0)
+    result = np.zeros((len(carried), 2 * count))
+    result[known, count + carried[known]] = softness[carried[known]]
+    return result
