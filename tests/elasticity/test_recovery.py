@@ -1,0 +1,202 @@
+"""Full displacement and stress of a gear from forces on its flanks: against the compliance, equilibrium, tractions, Hertz."""
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from scipy import sparse
+from scipy.interpolate import LinearNDInterpolator
+from tests.coarse_sector import PINION, STEEL
+from tests.elasticity.flank_pressure import flank_arcs, pressed, stress_across
+
+from fenics_gears.contact.flank_forces import unmirrored
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.sector_interior import dofs_of
+from fenics_gears.elasticity.sector_mesh import sector_mesh, whole_gear_mesh
+from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
+from fenics_gears.geometry.involute import arc_length, canonical_normal, canonical_point, roll_angle_at_arc_length
+
+SIZE = 0.4
+RANDOM = np.random.default_rng(7)
+
+
+def forces_on(recovery, flanks: int = 1) -> dict[int, np.ndarray]:
+    """Random line forces on two neighbouring teeth."""
+    count = flanks * 2 * len(recovery.interior.flank_nodes("flank"))
+    return {0: RANDOM.normal(size=count), 1: RANDOM.normal(size=count)}
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+@pytest.mark.parametrize("flanks", [1, 2], ids=["drive flank", "both flanks"])
+def test_flanks_move_as_their_compliance_says(name, flanks):
+    """Exact identity: u_f = A f on the loaded teeth, their neighbours ahead and behind; the compliance is condensed another way."""
+    settings = {"element": name, "flank_element_size": SIZE, "coast_flank": flanks == 2}
+    compliance = flank_compliance(PINION, STEEL, tooth_offsets=2, **settings)
+    with gear_recovery(PINION, STEEL, **settings) as recovery:
+        forces = forces_on(recovery, flanks)
+        moved = recovery.recovered(forces).displacement
+        sides = ("flank", "coast")[:flanks]
+        nodes = np.concatenate([recovery.interior.flank_nodes(side) for side in sides])
+    drive = 2 * compliance.nodes
+
+    def mirrored(vector):
+        """Coast flank's part in the frame mirrored at the centreline, in which the compliance has it (and back)."""
+        return np.concatenate([vector[:drive], unmirrored(PINION, vector[drive:])])
+
+    for tooth in (-1, 0, 1, 2):
+        expected = sum(compliance.block(tooth - loaded) @ mirrored(force) for loaded, force in forces.items())
+        found = mirrored(moved[tooth % PINION.teeth][nodes].ravel())
+        assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_every_node_of_the_gear_is_in_equilibrium(name):
+    """Exact identity: K u = f with the stiffness of the whole gear meshed as one body, at all nodes but the held hub's."""
+    with gear_recovery(PINION, STEEL, element=name, flank_element_size=SIZE) as recovery:
+        forces = forces_on(recovery)
+        body, loads = recovery.recovered(forces), recovery.flank_loads(forces)
+        mesh, points, hub = recovery.interior.mesh, recovery.interior.nodes.points, recovery.interior.hub
+    whole = whole_gear_mesh(mesh, PINION.teeth)
+    space = displacement_space(whole, ELEMENTS[name])
+    matrix = stiffness_matrix(space, ELEMENTS[name], STEEL.poissons_ratio)
+    starts, columns, values = matrix.getValuesCSR()
+    stiffness = sparse.csr_matrix((values, columns, starts))
+    moved, force, held = np.zeros(stiffness.shape[0]), np.zeros(stiffness.shape[0]), []
+    for tooth in range(PINION.teeth):
+        turn = rotation(tooth * PINION.angular_pitch)
+        dofs = dofs_of(nodes_at(space, points @ turn.T))
+        moved[dofs] = STEEL.youngs_modulus * (body.displacement[tooth] @ turn.T).ravel()
+        force[dofs] += (loads[tooth].reshape(-1, 2) @ turn.T).ravel()
+        held.append(dofs_of(nodes_at(space, points[hub] @ turn.T)))
+    residual = stiffness @ moved - force
+    matrix.destroy()
+    residual[np.concatenate(held)] = 0.0
+    assert np.abs(residual).max() < 1e-9 * np.abs(force).max()
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_the_hub_takes_the_sum_of_all_forces(name):
+    """Exact identity: balance of forces and of couples about the gear's centre."""
+    with gear_recovery(PINION, STEEL, element=name, flank_element_size=SIZE) as recovery:
+        forces = forces_on(recovery)
+        taken = recovery.recovered(forces).hub_force
+        points = recovery.points[recovery.interior.flank_nodes("flank")]
+    total = np.zeros(3)
+    for tooth, force in forces.items():
+        at = force.reshape(-1, 2)
+        total[:2] += rotation(tooth * PINION.angular_pitch) @ at.sum(axis=0)
+        total[2] += (points[:, 0] * at[:, 1] - points[:, 1] * at[:, 0]).sum()
+    assert np.abs(taken + total).max() < 1e-9 * np.abs(total).max()
+
+
+def test_stress_of_a_linear_displacement_is_exact():
+    """Patch test: a linear displacement has one stress, which every element's averaged nodal stress reproduces."""
+    strain, turn = np.array([[1.2e-3, 0.4e-3], [0.4e-3, -0.7e-3]]), 0.5e-3
+    gradient = strain + turn * np.array([[0.0, -1.0], [1.0, 0.0]])
+    nu = STEEL.poissons_ratio
+    factor = 1.0 / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    xx = factor * ((1.0 - nu) * strain[0, 0] + nu * strain[1, 1])
+    yy = factor * ((1.0 - nu) * strain[1, 1] + nu * strain[0, 0])
+    for name in ELEMENTS:
+        with gear_recovery(PINION, STEEL, element=name, flank_element_size=SIZE) as recovery:
+            points = recovery.interior.nodes.points
+            operator = recovery.nodal_stress
+            found = operator.rows(np.arange(len(points))) @ (points @ gradient.T).ravel()
+        np.testing.assert_allclose(found.reshape(-1, 3), np.tile([xx, yy, strain[0, 1] / (1.0 + nu)], (len(points), 1)), atol=1e-12)
+
+
+def test_stress_turns_as_a_tensor():
+    """Exact identity: R sigma R^T."""
+    turn = rotation(0.7)
+    expected = turn @ np.array([[3.0, 1.0], [1.0, -2.0]]) @ turn.T
+    found = turned_stress(np.array([3.0, -2.0, 1.0]), 0.7)
+    np.testing.assert_allclose(found, [expected[0, 0], expected[1, 1], expected[0, 1]], rtol=1e-14)
+
+
+def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut():
+    """Exact identity: averages on a cut count the elements on both of its sides, so that both sectors tell the same tensor."""
+    with gear_recovery(PINION, STEEL, element="P2", flank_element_size=SIZE) as recovery:
+        body = recovery.recovered(forces_on(recovery))
+        lower, upper = recovery.interior.lower, recovery.interior.upper
+    for tooth in range(PINION.teeth):
+        ahead = turned_stress(body.stress[(tooth + 1) % PINION.teeth][lower], PINION.angular_pitch)
+        assert np.abs(body.stress[tooth][upper] - ahead).max() < 1e-9 * np.abs(body.stress).max()
+
+
+def fine_recovery(name: str, size: float, depth: float) -> GearRecovery:
+    """The pinion with flank elements of a size (mm), kept down to `depth` times it below the flank."""
+    sizes = ElementSizes(flank=size, fillet=0.4, coast=0.6, body=1.5, depth=depth).in_modules_of(PINION)
+    return GearRecovery(PINION, STEEL, sector_mesh(PINION.of_module_one, sizes, ELEMENTS[name].quadrilateral), ELEMENTS[name])
+
+
+MIDDLE = arc_length(PINION.base_radius, 0.5 * (PINION.form_roll_angle + PINION.tip_roll_angle))
+PRESSURE = 1000.0
+
+
+def traction_error(name: str, size: float) -> tuple[float, float]:
+    """Largest error of the normal stress on the flank against minus a smooth pressure over 3 mm, in and outside it, over the peak."""
+
+    def pressure(arc):
+        return np.where(np.abs(arc - MIDDLE) < 1.5, PRESSURE * np.cos(np.pi * (arc - MIDDLE) / 3.0) ** 2, 0.0)
+
+    with fine_recovery(name, size, 8.0) as recovery:
+        body, arcs = recovery.recovered({0: pressed(recovery, pressure)}), flank_arcs(recovery)
+        nodes = recovery.interior.flank_nodes("flank")
+    normal = canonical_normal(roll_angle_at_arc_length(PINION.base_radius, arcs))
+    error = np.abs(stress_across(body.stress[0][nodes], normal) + pressure(arcs)) / PRESSURE
+    # The last nodes on either side share elements with tip and fillet.
+    inner = (arcs > arcs[0] + 1.0) & (arcs < arcs[-1] - 1.0)
+    inside = np.abs(arcs - MIDDLE) < 1.5
+    return float(error[inner & inside].max()), float(error[inner & ~inside].max())
+
+
+@pytest.mark.parametrize(("name", "order"), [("P1", 1.0), ("Q1 incompatible", 1.0), ("P2", 1.5), ("Q2", 1.5)])
+def test_normal_stress_on_the_flank_is_minus_the_pressure(name, order):
+    """Equilibrium of the surface: -p where pressed, zero beside it. Stress at a boundary node converges with at least the polynomial order
+    less what an irregular mesh takes of averaging: 1 for first order elements, near 2 for second order ones."""
+    coarse, fine = (traction_error(name, size) for size in (0.3, 0.1))
+    rate = np.log(max(coarse) / max(fine)) / np.log(3.0)
+    assert max(fine) < (0.05 if order == 1.0 else 0.01)
+    assert rate > 0.8 * order
+
+
+@lru_cache
+def hertz(half_width: float, elements: int) -> tuple[float, float]:
+    """Largest shear stress over p0 below a Hertz pressure on the pinion's flank, and its depth over the half-width (mm)."""
+
+    def pressure(arc):
+        return PRESSURE * np.sqrt(np.maximum(1.0 - ((arc - MIDDLE) / half_width) ** 2, 0.0))
+
+    with fine_recovery("P2", half_width / elements, 1.2 * elements) as recovery:
+        stress, points = recovery.recovered({0: pressed(recovery, pressure)}).stress[0], recovery.points
+    shear = np.sqrt((0.5 * (stress[:, 0] - stress[:, 1])) ** 2 + stress[:, 2] ** 2)
+    roll = roll_angle_at_arc_length(PINION.base_radius, MIDDLE)
+    centre, inwards = canonical_point(PINION.base_radius, roll), -canonical_normal(roll)
+    near = np.linalg.norm(points - centre, axis=1) < 4.0 * half_width
+    depths = np.linspace(0.3, 1.6, 261)
+    line = LinearNDInterpolator(points[near], shear[near])(centre + half_width * depths[:, None] * inwards)
+    return float(np.nanmax(line)) / PRESSURE, float(depths[np.nanargmax(line)])
+
+
+def test_shear_is_largest_below_the_surface_as_hertz_says():
+    """Literature: 0.300 p0 at 0.786 b below a Hertz line contact (Johnson, Contact Mechanics, 1985, section 4.2a).
+
+    The tooth's bending adds to it in proportion to the force, that is to b at one p0: two widths take it out. Stress of P2 is of second order:
+    (h/b)^2 = 1/25. The maximum is flat: the depth is as good as the distance of nodes there, b/5.
+    """
+    (wide, _), (narrow, depth) = hertz(0.2, 5), hertz(0.1, 5)
+    assert abs(2.0 * narrow - wide - 0.300) < 0.300 / 25
+    assert abs(depth - 0.786) < 0.2
+    assert 0.0 < narrow - 0.300 < wide - 0.300
+
+
+@pytest.mark.nightly
+def test_hertz_on_a_fine_mesh():
+    """The same with b/8: 1/64 of 0.300 p0, and the depth within b/8."""
+    (wide, _), (narrow, depth) = hertz(0.1, 8), hertz(0.05, 8)
+    assert abs(2.0 * narrow - wide - 0.300) < 0.300 / 64
+    assert abs(depth - 0.786) < 1.0 / 8
