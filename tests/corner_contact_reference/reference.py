@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 import numpy as np
-from tests.corner_contact_reference.calculix import couples
+from tests.corner_contact_reference.calculix import CalculixFailed, couples
 from tests.corner_contact_reference.gear_mesh import MeshSizes, gear_mesh
 
 from fenics_gears.geometry.pair import GearPair, gear_pair
@@ -99,6 +99,8 @@ def computed(scene: Scene, pair: GearPair, case: Case, folder: Path, guess: floa
         rotations = guess * np.array([1.0 - CLOSE_ENOUGH, 1.0 + CLOSE_ENOUGH])
         found = couples(pair, scene.gears.material, meshes, case.phase, rotations, folder, case.slave, case.penalty)
         slope = (found[1, 1] - found[0, 1]) / (rotations[1] - rotations[0])
+        if not slope > 0.0:
+            raise CalculixFailed(f"{case}: the couple does not rise with the wheel's rotation, {found[:, 1]} N; see {folder}/pair.log")
         answer = rotations[0] + (wanted - found[0, 1]) / slope
         if abs(answer / guess - 1.0) < 2.0 * CLOSE_ENOUGH:
             break
