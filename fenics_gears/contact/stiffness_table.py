@@ -18,7 +18,7 @@ from fenics_gears.contact.spring_cycle import PairSprings
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 
 # In parts of the scene's load; above the last the curve goes on straight.
-LOADS = (0.0, 0.25, 0.5, 1.0, 1.5, 2.5)
+LOADS = (0.0, 0.25, 0.5, 0.7, 0.85, 1.0, 1.15, 1.3, 1.6, 2.5)
 # A spring that adds less than this part to the stiffness is left out: round-off of a curve that is straight there.
 NEGLIGIBLE = 1e-9
 

@@ -1,0 +1,231 @@
+"""The cheaper models of the mesh against the limits in which they are exact, and what they leave out."""
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
+
+from fenics_gears.contact.stiffness_table import LOADS
+from fenics_gears.effects import OVER_CONTACT_NODES
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
+from fenics_gears.mesh_springs import table_cycle
+from fenics_gears.model import model
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import deviating, gear_compliances, mesh_cycle, simulate
+from fenics_gears.studies.workshop import Workshop, cycle_key
+
+MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
+
+
+def by(scene, name: str, **accuracy):
+    return replace(scene, accuracy=replace(scene.accuracy, model=name, **accuracy))
+
+
+@pytest.fixture(scope="module")
+def static(paper_scene):
+    """The paper's scene without inertia and friction, one coarse mesh cycle."""
+    return replace(frictionless(quasi_static(coarse_scene(paper_scene))), motion=Motion(200.0, 1, 1))
+
+
+def distance(found, expected) -> float:
+    """Largest difference of the transmission error in parts of its peak-to-peak value."""
+    error = expected.transmission_error.values
+    return float(np.abs(found.transmission_error.values - error).max() / np.ptp(error))
+
+
+def test_table_is_the_full_model_at_its_own_load(static):
+    """Exact: quasi-static and frictionless, at the loads that the table was made at, the mesh gives way as the full contact does."""
+    full, table = simulate(static), simulate(by(static, STIFFNESS_TABLE))
+    assert distance(table, full) <= 1e-9
+    assert table.normal_force.values == pytest.approx(full.normal_force.values, rel=1e-9)
+    # Where a pair comes in the other gives way for the body they share, which springs side by side do not: 7 % of the load.
+    shares = np.abs(table.pair_normal_force.values - full.pair_normal_force.values).max() / full.normal_force.values.max()
+    assert shares <= 0.08
+
+
+def table_between_loads(scene, torque: float, loads) -> float:
+    """Distance of a table made at the scene's torque from the full model at another one (in parts of it)."""
+    loaded = replace(scene, load=replace(scene.load, wheel_torque=torque * scene.load.wheel_torque))
+
+    def preparation(built, progress, cache):
+        at_own_load = model(scene)
+        gears, cycle = table_cycle(at_own_load, gear_compliances(built, progress, cache), loads)
+        return gears, deviating(built, cycle)
+
+    return distance(simulate(by(loaded, STIFFNESS_TABLE), preparation=preparation), simulate(loaded))
+
+
+def test_table_between_its_loads(static):
+    """Known order: linear between loads, its error falls with the second power of their distance."""
+    coarse, fine = (0.0, 0.5, 1.0, 1.5), (0.0, 0.5, 0.625, 0.75, 0.875, 1.0, 1.125, 1.25, 1.375, 1.5)
+    errors = [table_between_loads(static, torque, loads) for torque, loads in ((0.75, coarse), (0.6875, fine))]
+    assert errors[1] < errors[0] / 8.0
+    assert table_between_loads(static, 0.93, LOADS) < 0.005
+
+
+def test_table_knows_relief_and_backlash(static, paper_scene):
+    """Exact as above with removed material, and for a negative load on the coast flanks."""
+    text = paper_scene.text + '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n\n[coast_flanks]\n'
+    scene = replace(scene_from_text(text), inertia=None, damping=None, friction=None, accuracy=static.accuracy, motion=static.motion)
+    for torque in (437e3, -437e3):
+        loaded = replace(scene, load=replace(scene.load, wheel_torque=torque))
+        full, table = simulate(loaded), simulate(by(loaded, STIFFNESS_TABLE))
+        assert distance(table, full) <= 1e-9
+        assert set(full.data_vars) - set(table.data_vars) == set(OVER_CONTACT_NODES) & set(full.data_vars)
+
+
+def test_table_in_motion(paper_scene):
+    """Limit: teeth without mass and friction are a mesh spring at any speed; at 200 Hz only the table's own interpolation is between them."""
+    scene = frictionless(coarse_scene(paper_scene, cycles=4))
+    table = simulate(by(scene, STIFFNESS_TABLE))
+    assert distance(table, simulate(scene)) <= 1e-3
+    assert np.abs(table.energy_defect.values).max() <= 1e-10 * table.energy.values.max()
+
+
+class WithoutBending:
+    """A mesh cycle whose friction forces do not bend the teeth: no coupling of normal and tangential directions in the compliance."""
+
+    divisible = False
+
+    def __init__(self, cycle):
+        self._cycle = cycle
+
+    def __getattr__(self, name):
+        return getattr(self._cycle, name)
+
+    def position(self, step):
+        position = self._cycle.position(step)
+        operator = position.operator
+        compliance, before = operator.compliance.copy(), operator.previous_compliance.copy()
+        nodes = operator.nodes
+        compliance[:nodes, nodes:] = compliance[nodes:, :nodes] = 0.0
+        before[:, : before.shape[1] // 2] = 0.0
+        return replace(position, operator=replace(operator, compliance=compliance, previous_compliance=before))
+
+
+def unlike(found, expected) -> float:
+    """Difference of the transmission error without its mean, in the L2 norm, in parts of the expected one's."""
+    first, second = (each.transmission_error.values - each.transmission_error.values.mean() for each in (found, expected))
+    return float(np.sqrt(np.mean((first - second) ** 2) / np.mean(second**2)))
+
+
+def test_friction_of_mesh_springs_does_not_bend_the_teeth(paper_scene):
+    """Limit: with friction the table is the full contact whose friction forces do not bend the teeth, but for where on the flank they act;
+    what it lacks besides is that bending, a sixth of the transmission error's variation on this pair."""
+    scene = quasi_static(coarse_scene(paper_scene))
+
+    def without_bending(built, progress, cache):
+        gears = gear_compliances(built, progress, cache)
+        return gears, WithoutBending(mesh_cycle(built, gears))
+
+    table, full, unbent = simulate(by(scene, STIFFNESS_TABLE)), simulate(scene), simulate(scene, preparation=without_bending)
+    assert unlike(table, unbent) <= 0.04
+    assert unlike(table, full) == pytest.approx(unlike(unbent, full), rel=0.1)
+    assert unlike(simulate(by(frictionless(scene), STIFFNESS_TABLE)), full) > 2.0 * unlike(table, full)
+    assert table.work_friction.values[-1] == pytest.approx(full.work_friction.values[-1], rel=0.03)
+    assert np.abs(table.energy_defect.values).max() <= 1e-10 * table.energy.values.max()
+
+
+def test_friction_force_is_that_of_its_pairs(paper_scene):
+    """Exact: every pair slides but near the pitch point, and then its friction is mu times its normal force."""
+    result = simulate(by(quasi_static(coarse_scene(paper_scene)), STIFFNESS_TABLE))
+    normal, friction = result.pair_normal_force.values, result.pair_friction_force.values
+    sliding = np.abs(np.abs(friction) - 0.1 * normal) <= 1e-9 * normal.max()
+    assert np.all(np.abs(friction) <= 0.1 * normal + 1e-9 * normal.max())
+    assert sliding.mean() > 0.95
+    assert friction.min() < 0.0 < friction.max()
+
+
+def test_iso_deflection(static):
+    """Exact: teeth alone give way by F/(c' b) where one pair is in mesh, and the mean stiffness is c_gamma = c' (0.75 eps + 0.25)."""
+    scene = by(replace(static, shafts=None, bearings=None), ISO_6336, steps_per_mesh_cycle=1000)
+    built, result = model(scene), simulate(scene)
+    force = scene.load.wheel_torque / built.pair.wheel.base_radius
+    stiffness = force / (result.transmission_error.values[:-1] * built.pair.wheel.base_radius)
+    single = pair_stiffness(scene.gears, force / scene.gears.face_width)
+    alone = (result.pair_normal_force.values[:-1] > 0.0).sum(axis=1) == 1
+    assert stiffness[alone] == pytest.approx(np.full(alone.sum(), single), rel=1e-9)
+    assert stiffness[~alone] == pytest.approx(np.full((~alone).sum(), 1.75 * single), rel=1e-9)
+    assert stiffness.mean() == pytest.approx(single * mesh_factor(built.pair.contact_ratio), rel=2e-3)
+
+
+def test_iso_below_full_line_load(static):
+    """From the standard: below 100 N/mm c' falls with the fourth root of the line load; in parts of steel's modulus for others."""
+    assert pair_stiffness(static.gears, 1.0) == pytest.approx(pair_stiffness(static.gears, 500.0) * 0.01**0.25)
+    soft = replace(static.gears, material=replace(static.gears.material, youngs_modulus=103e3))
+    assert pair_stiffness(soft, 500.0) == pytest.approx(0.5 * pair_stiffness(static.gears, 500.0))
+
+
+def test_rigid_teeth_are_those_of_a_scene_without_material(static):
+    """Exact: to the last bit."""
+    rigid, bare = simulate(by(static, RIGID_TEETH)), simulate(replace(static, gears=replace(static.gears, material=None)))
+    assert set(rigid.data_vars) == set(bare.data_vars)
+    for name in bare.data_vars:
+        assert np.array_equal(rigid[name], bare[name], equal_nan=True), name
+
+
+@pytest.mark.parametrize("name", [STIFFNESS_TABLE, ISO_6336])
+def test_every_effect_goes_with_mesh_springs(name, paper_scene):
+    """From the task: valid in every scene; backlash, errors of single teeth, run-out, ripple, a ramp, lost contact."""
+    text = paper_scene.text.replace('"437 N m"', '"40 N m"') + """
+[coast_flanks]
+[flank_errors]
+tolerance_class = 6
+seed = 1
+[eccentricity]
+pinion = { distance = "10 um" }
+[torque_ripple]
+harmonics = [{ order = 8, amplitude = "400 N m" }]
+[tip_relief]
+depth = "31 um"
+start = "HPSTC"
+"""
+    scene = replace(scene_from_text(text), motion=Motion(200.0, 3, 2))
+    scene = replace(scene, accuracy=coarse_scene(paper_scene).accuracy)
+    result = simulate(by(scene, name))
+    assert result.attrs["complete"] == 1
+    assert result.attrs["model"] == name
+    assert np.isfinite(result.transmission_error.values).all()
+    assert np.abs(result.energy_defect.values).max() <= 1e-9 * result.energy.values.max()
+    assert result.coast_normal_force.values.max() > 0.0
+
+
+def test_a_workshop_keeps_them_apart(static):
+    """From the task: what changes the operators changes their key; a table belongs to its load."""
+    keys = {cycle_key(model(by(static, name))) for name in (None, *MODELS)}
+    assert len(keys) == 4
+    other = replace(static, load=replace(static.load, wheel_torque=1e5))
+    assert cycle_key(model(by(static, STIFFNESS_TABLE))) != cycle_key(model(by(other, STIFFNESS_TABLE)))
+    assert cycle_key(model(static)) == cycle_key(model(other))
+    workshop = Workshop()
+    for name in MODELS:
+        kept = simulate(by(static, name), preparation=workshop.prepared)
+        assert np.array_equal(kept.transmission_error, simulate(by(static, name)).transmission_error)
+
+
+@pytest.mark.parametrize(
+    "name, line, said",
+    [
+        (STIFFNESS_TABLE, 'condensation = "every step"', "cannot stand beside condensation"),
+        (ISO_6336, "[output]\nroot_stress = true", "has no stresses"),
+        (RIGID_TEETH, "", "cannot stand beside [friction]"),
+        (ISO_6336, "[corner_contact]", "cannot stand beside [corner_contact]"),
+    ],
+)
+def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
+    """Rule of the house: no option is ignored silently."""
+    text = paper_scene.text.replace('condensation = "once"', f'model = "{name}"\n{line}')
+    with pytest.raises(SceneError, match=said.replace("[", r"\[")):
+        scene_from_text(text)
+
+
+def test_other_models_are_not_loaded():
+    """Rule of the house: a scene that does not ask for them does not import them."""
+    code = "import sys, fenics_gears.simulation; print([m for m in sys.modules if 'spring' in m or 'stiffness_table' in m or 'iso_6336' in m])"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert said.strip() == "[]"
