@@ -9,7 +9,10 @@ friction takes, p1 slip1, as backward Euler has it; what the changing geometry (
 of the prescribed rotation; and the algorithm's own term at changes of contact, 1/2 sum(p0 gap1 - p1 gap0) and its like for friction.
 A node that only one end of the step has keeps there the compliance and the arms of the other end.
 
-F is the mean of the loads at both ends of the step, where they vary. The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load times nominal
+F is the mean of the loads at both ends of the step, where they vary. Backward Euler, which steps where no vibration is sampled and
+between rigid flanks, has another balance: what it dissipates is in the defect.
+
+The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load times nominal
 speed, is added to input and output alike.
 """
 
@@ -78,7 +81,8 @@ def mean_load(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], steps: Seque
     """Forces (n, k), N, on the centre coordinates from each of n + 1 steps to the next, the mean of both."""
     forces = np.tile(drivetrain.load, (len(steps), 1))
     for load in loads:
-        forces = forces + [load(step) for step in steps]
+        # Reshaped for a march that failed at its start and has no steps.
+        forces = forces + np.reshape([load(step) for step in steps], forces.shape)
     return 0.5 * (forces[:-1] + forces[1:])
 
 
