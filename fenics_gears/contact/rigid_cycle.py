@@ -53,21 +53,21 @@ class RigidCycle(Cycle):
         self._removal, self._coordinates = removal, coordinates
 
     def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
-        """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks.
+        """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks, else with both.
 
-        Raises ContactNotConverged where none of them holds the load.
+        Both touch where elastic bearings let the centres give way to teeth that are wider than the spaces between them. Raises
+        ContactNotConverged where none of them holds the load.
         """
         leaders = [int(nodes[np.argmin(problem.gap[nodes])]) for nodes in position.sides if len(nodes)]
-        for iterations, node in enumerate([None, *leaders], 1):
-            forces, coordinates = _solved(problem, node)
-            if forces is not None and _obeys(problem, leaders, node, forces, coordinates):
+        sets = [[], *([leader] for leader in leaders), *([leaders] if len(leaders) == 2 else [])]
+        for iterations, touching in enumerate(sets, 1):
+            forces, coordinates = _solved(problem, touching)
+            if forces is not None and _obeys(problem, leaders, touching, forces, coordinates):
                 status = np.zeros(len(problem.gap), dtype=np.int8)
-                if node is not None:
-                    status[node] = SLIP_FORWARD
+                status[touching] = SLIP_FORWARD
                 displacement = problem.rigid @ coordinates
                 return StepSolution(forces, coordinates, displacement, status, iterations, rung=0)
-        words = problem.free_words or "the load moves the drivetrain freely"
-        raise _no_equilibrium(f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}", len(problem.gap))
+        raise _no_equilibrium(_why(problem, leaders), len(problem.gap))
 
     def _pair(self, place: Place) -> PairNodes | None:
         offsets = node_offsets(self.pair, place.contact_rolls, self.grid)
@@ -104,33 +104,52 @@ def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:
     return np.unique(operator.node_pair[side & (operator.gap <= operator.gap[node] + SAME_GAP)])
 
 
-def _solved(problem: StepProblem, node: int | None) -> tuple[np.ndarray | None, np.ndarray]:
-    """Forces (n,) and coordinates (k,) with one node touching or none; forces None where the drivetrain cannot be solved so."""
+def _solved(problem: StepProblem, touching: list[int]) -> tuple[np.ndarray | None, np.ndarray]:
+    """Forces (n,) and coordinates (k,) with some nodes touching; forces None where the drivetrain cannot be solved so."""
     k, forces = len(problem.load), np.zeros(len(problem.gap))
-    if node is None:
+    if not touching:
         if len(problem.free_motion):
             return None, np.zeros(k)
         return forces, np.linalg.solve(problem.stiffness, problem.load)
-    row = problem.rigid[node]
-    # The force in units of the load's stiffness over a length, so that the matrix is not torn between magnitudes.
+    rows = problem.rigid[touching]
+    if len(touching) > 1 and not _independent(rows):
+        return None, np.zeros(k)
+    # The forces in units of the load's stiffness over a length, so that the matrix is not torn between magnitudes.
     unit = np.abs(problem.stiffness).max(initial=0.0) or 1.0
-    matrix = np.zeros((k + 1, k + 1))
-    matrix[:k, :k], matrix[:k, k], matrix[k, :k] = problem.stiffness, unit * row, unit * row
+    matrix = np.zeros((k + len(touching), k + len(touching)))
+    matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, unit * rows.T, unit * rows
     try:
-        solution = np.linalg.solve(matrix, np.append(problem.load, unit * problem.gap[node]))
+        solution = np.linalg.solve(matrix, np.append(problem.load, unit * problem.gap[touching]))
     except np.linalg.LinAlgError:
         return None, np.zeros(k)
-    forces[node] = unit * solution[k]
+    forces[touching] = unit * solution[k:]
     return forces, solution[:k]
 
 
-def _obeys(problem: StepProblem, leaders: list[int], node: int | None, forces: np.ndarray, coordinates: np.ndarray) -> bool:
+def _independent(rows: np.ndarray) -> bool:
+    """Whether drive and coast flanks hold the gears differently: where their centres are fixed, one takes what the other gives."""
+    return np.linalg.matrix_rank(rows, tol=1e-9) == len(rows)
+
+
+def _obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces: np.ndarray, coordinates: np.ndarray) -> bool:
     """Whether nothing pulls and nothing penetrates."""
-    if node is not None and forces[node] < -problem.tolerance.force:
+    if np.min(forces[touching], initial=0.0) < -problem.tolerance.force:
         return False
     displaced = problem.rigid[leaders] @ coordinates - problem.gap[leaders]
-    others = [value for leader, value in zip(leaders, displaced) if leader != node]
+    others = [value for leader, value in zip(leaders, displaced) if leader not in touching]
     return max(others, default=-np.inf) <= problem.tolerance.length
+
+
+def _why(problem: StepProblem, leaders: list[int]) -> str:
+    """Why no set of nodes holds the load."""
+    play = float(problem.gap[leaders].sum())
+    if len(leaders) == 2 and play < 0.0 and not _independent(problem.rigid[leaders]):
+        return (
+            f"no equilibrium: rigid teeth are wedged between drive and coast flanks, by {-1e3 * play:.4g} um more than there is backlash: "
+            "raise gears.centre_distance, lower what the flanks deviate, or let them give way ([gears.material] or [bearings])"
+        )
+    words = problem.free_words or "the load moves the drivetrain freely"
+    return f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"
 
 
 def _no_equilibrium(words: str, nodes: int) -> ContactNotConverged:
