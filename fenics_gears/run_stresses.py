@@ -107,6 +107,11 @@ class RunStresses:
     def _check(self) -> None:
         if self.built.scene.tooth_elasticity is None:
             raise ComputationError("the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and run it again.")
+        if not self.built.scene.resolves_contact:
+            raise ComputationError(
+                f'the run has a mesh of springs (accuracy.model = "{self.built.scene.accuracy.model}"): there are no stresses. '
+                'Run the scene with "elastic".'
+            )
         if self.built.resolution.condensation != ONCE:
             raise ComputationError('stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run the scene with "once".')
 

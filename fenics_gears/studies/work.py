@@ -18,7 +18,7 @@ from fenics_gears.simulation import simulate, tooth_reach
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.record import Record
 from fenics_gears.studies.study import Case
-from fenics_gears.studies.workshop import GEARS, cycle_key, gear_key, own_workshop
+from fenics_gears.studies.workshop import GEARS, cycle_key, gear_key, has_gears, own_workshop
 
 Tick = Callable[[], None]
 
@@ -53,9 +53,9 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
     tasks: dict[tuple, GearTask] = {}
     for case in cases:
         built = model(case.scene)
-        if built.resolution.condensation == EVERY_STEP:
+        if built.resolution.condensation == EVERY_STEP or not has_gears(built):
             continue
-        cycle = cycle_key(built)[:3]  # the reach follows from gears and accuracy
+        cycle = cycle_key(built)[:4]  # the reach follows from gears and accuracy
         if cycle not in reaches:
             reaches[cycle] = tooth_reach(built)
         for name in GEARS:

@@ -12,6 +12,7 @@ from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.model import Model
 from fenics_gears.progress import Progress
 from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.scene.data import ISO_6336
 from fenics_gears.simulation import Compliances, gear_compliance, mesh_cycle, prepared, tooth_reach
 
 GEARS = ("pinion", "wheel")
@@ -59,6 +60,11 @@ class Workshop:
 def own_workshop() -> Workshop:
     """The workshop of this process."""
     return Workshop()
+
+
+def has_gears(built: Model) -> bool:
+    """Whether a scene's model needs the gears' elasticity."""
+    return built.scene.tooth_elasticity is not None and built.scene.accuracy.model != ISO_6336
 
 
 def gear_key(built: Model, name: str, reach: int) -> tuple:

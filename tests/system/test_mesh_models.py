@@ -17,6 +17,8 @@ from fenics_gears.model import model
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation import deviating, gear_compliances, mesh_cycle, simulate
+from fenics_gears.studies.study import Case
+from fenics_gears.studies.work import gear_tasks, in_order_of_sharing
 from fenics_gears.studies.workshop import Workshop, cycle_key
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
@@ -229,3 +231,12 @@ def test_other_models_are_not_loaded():
     code = "import sys, fenics_gears.simulation; print([m for m in sys.modules if 'spring' in m or 'stiffness_table' in m or 'iso_6336' in m])"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert said.strip() == "[]"
+
+
+def test_a_study_condenses_what_its_models_need(static):
+    """From the task: a sweep over the models of the mesh meshes the gears once, for the full contact and the table alone."""
+    cases = [Case(i, {"accuracy.model": name}, by(static, name), str(i)) for i, name in enumerate(("elastic", *MODELS))]
+    tasks = gear_tasks(cases)
+    assert [task.name for task in tasks] == ["pinion", "wheel"]
+    assert gear_tasks(cases[1:2] + cases[3:]) == []
+    assert len(in_order_of_sharing(cases)) == 4

@@ -15,7 +15,8 @@ from fenics_gears.errors import ComputationError, GearsError, SceneError
 from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
-from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.scene.data import Scene
 from fenics_gears.simulation import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
 from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.machine import machine
@@ -128,8 +129,14 @@ def at_one_accuracy(scene: Scene) -> Scene:
     if resolution.condensation == EVERY_STEP:
         raise SceneError('accuracy.condensation = "every step": the effects are measured on the fast route. Take "once", or leave it out.')
     grid = resolution.contact_grid
-    settings = Accuracy(
-        resolution.element, resolution.flank_element_size, grid.length, grid.nodes, resolution.steps_per_mesh_cycle, resolution.condensation
+    settings = replace(
+        scene.accuracy,
+        element=resolution.element,
+        flank_element_size=resolution.flank_element_size,
+        contact_length=grid.length,
+        contact_nodes=grid.nodes,
+        steps_per_mesh_cycle=resolution.steps_per_mesh_cycle,
+        condensation=resolution.condensation,
     )
     return replace(scene, accuracy=settings)
 
@@ -185,7 +192,7 @@ class Bench:
 
     def _build(self) -> tuple[Cycle, float]:
         """The contact operators of a mesh cycle, all of them, and the seconds they took."""
-        elastic = self._built.scene.tooth_elasticity is not None
+        elastic = self._built.scene.resolves_contact
         compliances = self._gears.of(self._built) if elastic else ()
         begun = time.perf_counter()
         cycle = mesh_cycle(self._built, compliances) if elastic else prepared(self._built, SilentProgress(), None)[1]
@@ -194,7 +201,7 @@ class Bench:
         return cycle, time.perf_counter() - begun
 
     def _run(self, scene: Scene, cycle: Cycle) -> xr.Dataset:
-        compliances = self._gears.of(self._built) if self._built.scene.tooth_elasticity is not None else ()
+        compliances = self._gears.of(self._built) if self._built.scene.resolves_contact else ()
         result = simulate(scene, preparation=lambda built, progress, cache: (compliances, cycle))
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
@@ -228,10 +235,10 @@ class Bench:
                 coordinates, self._contact_rows, closed, iterations, scene.inertia is not None, scene.friction is not None, _varying(scene)
             ),
             step_times=tuple(self._step_times),
-            condense=self._gears.seconds(self._built) if scene.tooth_elasticity is not None else 0.0,
+            condense=self._gears.seconds(self._built) if scene.resolves_contact else 0.0,
             operators=self._operators,
             transmission_error=run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"],
-            peak_force=float(run.normal_force.max()),
+            peak_force=largest_normal_force(run),
             remarks=tuple(_remarks(self.subset, run)),
         )
 
