@@ -8,6 +8,7 @@ import pytest
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.contact_loss import ContactLoss, contact_losses, loss_attributes
 from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation import simulate
 
@@ -88,7 +89,8 @@ def test_impacts_that_the_time_step_does_not_resolve_are_named(coarse):
     assert said == [True, False]
 
 
-def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coarse, monkeypatch):
+@pytest.mark.parametrize("ripple", [None, TorqueRipple((Harmonic(1.0, 20e3),))], ids=["steady", "varying load"])
+def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coarse, ripple, monkeypatch):
     """Failure is part of the interface: a typed error that carries what was done, here nothing."""
     from fenics_gears.contact.errors import ContactNotConverged
     from fenics_gears.dynamics.march import Marcher
@@ -98,6 +100,6 @@ def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coars
 
     monkeypatch.setattr(Marcher, "start", fail)
     with pytest.raises(ContactNotConverged, match="for the test") as failure:
-        simulate(coarse)
+        simulate(replace(coarse, torque_ripple=ripple))
     assert failure.value.partial.sizes["time"] == 0
     assert failure.value.partial.attrs["complete"] == 0
