@@ -118,8 +118,11 @@ def _solved(problem: StepProblem, touching: list[int]) -> tuple[np.ndarray | Non
     unit = np.abs(problem.stiffness).max(initial=0.0) or 1.0
     matrix = np.zeros((k + len(touching), k + len(touching)))
     matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, unit * rows.T, unit * rows
+    right = np.append(problem.load, unit * problem.gap[touching])
     try:
-        solution = np.linalg.solve(matrix, np.append(problem.load, unit * problem.gap[touching]))
+        solution = np.linalg.solve(matrix, right)
+        # Slow masses are no stiffness to speak of: the load over it is a length beside which the gap is lost in round-off.
+        solution += np.linalg.solve(matrix, right - matrix @ solution)
     except np.linalg.LinAlgError:
         return None, np.zeros(k)
     forces[touching] = unit * solution[k:]
