@@ -1,0 +1,145 @@
+"""Both gears of a run recovered at stored times: they touch where the run says, and stand where their geometry says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+from tests.coarse import coarse_scene, frictionless, quasi_static
+
+from fenics_gears import results
+from fenics_gears.contact.compliance_product import directions
+from fenics_gears.contact.operator import rigid_rows
+from fenics_gears.contact.tooth_pair import COAST
+from fenics_gears.contact.flank_forces import sector_of, unmirrored
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.results.stored_forces import stored_forces, stored_index
+from fenics_gears.run_stresses import RunStresses, hub_motion, standing
+from fenics_gears.scene.data import Load
+from fenics_gears.show.drawn_scale import automatic_scale, overlap
+from fenics_gears.show.stress_grid import save_vtu
+from fenics_gears.show.stress_picture import most_loaded
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module", params=["friction and inertia", "driven from the wheel on coast flanks"])
+def run(request, paper_scene):
+    """A scene on a coarse mesh, and its result."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    if request.param.startswith("driven"):
+        scene = replace(quasi_static(scene), coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
+    return scene, simulate(scene, cache=user_cache())
+
+
+@pytest.fixture(scope="module")
+def stresses(run):
+    with RunStresses(run[1], run[0]) as found:
+        yield found
+
+
+def test_flanks_touch_where_the_pressure_is(run, stresses):
+    """Signorini: averaged over the hats of the contact nodes, the recovered displacement closes the gap at every node under pressure (N u = g),
+    and leaves none open that is negative elsewhere. Nothing of the run's own displacements is used, only its forces and hubs."""
+    scene, result = run
+    for index in (0, 13, 29):
+        stored = stored_forces(result, stresses.built, stresses.cycle, index)
+        assert any(np.any(force) for force in stored.forces)
+        pair = stresses.built.pair
+        radii = (pair.pinion.base_radius, pair.wheel.base_radius)
+        arms = tuple(np.full(sum(len(each.offsets) for each in stored.pairs), radius) for radius in radii)
+        motion = hub_motion(result, index)
+        motion[:, 2] *= radii
+        approach = (rigid_rows(stored.pairs, radii, arms, tangential=False)[:, :6] @ motion.ravel()).copy()
+        start = 0
+        for touching, force in zip(stored.pairs, stored.forces):
+            nodes = slice(start, start + len(touching.offsets))
+            start = nodes.stop
+            for gear, recovery in enumerate(stresses.recoveries):
+                body = recovery.recovered(stored.on_flanks(stresses.built, gear))
+                side = "coast" if touching.place.flank == COAST else "flank"
+                moved = body.displacement[sector_of(gear, touching) % len(body.displacement)][recovery.interior.flank_nodes(side)]
+                if side == "coast":
+                    moved = unmirrored(recovery.gear, moved.ravel()).reshape(-1, 2)
+                # Outwards of either gear brings the flanks together.
+                approach[nodes] += touching.interpolation[gear].weights @ moved @ directions(touching.place.contact_rolls[gear], False)[0]
+            opening = touching.gap - approach[nodes]
+            closed = force[: len(touching.offsets)] > 0.0
+            assert np.abs(opening[closed]).max(initial=0.0) < 1e-9
+            assert opening[~closed].min(initial=0.0) > -1e-9
+
+
+def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(run, stresses):
+    """Geometry: distance of the centres; tips on their circles; the displaced outlines meet within the mesh where the largest force is."""
+    scene, result = run
+    mesh = stresses.at(13)
+    assert np.linalg.norm(mesh.gears[1].centre - mesh.gears[0].centre) == pytest.approx(scene.gears.centre_distance, rel=1e-12)
+    for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
+        radius = np.linalg.norm(body.points - body.centre, axis=1)
+        assert radius.max() == pytest.approx(gear.tip_radius, rel=1e-9) and radius.min() == pytest.approx(gear.bore_radius, rel=1e-3)
+    if "coast_normal_force" not in result:
+        contact, _ = most_loaded(mesh, result)
+        outlines = [body.points[np.unique(body.outline)] + body.displacement[np.unique(body.outline)] for body in mesh.gears]
+        # Nodes 0.12 mm apart on either flank.
+        assert all(cKDTree(outline).query(contact)[0] < 0.2 for outline in outlines)
+        # Neither gear is inside the other by more than the sagitta of its straight elements and the averaging of the hats.
+        assert overlap(mesh, 1.0) < 2e-3
+
+
+def test_a_tooth_pair_later_is_the_same_position(run, stresses):
+    """Periodicity: after one mesh cycle the gears stand as before, one tooth on."""
+    pair = stresses.built.pair
+    for gear, sense in ((0, 1), (1, -1)):
+        centre, first = standing(pair, gear, 0.0)
+        after = standing(pair, gear, 1.0)[1]
+        np.testing.assert_allclose(after, first + sense * (first[1] - first[0]), atol=1e-12)
+        np.testing.assert_allclose(standing(pair, gear, 0.5)[0], centre)
+
+
+def test_displacements_that_fit_the_picture_are_drawn_apart(run, stresses):
+    """What the scale promises: of the scales 1, 2, 5, ... one at which no tooth is drawn into another by more than 0.02 modules."""
+    mesh = stresses.at(13)
+    scale = automatic_scale([mesh])
+    assert scale >= 1.0 and overlap(mesh, scale) <= 0.02 * mesh.pair.pinion.module
+
+
+def test_the_file_for_paraview_holds_the_fields(run, stresses, tmp_path):
+    """Round trip through VTK's own reader: points, displacement and von Mises stress."""
+    pyvista = pytest.importorskip("pyvista")
+    mesh = stresses.at(0)
+    save_vtu(mesh, tmp_path / "gears.vtu")
+    read = pyvista.read(tmp_path / "gears.vtu")
+    assert read.n_cells == sum(len(body.cells) for body in mesh.gears)
+    np.testing.assert_allclose(read.points[:, :2], np.vstack([body.points for body in mesh.gears]), rtol=1e-6)
+    np.testing.assert_allclose(read.point_data["displacement"][:, :2], np.vstack([body.displacement for body in mesh.gears]))
+    np.testing.assert_allclose(read.point_data["von_mises_stress"], np.concatenate([body.von_mises for body in mesh.gears]))
+
+
+def test_a_result_of_another_scene_is_refused(run):
+    """The stored contact nodes must be the scene's own."""
+    scene, result = run
+    other = replace(scene, accuracy=replace(scene.accuracy, contact_nodes=20))
+    with RunStresses(result, other) as stresses, pytest.raises(ComputationError, match="not those of the scene"):
+        stresses.at(0)
+
+
+def test_what_has_no_stress_is_refused(run, paper_scene):
+    """Rigid flanks; the paper's own route, whose flank nodes are others at every step; a time that was not stored."""
+    scene, result = run
+    rigid = replace(frictionless(scene), gears=replace(scene.gears, material=None))
+    with pytest.raises(ComputationError, match="rigid"):
+        RunStresses(result, rigid)
+    remeshed = replace(scene, coast_flanks=None, load=paper_scene.load, accuracy=replace(scene.accuracy, condensation="every step"))
+    with pytest.raises(ComputationError, match="once"):
+        RunStresses(result, remeshed)
+    with pytest.raises(SceneError, match="stored mesh cycles 0 to 1"):
+        stored_index(result, 1.5)
+
+
+def test_a_result_from_its_file_gives_the_same(run, stresses, tmp_path):
+    """Round trip: NetCDF keeps every digit."""
+    scene, result = run
+    results.save(result, tmp_path / "run.nc")
+    with RunStresses(results.load(tmp_path / "run.nc"), scene) as again:
+        np.testing.assert_allclose(again.at(5).gears[0].stress, stresses.at(5).gears[0].stress, rtol=1e-12, atol=1e-9)
