@@ -166,7 +166,9 @@ def test_all_accuracy_is_that_of_the_whole_scene():
     text = re.sub(r"\[accuracy\].*?\n\n", "", text_of(TEETH, "inertia", "shafts"), flags=re.S)
     assert "[accuracy]" not in text and "[gears.material]" in text
     scene = measured.at_one_accuracy(scene_from_text(text))
-    assert None not in vars(scene.accuracy).values()
+    # What these leave out is the same in every scene of the same gears.
+    alike = ("body_element_size", "interpolation", "elastic_teeth", "model")
+    assert None not in [value for name, value in vars(scene.accuracy).items() if name not in alike]
     assert {subset.scene.accuracy for subset in lattice(scene)[0]} == {scene.accuracy}
 
 
