@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.laws import OPEN
+from fenics_gears.contact.laws import NO_FORCE, OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import over_nodes
 from fenics_gears.contact.window import flank_ends
@@ -46,7 +46,7 @@ def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     of_flanks = [*_window(cycle, records), *_sharp_edge(cycle, records), *_rank(records)] if cycle.resolves_flanks else []
     return [
         *of_flanks, *_rotation(drivetrain, records),
-        *_separation(cycle, march, clock), *_locking(cycle, march), *_uniqueness(march),
+        *_separation(cycle, drivetrain, march, clock), *_locking(cycle, march), *_uniqueness(march),
     ]  # fmt: skip
 
 
@@ -108,22 +108,23 @@ def _on_tips(cycle: Cycle, record: Record) -> set[str]:
     """The gears whose tip edge carries force in a record: the end node of a tooth pair stands on the edge that ends its flank."""
     found, start, half = set(), 0, 0.5 * cycle.grid.length * (1.0 - 1e-9)
     for pair in record.position.operator.pairs:
-        closed = record.solution.status[start : start + len(pair.offsets)] != OPEN
+        pressed = record.solution.forces[start : start + len(pair.offsets)] > NO_FORCE
         start += len(pair.offsets)
-        if pair.place.line is not None or not (closed[0] or closed[-1]):
+        if pair.place.line is not None or not (pressed[0] or pressed[-1]):
             continue
         below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
-        if closed[0] and below[0] >= below[1] and below[0] > -half:
+        if pressed[0] and below[0] >= below[1] and below[0] > -half:
             found.add("pinion")
-        if closed[-1] and above[1] <= above[0] and above[1] < half:
+        if pressed[-1] and above[1] <= above[0] and above[1] < half:
             found.add("wheel")
     return found
 
 
-def _separation(cycle: Cycle, march: March, clock: Clock) -> list[str]:
+def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock) -> list[str]:
     """Loss of contact: how often, when, how long, how far; beyond the backlash the coast flanks, which the scene does not have, would touch."""
     losses = contact_losses(march.separations)
-    if not losses:
+    # A negative couple has the wheel drive, on the coast flanks, which is no loss.
+    if not losses or (cycle.coast_flanks and drivetrain.driven_backwards and len(march.separations) == march.steps):
         return []
     backlash, widest = cycle.pair.backlash, max(loss.opening for loss in losses)
     longest = max(losses, key=lambda loss: loss.duration(clock))

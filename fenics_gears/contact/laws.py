@@ -8,6 +8,8 @@ from numba import njit
 
 # What a contact node does. Without friction a closed node counts as SLIP_FORWARD: it carries no tangential force.
 OPEN, SLIP_FORWARD, SLIP_BACKWARD, STICK = 0, 1, 2, 3
+# N. Without a load the closed nodes carry what rounding leaves, below this.
+NO_FORCE = 1e-9
 STATUS_NAMES = ("open", "slips forward", "slips backward", "sticks")
 
 

@@ -40,6 +40,11 @@ class Drivetrain:
         return [CENTRE_COORDINATES.index(name) for name in self.coordinates]
 
     @property
+    def driven_backwards(self) -> bool:
+        """Whether the load drives the pair from the wheel."""
+        return bool(self.load[self.coordinates.index("rotation_2")] < 0.0)
+
+    @property
     def free_motion(self) -> np.ndarray:
         """How the load moves the drivetrain where, without mass, only contact holds it (k,); empty where the stiffness does."""
         values, vectors = np.linalg.eigh(self.stiffness)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -39,6 +40,12 @@ def mesh_variables(scene: Scene, records: list[Record]) -> dict:
             openings = [max(smallest_opening(record, flank), 0.0) for record in records]
             values[name] = (("time",), np.array(openings))
     return values
+
+
+def largest_normal_force(result: xr.Dataset) -> float:
+    """The largest contact force (N) of a mesh, on its drive or its coast flanks."""
+    forces = [result[name].values.max(initial=0.0) for name in ("normal_force", "coast_normal_force") if name in result]
+    return float(max(forces))
 
 
 def _normal(record: Record) -> np.ndarray:

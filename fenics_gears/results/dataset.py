@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
+from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.pressure import peak_pressure
 from fenics_gears.dynamics.clock import Clock
@@ -19,7 +20,7 @@ from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record, VaryingLoad
 from fenics_gears.effects import effects_on, result_variables
-from fenics_gears.results.contact_variables import mesh_variables, pair_variables
+from fenics_gears.results.contact_variables import largest_normal_force, mesh_variables, pair_variables
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.scene.data import Scene
 from fenics_gears.validity import warnings_of, warnings_of_energy
@@ -107,9 +108,18 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
     attributes |= {f"steps_by_rung: {rung}": count for rung, count in march.rungs.items() if count}
     if len(error):
         if "contact_pressure" in result:
-            attributes["peak_contact_pressure"] = peak_pressure(result["contact_pressure"].values, result["contact_offset"].values)
+            attributes["peak_contact_pressure"] = _peak_pressure(result)
         attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
         attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
-    if len(error) > 1 and scene.friction is not None and result["work_input"].values[-1]:
+    if len(error) > 1 and scene.friction is not None and result["work_input"].values[-1] and largest_normal_force(result) > NO_FORCE:
         attributes["friction_loss"] = float(result["work_friction"].values[-1] / abs(result["work_input"].values[-1]))
     return attributes
+
+
+def _peak_pressure(result: xr.Dataset) -> float:
+    """The largest pressure (MPa) on drive or coast flanks, whichever it is on."""
+    peak = peak_pressure(result["contact_pressure"].values, result["contact_offset"].values)
+    if "coast_contact_pressure" not in result:
+        return peak
+    # Roll angles, as offsets, are NaN where there is no contact node.
+    return max(peak, peak_pressure(result["coast_contact_pressure"].values, result["coast_contact_roll_angle"].values))

@@ -20,6 +20,9 @@ from fenics_gears.show.units import factor, in_unit
 COMMON_SHARE = 98.0  # per cent of the cells that the colour scale spans
 NAMED_SHARE = 0.2  # of the time axis, that a pair's band must span to have its number beside it
 
+# Which side of the teeth: how the result's variables of that side begin.
+DRIVE, COAST = "", "coast_"
+
 _DEGREES = factor("rad", "deg")
 
 
@@ -37,10 +40,26 @@ def contact_pressure(dataset: xr.Dataset) -> Figure | None:
     """Pressure (MPa) over mesh cycles and the pinion's roll angle (deg), the wheel's beside it, the pitch point marked."""
     if "contact_pressure" not in dataset or "contact_roll_angle" not in dataset:
         return None
-    cells = pressure_cells(dataset)
-    figure, (axes,) = panels(dataset, "Contact pressure on the flanks", [5.2])
+    sides = _sides_under_pressure(dataset)
+    figure, every_axes = panels(dataset, "Contact pressure on the flanks", [5.2] * len(sides))
+    for axes, side in zip(every_axes, sides):
+        _draw_side(figure, axes, dataset, side)
+        if COAST in sides:
+            name, note = "Coast flanks" if side == COAST else "Drive flanks", axes.get_title(loc="left")
+            axes.set_title(f"{name}. {note}" if note else name)
+    return figure
+
+
+def _sides_under_pressure(dataset: xr.Dataset) -> list[str]:
+    """The sides of the teeth that carry in the record; drive flanks where neither does."""
+    sides = [side for side in (DRIVE, COAST) if f"{side}contact_pressure" in dataset and (dataset[f"{side}contact_pressure"] > 0.0).any()]
+    return sides or [DRIVE]
+
+
+def _draw_side(figure: Figure, axes: Axes, dataset: xr.Dataset, side: str) -> None:
+    cells = pressure_cells(dataset, side)
     axes.set_ylabel("Roll angle on the pinion's flank (deg)")
-    places = in_unit(dataset["contact_roll_angle"], "deg")
+    places = in_unit(dataset[f"{side}contact_roll_angle"], "deg")
     finite = places[np.isfinite(places)]
     if finite.size:
         axes.set_ylim(finite.min() - 0.5, finite.max() + 0.5)
@@ -50,14 +69,13 @@ def contact_pressure(dataset: xr.Dataset) -> Figure | None:
         _draw_wheel_axis(axes, pair)
     _draw_cells(figure, axes, cells)
     _name_pairs(axes, cells)
-    return figure
 
 
-def pressure_cells(dataset: xr.Dataset) -> Cells:
+def pressure_cells(dataset: xr.Dataset, side: str = DRIVE) -> Cells:
     """One rectangle for each contact node under pressure: a time step wide, reaching half-way to the node's neighbours."""
     order = ("time", "pair", "contact_node")
-    pressure = in_unit(dataset["contact_pressure"].transpose(*order), "MPa")
-    place = in_unit(dataset["contact_roll_angle"].transpose(*order), "deg")
+    pressure = in_unit(dataset[f"{side}contact_pressure"].transpose(*order), "MPa")
+    place = in_unit(dataset[f"{side}contact_roll_angle"].transpose(*order), "deg")
     phase = dataset["mesh_phase"].values
     low, high = _node_edges(place)
     before, after = _step_edges(phase)

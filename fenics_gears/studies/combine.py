@@ -24,7 +24,7 @@ MOST_CURVE_VALUES = 100_000_000
 NUMBERS = {
     "peak_to_peak_transmission_error": ("rad", "transmission error, peak to peak"),
     "mean_transmission_error": ("rad", "transmission error, mean"),
-    "max_normal_force": ("N", "largest contact force of the mesh along the line of action"),
+    "max_normal_force": ("N", "largest contact force of the mesh, on its drive or its coast flanks"),
     "newton_iterations": ("1", "Newton iterations of the run"),
     "steps_per_mesh_cycle": ("1", "steps per mesh cycle"),
     "wall_time": ("s", "wall time of the run"),

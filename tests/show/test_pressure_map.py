@@ -114,3 +114,16 @@ def test_no_contact_at_all_and_no_pressure_variable():
     run["contact_pressure"][:] = 0.0
     assert len(patches(contact_pressure(run)).get_paths()) == 0
     assert contact_pressure(run.drop_vars("contact_pressure")) is None
+
+
+def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
+    """Authority: the dataset. A pair that the wheel drives presses on its coast flanks only, another one on both in turn."""
+    run = made_up_run()
+    zero = run["contact_pressure"] * 0.0
+    run["coast_contact_roll_angle"] = run["contact_roll_angle"]
+    coasting = run.assign(coast_contact_pressure=run["contact_pressure"], contact_pressure=zero.assign_attrs(run["contact_pressure"].attrs))
+    figure = contact_pressure(coasting)
+    np.testing.assert_array_equal(patches(figure).get_array(), pressure_cells(run).pressure)
+    assert figure.get_axes()[0].get_title(loc="left").startswith("Coast flanks")
+    both = contact_pressure(run.assign(coast_contact_pressure=run["contact_pressure"]))
+    assert [axes.get_title(loc="left").split(".")[0] for axes in both.get_axes()[:2]] == ["Drive flanks", "Coast flanks"]

@@ -10,6 +10,8 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.friction import Friction
+from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation import simulate
 
@@ -55,3 +57,21 @@ def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks
     assert np.all(with_coast.coast_normal_force.values == 0.0)
     assert with_coast.transmission_error.values == pytest.approx(without.transmission_error.values, rel=1e-3)
     assert not any("coast" in str(name) for name in without)
+
+
+def test_numbers_of_a_run_are_those_of_the_flanks_that_carry(both_flanks):
+    """Authority: the mirror. Driven by the wheel, the pair presses as hard as driven by the pinion, and calls that no loss of contact."""
+    forward = simulate(quasi_static(both_flanks))
+    backward = simulate(quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=-both_flanks.load.wheel_torque)))
+    assert np.all(backward.normal_force.values == 0.0)
+    assert largest_normal_force(backward) == pytest.approx(largest_normal_force(forward), rel=1e-9)
+    # The steps of one do not mirror those of the other, and tips press with sharp edges.
+    assert backward.attrs["peak_contact_pressure"] == pytest.approx(forward.attrs["peak_contact_pressure"], rel=0.25)
+    assert "lose contact" not in backward.attrs["warnings"]
+
+
+def test_a_pair_without_load_says_nothing_of_friction_and_pressure(both_flanks):
+    """Authority: zero. What rounding leaves on the closed node is neither a friction loss nor pressure on a sharp edge."""
+    idle = simulate(quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=0.0), friction=Friction(0.1), coast_flanks=None))
+    assert "friction_loss" not in idle.attrs
+    assert "sharp edge" not in idle.attrs["warnings"]
