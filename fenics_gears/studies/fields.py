@@ -69,6 +69,14 @@ def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
     return tree
 
 
+def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
+    """A copy of a parsed scene that has the section at ``path``, with the fields that it had before, if any."""
+    home: Any = tree
+    for name in path:
+        home = home.get(name) if isinstance(home, Mapping) else None
+    return dict(tree) if isinstance(home, Mapping) else changed(tree, path, {})
+
+
 def as_toml(tree: Mapping[str, Any]) -> str:
     """A parsed scene as the text of a scene file."""
     return "\n".join(_section_lines(tree, ())).strip() + "\n"

@@ -50,7 +50,7 @@ class Changes:
         for path in self.without:
             tree = fields.changed(tree, path, fields.ABSENT)
         for path, value in self.fixed.items():
-            tree = fields.changed(tree, path, value)
+            tree = fields.with_section(tree, path) if value == {} else fields.changed(tree, path, value)
         for axis, value in zip(self.axes, point):
             tree = fields.changed(tree, axis.path, value)
         return dict(tree)
@@ -184,7 +184,7 @@ def _entries(tree: Mapping[str, Any], table: str, mistakes: Mistakes) -> list[tu
             path = (*home, *key.split("."))
             if problem := fields.why_unknown(path):
                 mistakes.add((table, ".".join(path)), _shown(value), problem)
-            elif isinstance(value, Mapping) and fields.is_section(path):
+            elif isinstance(value, Mapping) and value and fields.is_section(path):
                 walk(path, value)
             else:
                 found.append((path, value))
@@ -212,7 +212,8 @@ def _check_overlaps(without, fixed, axes: tuple[Axis, ...], mistakes: Mistakes) 
         for other in swept:
             if other != path and other == path[: len(other)]:
                 mistakes.add(("sweep", ".".join(path)), None, f"lies in [{'.'.join(other)}], which is swept too. Sweep one of the two.")
-        if path in fixed:
+        # A section is named in [set] so that "present" has it.
+        if fixed.get(path, {}) != {}:
             mistakes.add(("set", ".".join(path)), None, "is swept too. Leave it out of [set].")
         if swept.count(path) > 1:
             mistakes.add(("sweep", ".".join(path)), None, "is swept twice.")

@@ -76,6 +76,19 @@ def test_sections_can_be_absent_present_or_written_out(folder):
     assert list(study.axes[0].coordinate()) == ["absent", "present", "coefficient = 0.3"]
 
 
+@pytest.mark.parametrize("section", ["coast_flanks = {}", "[set.coast_flanks]"])
+def test_a_section_without_fields_can_be_set_and_swept(folder, section):
+    """Authority: docs/studies.md: "present" is the section as the base scene and [set] have it."""
+    path = write_study(folder, f'[set]\n{section}\n[sweep]\ncoast_flanks = ["absent", "present"]\n')
+    assert [case.scene.coast_flanks is not None for case in load_study(path).cases] == [False, True]
+
+
+def test_a_section_set_without_fields_keeps_those_of_the_scene(folder):
+    """Authority: [set] adds to the scene; what is to go stands in `without`."""
+    study = load_study(write_study(folder, '[set]\nfriction = {}\n[sweep]\nload.wheel_torque = ["1 N m"]\n'))
+    assert study.cases[0].scene.friction.coefficient == 0.1
+
+
 def test_what_is_left_out_is_gone_before_what_is_set(folder):
     """Authority: the definition of `without` and `[set]`."""
     study = load_study(
