@@ -5,12 +5,18 @@ from __future__ import annotations
 from math import degrees
 
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_checks import ROUNDING
 from fenics_gears.geometry.pair import GearPair
 
 
 def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:
     """Rows (label, value, unit) on the pair, then on each gear; lengths in mm, angles in deg."""
     return [*_pair_rows(pair), *_pinion_rows(pair), *_wheel_rows(pair)]
+
+
+def _rounded(length: float) -> float:
+    """A length (mm), zero where it is a rounding error."""
+    return 0.0 if abs(length) < ROUNDING else length
 
 
 def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
@@ -23,7 +29,7 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("pitch point, from T1", pair.pitch_point, "mm"),
         ("end of contact, from T1", pair.path_end, "mm"),
         ("pitch point, from T2 (e)", pair.pitch_point_to_wheel_tangent, "mm"),
-        ("backlash along the line of action", pair.backlash, "mm"),
+        ("backlash along the line of action", _rounded(pair.backlash), "mm"),
         ("centre distance without backlash", pair.centre_distance_without_backlash, "mm"),
     ]
 

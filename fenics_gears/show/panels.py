@@ -72,7 +72,7 @@ def _heading(figure: Figure, dataset: xr.Dataset, subject: str) -> None:
     lines = [textwrap.shorten(f"{subject}: {title}" if title else subject, 92, placeholder=" …")]
     scene = scene_of(dataset)
     if scene is not None:
-        lines.append(conditions(scene))
+        lines += textwrap.wrap(conditions(scene), 92, break_long_words=False)
     complete = bool(dataset.attrs.get("complete", 1))
     if not complete:
         lines.append(f"INCOMPLETE RUN: stopped at mesh cycle {dataset['mesh_phase'].values[-1]:.2f}")
