@@ -12,7 +12,7 @@ from fenics_gears.contact.operator import rigid_rows
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model import Model
 from fenics_gears.results import dataset
-from fenics_gears.simulation import Compliances, mesh_cycle
+from fenics_gears.simulation import Compliances, mesh_cycle, rigid_cycle
 
 
 @dataclass(frozen=True)
@@ -30,19 +30,24 @@ class Run:
         return self.built.scene.friction.coefficient if self.built.scene.friction else 0.0
 
 
-def run_of(built: Model, compliances: Compliances) -> Run:
-    """March a scene on given gears and keep every step; its result is made too, and must hold no NaN where nodes stand."""
-    cycle = mesh_cycle(built, compliances)
+# Not numbers by design: contact nodes that do not stand, and the shares of rigid pairs that touch together.
+NODES_OF_THEIR_OWN, SHARES = ("contact_offset", "contact_roll_angle", "_opening"), ("pair_normal_force", "pair_coast_normal_force")
+
+
+def run_of(built: Model, compliances: Compliances | None) -> Run:
+    """March a scene on given gears (None: rigid ones) and keep every step; its result is made too, and is of numbers where it can be."""
+    cycle = rigid_cycle(built) if compliances is None else mesh_cycle(built, compliances)
+    without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
     friction = built.scene.friction.coefficient if built.scene.friction else 0.0
     marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace, built.clock, built.loads)
     try:
-        march = marcher.run(built.steps, built.steps + 1)
-    except ContactNotConverged as failure:
-        return Run(built, marcher, list(failure.partial.records), failure)
+        march, failure = marcher.run(built.steps, built.steps + 1), None
+    except ContactNotConverged as failed:
+        march, failure = failed.partial, failed
     result = dataset(built.scene, cycle, built.drivetrain, march, built.clock, built.loads)
     for name, variable in result.data_vars.items():
-        assert np.all(np.isfinite(variable)) or name.endswith(("contact_offset", "contact_roll_angle", "_opening")), name
-    return Run(built, marcher, list(march.records))
+        assert np.all(np.isfinite(variable)) or name.endswith(without_number), name
+    return Run(built, marcher, list(march.records), failure)
 
 
 def worst_of(run: Run) -> dict[str, float]:
@@ -107,7 +112,8 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
         "sum_of_forces": float(np.abs(on_pinion[:2] + on_wheel[:2]).max()) / total,
         "sum_of_moments": abs(couple) / (total * pair.centre_distance),
     }
-    if not frictional:
+    # A tip's edge touches along a line of its own, at another arm.
+    if not frictional and all(each.place.line is None for each in operator.pairs):
         found["couples_by_base_radii"] = abs(on_pinion[2] - on_wheel[2]) / total
     return found
 

@@ -88,8 +88,8 @@ def bearings(draw: Draw, teeth: float) -> str:
 
 
 def speed_ramp(draw: Draw, mesh_frequency: float, cycles: int) -> str:
-    """Up or down, by up to a factor of ten, at once or after all cycles but one."""
-    factor = draw(st.one_of(st.floats(0.1, 0.95), st.floats(1.05, 10.0)))
+    """Up or down, by a millionth up to a factor of ten, at once or after all cycles but one."""
+    factor = (1.0 + draw(decades(1e-6, 9.0))) ** draw(st.sampled_from((1, -1)))
     return f'[speed_ramp]\nend_frequency = "{factor * mesh_frequency!r} Hz"\nhold_cycles = {draw(st.integers(0, cycles - 1))}'
 
 
