@@ -60,9 +60,9 @@ def simulate(
         failure.partial = _result(built, cycle, failure.partial, gears, compiled, complete=False)
         raise
     result = _result(built, cycle, march, gears, compiled, complete=not march.interrupted)
-    if not scene.output.root_stress:
+    # A scene less its elastic teeth, as the cost of effects is measured by, has no stresses; a scene file is refused that asks for both.
+    if not (scene.output.root_stress and scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP):
         return result
-    # Imported here: a run without it does not load it.
     from fenics_gears.root_stress_output import with_root_stress
 
     return with_root_stress(result, built, cycle, march, progress, cache)

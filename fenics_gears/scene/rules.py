@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from math import inf, lcm
 
 from fenics_gears import effects
-from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
+from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
 from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Gears
@@ -129,7 +129,10 @@ def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
     gears = table(tree, "gears")
     if gears is not None and not any(nearest(name, ["material"]) for name in gears):
         yield Problem(("output", "root_stress"), "true", "needs teeth that give way. Add [gears.material], or leave root_stress out.")
-    if (table(tree, "accuracy") or {}).get("condensation") == EVERY_STEP:
+    accuracy = table(tree, "accuracy") or {}
+    if accuracy.get("model", ELASTIC) != ELASTIC:
+        yield Problem(("output", "root_stress"), "true", f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.')
+    if accuracy.get("condensation") == EVERY_STEP:
         yield Problem(("output", "root_stress"), "true", f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.')
 
 

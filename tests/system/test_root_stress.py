@@ -189,6 +189,7 @@ def test_rows_are_kept_and_similar_gears_share_them(tmp_path):
 @pytest.mark.parametrize(("edit", "said"), [
     (lambda text: text.replace("[gears.material]", "[friction_]"), "gears.material"),
     (lambda text: text.replace('condensation = "once"', 'condensation = "every step"'), 'Take "once"'),
+    (lambda text: text.replace("[accuracy]", '[accuracy]\nmodel = "stiffness table"'), "finite elements"),
     (lambda text: text.replace("root_stress = true", 'root_stress = "yes"'), "neither true nor false"),
 ])  # fmt: skip
 def test_scenes_it_cannot_be_had_of_are_refused(paper_scene, edit, said):
