@@ -20,7 +20,7 @@ from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run_scene import conditions, scene_of
 from fenics_gears.show.stress_grid import outline, shown_points, surface, upright
 
-# Pale where nothing happens, so that the bodies stay in the background; every step darker or more saturated than the one before.
+# Pale where nothing happens, so that the bodies stay in the background.
 COLOURS = LinearSegmentedColormap.from_list("stress", ["#F1F3F5", "#B4D0E8", "#539FD0", "#35A388", "#F0D24A", "#EB7A2F", "#A90E18"])
 # Bodies are drawn so many times finer than shown, and averaged: anti-aliasing that every VTK has.
 FINER = 2

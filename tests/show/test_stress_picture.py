@@ -1,0 +1,149 @@
+"""gears picture: what is written, what is refused, and that colours are where the stress is."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+from tests.coarse import coarse_scene
+
+from fenics_gears import environment, results
+from fenics_gears.cli import main
+from fenics_gears.scene.read import scene_from_text
+
+environment.prepare()
+
+
+@pytest.fixture(scope="module")
+def run(paper_scene, tmp_path_factory):
+    """A run's directory: the paper's pair on a coarse mesh, its scene in the file as a user's would be."""
+    from fenics_gears.simulation import simulate
+
+    directory = tmp_path_factory.mktemp("run")
+    text = paper_scene.text[: paper_scene.text.index("[accuracy]")].replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
+    coarse = '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes = 26\nsteps_per_mesh_cycle = 40\n'
+    scene = scene_from_text(text + coarse)
+    assert scene.accuracy == coarse_scene(paper_scene).accuracy
+    results.save(simulate(scene), directory / "run.nc")
+    return directory
+
+
+@pytest.fixture(scope="module")
+def picture(run):
+    """The picture at a quarter of a mesh cycle, (height, width, 3), 0 to 1."""
+    assert main(["picture", str(run), "--at", "0.25", "--quiet"]) == 0
+    return imread(run / "stress.png")[..., :3]
+
+
+def part(picture, place):
+    """The pixels of a panel given as left, bottom, width, height in parts of the figure."""
+    height, width = picture.shape[:2]
+    left, bottom, wide, high = place
+    return picture[round(height * (1 - bottom - high)) : round(height * (1 - bottom)), round(width * left) : round(width * (left + wide))]
+
+
+def strongly_coloured(pixels):
+    """Which pixels have the hues of the upper half of the scale: more red than blue by far."""
+    return pixels[..., 0] - pixels[..., 2] > 0.35
+
+
+def test_picture_is_whole_and_colours_are_where_the_stress_is(picture):
+    """Known position: two tooth pairs touch at a quarter of the mesh cycle, both on the line of action; the enlarged contact is in its panel's
+    middle; bores, rims and tips far from the mesh are pale."""
+    assert picture.shape == (900, 1600, 3)
+    enlarged = part(picture, (0.735, 0.36, 0.19, 0.49))
+    coloured = np.argwhere(strongly_coloured(enlarged)) / enlarged.shape[:2]
+    assert len(coloured) > 500 and np.abs(np.median(coloured, axis=0) - 0.5).max() < 0.15
+    teeth = strongly_coloured(part(picture, (0.325, 0.06, 0.40, 0.79)))
+    rows, columns = np.nonzero(teeth)
+    assert 20 < len(rows) < 0.02 * teeth.size
+    # Along the line of action, which falls to the right by the operating pressure angle.
+    slope = np.polyfit(columns, rows, 1)[0]
+    assert np.degrees(np.arctan(slope)) == pytest.approx(22.44, abs=4.0)
+    whole = part(picture, (0.015, 0.06, 0.30, 0.79))
+    assert not strongly_coloured(whole)[: whole.shape[0] // 4].any() and not strongly_coloured(whole)[whole.shape[0] * 2 // 3 :].any()
+
+
+def test_no_tooth_is_missing(run):
+    """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
+    from fenics_gears.run_stresses import RunStresses
+    from fenics_gears.show.run_scene import scene_of
+    from fenics_gears.show.drawn_scale import outer_loop
+    from fenics_gears.show.stress_grid import shown_points
+
+    dataset = results.load(run / "run.nc")
+    with RunStresses(dataset, scene_of(dataset)) as stresses:
+        mesh = stresses.at(0)
+    for number, gear in enumerate((mesh.pair.pinion, mesh.pair.wheel)):
+        points = shown_points(mesh, number, 0.0)[outer_loop(mesh, number)]
+        centre = np.array([0.0, -mesh.pair.centre_distance * number])
+        beyond = np.linalg.norm(points - centre, axis=1) > gear.reference_radius
+        assert np.count_nonzero(beyond != np.roll(beyond, 1)) == 2 * gear.teeth
+        # Green's theorem: the area of the outline less that of the bore is that of the cells.
+        x, y = (points - centre).T
+        area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) - np.pi * gear.bore_radius**2
+        corners = (body := mesh.gears[number]).points[body.cells]
+        along, across = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
+
+
+def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
+    """Frames asked for, all of one size, which differ; the last is not the first again."""
+    image = pytest.importorskip("PIL.Image")
+    from fenics_gears.show import stress_animation
+
+    monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 3)
+    assert main(["picture", str(run), "--animate", "--output", str(tmp_path / "turn.gif"), "--quiet"]) == 0
+    with image.open(tmp_path / "turn.gif") as moving:
+        assert (moving.n_frames, moving.size) == (3, (960, 540))
+        frames = []
+        for number in range(3):
+            moving.seek(number)
+            frames.append(np.asarray(moving.convert("RGB"), dtype=int))
+    assert min(np.abs(frames[a] - frames[b]).max() for a, b in ((0, 1), (1, 2), (0, 2))) > 100
+    # The colours of stress survive the palette: what is red in the first frame.
+    assert np.count_nonzero(strongly_coloured(frames[0] / 255.0)) > 500
+    assert stress_animation.frame_steps(results.load(run / "run.nc")) == [0, 13, 27]
+
+
+def test_file_for_paraview_alone_draws_no_picture(run, tmp_path):
+    """--vtu without --output writes the one file."""
+    assert main(["picture", str(run), "--vtu", str(tmp_path / "gears.vtu"), "--quiet"]) == 0
+    assert [file.name for file in tmp_path.iterdir()] == ["gears.vtu"]
+
+
+@pytest.mark.parametrize(("options", "said"), [
+    (["--at", "1.5"], "stored mesh cycles 0 to 1"),
+    (["--at", "nan"], "stored mesh cycles 0 to 1"),
+    (["--output", "stress.jpg"], ".png"),
+    (["--animate", "--output", "turn.png"], ".gif or a .mp4"),
+    (["--vtu", "gears.vtk"], ".vtu"),
+])  # fmt: skip
+def test_calls_that_make_no_sense_are_refused(run, tmp_path, monkeypatch, capsys, options, said):
+    """Exit code 2, the remedy said, nothing written."""
+    monkeypatch.chdir(tmp_path)
+    before = sorted(run.iterdir())
+    assert main(["picture", str(run), *options]) == 2
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.iterdir()) and sorted(run.iterdir()) == before
+
+
+def test_a_scale_must_be_a_number(run):
+    """argparse's own refusal, exit code 2."""
+    for wrong in ("-1", "inf", "nan", "big"):
+        with pytest.raises(SystemExit, match="2"):
+            main(["picture", str(run), "--scale", wrong])
+
+
+def test_no_such_run_is_refused(tmp_path, capsys):
+    """Exit code 2, and what a run is."""
+    assert main(["picture", str(tmp_path)]) == 2
+    assert "gears run" in capsys.readouterr().err
+
+
+def test_command_line_does_not_load_vtk():
+    """Rule of the platform: neither the package nor its command line imports pyvista; only a picture does."""
+    code = "import sys, fenics_gears, fenics_gears.cli; from fenics_gears.commands import picture; print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "False"]
