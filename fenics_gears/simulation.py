@@ -153,11 +153,14 @@ def mesh_cycle(built: Model, compliances: Compliances) -> Cycle:
 
 def rigid_cycle(built: Model) -> Cycle:
     """The contact of one mesh cycle between flanks that do not give way."""
-    from fenics_gears.contact.rigid_cycle import RigidCycle
+    if built.scene.friction is None:
+        from fenics_gears.contact.rigid_cycle import RigidCycle as kind
+    else:
+        from fenics_gears.contact.rigid_friction import RigidFrictionCycle as kind
 
     resolution = built.resolution
     coast = built.scene.coast_flanks is not None
-    cycle = RigidCycle(
+    cycle = kind(
         built.pair, built.removal, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.drivetrain.indices, coast
     )
     return deviating(built, cycle)

@@ -46,7 +46,7 @@ def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     of_flanks = [*_window(cycle, records), *_sharp_edge(cycle, records), *_rank(records)] if cycle.resolves_flanks else []
     return [
         *of_flanks, *_rotation(drivetrain, records),
-        *_separation(cycle, drivetrain, march, clock), *_locking(cycle, march), *_uniqueness(march),
+        *_separation(cycle, drivetrain, march, clock), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
     ]  # fmt: skip
 
 

@@ -77,6 +77,8 @@ class Cycle:
     divisible = False
     # Whether contact nodes are points of the flanks, among which a pressure is spread.
     resolves_flanks = True
+    # Whether friction goes by a rule of its own, not by slip as it comes.
+    prescribes_friction = False
 
     def __init__(
         self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None

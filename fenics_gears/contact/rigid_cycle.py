@@ -62,12 +62,12 @@ class RigidCycle(Cycle):
         sets = [[], *([leader] for leader in leaders), *([leaders] if len(leaders) == 2 else [])]
         for iterations, touching in enumerate(sets, 1):
             forces, coordinates = _solved(problem, touching)
-            if forces is not None and _obeys(problem, leaders, touching, forces, coordinates):
+            if forces is not None and obeys(problem, leaders, touching, forces, coordinates):
                 status = np.zeros(len(problem.gap), dtype=np.int8)
                 status[touching] = SLIP_FORWARD
                 displacement = problem.rigid @ coordinates
                 return StepSolution(forces, coordinates, displacement, status, iterations, rung=0)
-        raise _no_equilibrium(_why(problem, leaders), len(problem.gap))
+        raise no_equilibrium(why_none_holds(problem, leaders), len(problem.gap))
 
     def _pair(self, place: Place) -> PairNodes | None:
         offsets = node_offsets(self.pair, place.contact_rolls, self.grid)
@@ -134,7 +134,7 @@ def _independent(rows: np.ndarray) -> bool:
     return np.linalg.matrix_rank(rows, tol=1e-9) == len(rows)
 
 
-def _obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces: np.ndarray, coordinates: np.ndarray) -> bool:
+def obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces: np.ndarray, coordinates: np.ndarray) -> bool:
     """Whether nothing pulls and nothing penetrates."""
     if np.min(forces[touching], initial=0.0) < -problem.tolerance.force:
         return False
@@ -143,7 +143,7 @@ def _obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces
     return max(others, default=-np.inf) <= problem.tolerance.length
 
 
-def _why(problem: StepProblem, leaders: list[int]) -> str:
+def why_none_holds(problem: StepProblem, leaders: list[int]) -> str:
     """Why no set of nodes holds the load."""
     play = float(problem.gap[leaders].sum())
     if len(leaders) == 2 and play < 0.0 and not _independent(problem.rigid[leaders]):
@@ -155,6 +155,6 @@ def _why(problem: StepProblem, leaders: list[int]) -> str:
     return f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"
 
 
-def _no_equilibrium(words: str, nodes: int) -> ContactNotConverged:
+def no_equilibrium(words: str, nodes: int) -> ContactNotConverged:
     history, sets = np.zeros((1, 5)), np.full((1, nodes), OPEN, dtype=np.int8)
     return NoStaticEquilibrium([("rigid flanks", "no solution", history, sets)], words)

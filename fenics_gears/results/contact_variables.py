@@ -66,7 +66,7 @@ def _reactions(record: Record) -> np.ndarray:
 def pair_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
     """Forces of each tooth pair and the pressure over its contact nodes, on drive and coast flanks; zero where a pair does not touch."""
     if scene.tooth_elasticity is None:
-        return _rigid_pairs(scene, cycle, records, numbers)
+        return (_rigid_pairs if scene.friction is None else _sharing_pairs)(scene, cycle, records, numbers)
     values = _flank_variables(scene, cycle, records, numbers, DRIVE)
     if scene.coast_flanks is not None:
         coast = _flank_variables(scene, cycle, records, numbers, COAST)
@@ -95,6 +95,23 @@ def _rigid_pairs(scene: Scene, cycle: Cycle, records: list[Record], numbers: lis
                 number = int(cycle.pair_number(record.step, operator.pairs[pair].place.index))
                 force[name][i, row[number]] = forces[node] if len(together) == 1 else np.nan
     return {name: (("time", "pair"), values) for name, values in force.items()}
+
+
+def _sharing_pairs(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
+    """Forces of pairs of rigid flanks whose shares are taken as even."""
+    row = {number: i for i, number in enumerate(numbers)}
+    sides = [("pair_normal_force", DRIVE, _normal), ("pair_friction_force", DRIVE, _tangential)]
+    if scene.coast_flanks is not None:
+        sides.append(("pair_coast_normal_force", COAST, _normal))
+    values = {name: np.zeros((len(records), len(numbers))) for name, _, _ in sides}
+    for i, record in enumerate(records):
+        operator = record.position.operator
+        for name, flank, forces in sides:
+            on_side = np.flatnonzero(operator.on_drive_flanks == (flank == DRIVE))
+            for node in on_side[forces(record)[on_side] != 0.0]:
+                pair = operator.pairs[operator.node_pair[node]]
+                values[name][i, row[int(cycle.pair_number(record.step, pair.place.index))]] += forces(record)[node]
+    return {name: (("time", "pair"), force) for name, force in values.items()}
 
 
 def _flank_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int], flank: int) -> dict:

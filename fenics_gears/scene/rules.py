@@ -117,7 +117,7 @@ def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
         yield problem(f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.')
     if (table(tree, "output") or {}).get("root_stress") is True:
         yield problem('has no stresses for output.root_stress. Allowed beside it: "elastic". Leave one of the two out.')
-    lacking = {RIGID_TEETH: ("friction", "corner_contact"), ISO_6336: ("corner_contact",), STIFFNESS_TABLE: ()}[chosen]
+    lacking = {RIGID_TEETH: ("corner_contact",), ISO_6336: ("corner_contact",), STIFFNESS_TABLE: ()}[chosen]
     for section in lacking:
         if section in tree:
             yield problem(f"cannot stand beside [{section}], which it knows nothing of. Leave one of the two out.")

@@ -1,0 +1,87 @@
+"""Rigid flanks with friction, by common practice: pairs that touch together share the force evenly, each slides as its place has it.
+
+Rigid flanks do not say how they share a force, nor, at the pitch point, which way they slide. Each pair's friction is mu times its part of the
+force against the sliding of the nominal motion; the sliding of bearings and shafts does not change its sign.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.contact.ladder import StepProblem, StepSolution
+from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK
+from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.operator import ContactOperator, earlier_rigid_tangent, involute_arms, over_nodes, rigid_rows, rigid_slip
+from fenics_gears.contact.rigid_cycle import RigidCycle, RigidPosition, no_equilibrium, obeys, pairs_that_touch, why_none_holds
+
+
+class RigidFrictionCycle(RigidCycle):
+    """Contact nodes on flanks that do not give way, with friction; arguments as of RigidCycle."""
+
+    prescribes_friction = True
+
+    def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
+        """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks.
+
+        Raises ContactNotConverged where none of them holds the load.
+        """
+        operator, count = position.operator, len(problem.gap)
+        leaders = [int(nodes[np.argmin(problem.gap[nodes])]) for nodes in position.sides if len(nodes)]
+        for iterations, leader in enumerate([None, *leaders], 1):
+            unit = np.zeros(2 * count) if leader is None else _shared(operator, problem, leader)
+            forces, coordinates = _solved(problem, leader, unit)
+            touching = [] if leader is None else [leader]
+            if forces is not None and obeys(problem, leaders, touching, forces, coordinates):
+                slips = np.where(unit[count:] > 0.0, SLIP_FORWARD, np.where(unit[count:] < 0.0, SLIP_BACKWARD, STICK))
+                found = np.where(unit[:count] > 0.0, slips, 0).astype(np.int8)
+                return StepSolution(forces, coordinates, problem.rigid @ coordinates, found, iterations, rung=0)
+        raise no_equilibrium(why_none_holds(problem, leaders), count)
+
+    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
+        radii = (self.pair.pinion.base_radius, self.pair.wheel.base_radius)
+        arms, gap = involute_arms(pairs, radii), over_nodes(pairs, "gap")
+        before = len(over_nodes(previous, "gap"))
+        turned = (advance, -advance * radii[0] / radii[1])
+        operator = ContactOperator(
+            pairs=pairs,
+            base_radii=radii,
+            normal_arms=arms,
+            compliance=np.broadcast_to(0.0, (2 * len(gap), 2 * len(gap))),
+            rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, tangential=True)[:, self._coordinates]),
+            gap=gap,
+            sliding=rigid_slip(pairs, self.pair.rotation_ratio, advance),
+            previous_compliance=np.broadcast_to(0.0, (len(gap), 2 * before)),
+            previous_rigid=np.ascontiguousarray(earlier_rigid_tangent(pairs, radii, turned)[:, self._coordinates]),
+        )
+        return RigidPosition(operator, carried, (np.flatnonzero(operator.on_drive_flanks), np.flatnonzero(~operator.on_drive_flanks)))
+
+
+def _shared(operator: ContactOperator, problem: StepProblem, leader: int) -> np.ndarray:
+    """Forces (2 n,) of a unit mesh force: even parts on the nearest node of each pair that touches, and their friction."""
+    forces = np.zeros(2 * len(problem.gap))
+    together = pairs_that_touch(operator, leader)
+    for pair in together:
+        nodes = np.flatnonzero(operator.node_pair == pair)
+        node = leader if pair == operator.node_pair[leader] else nodes[np.argmin(problem.gap[nodes])]
+        forces[node] = 1.0 / len(together)
+        forces[len(problem.gap) + node] = problem.friction * np.sign(operator.sliding[node]) / len(together)
+    return forces
+
+
+def _solved(problem: StepProblem, leader: int | None, unit: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
+    """Forces (2 n,) and coordinates (k,) with the leader touching or none; forces None where the drivetrain cannot be solved so."""
+    k = len(problem.load)
+    if leader is None:
+        if len(problem.free_motion):
+            return None, np.zeros(k)
+        return unit, np.linalg.solve(problem.stiffness, problem.load)
+    scale = np.abs(problem.stiffness).max(initial=0.0) or 1.0
+    matrix = np.zeros((k + 1, k + 1))
+    matrix[:k, :k], matrix[:k, k], matrix[k, :k] = problem.stiffness, scale * (problem.rigid.T @ unit), scale * problem.rigid[leader]
+    right = np.append(problem.load, scale * problem.gap[leader])
+    try:
+        solution = np.linalg.solve(matrix, right)
+        solution += np.linalg.solve(matrix, right - matrix @ solution)
+    except np.linalg.LinAlgError:
+        return None, np.zeros(k)
+    return scale * solution[k] * unit, solution[:k]
