@@ -87,18 +87,10 @@ def cell_space(mesh, order: int, components: int):
 
 def cell_nodes(space) -> np.ndarray:
     """Numbers (m, k) of the space's nodes by cell, in the order of the reference cell."""
-    return _rows(space.dofmap.list, space.mesh)
-
-
-def cell_corners(mesh) -> np.ndarray:
-    """Coordinates (m, k, 2) of the cells' corners, in the order of the reference cell."""
-    return mesh.geometry.x[_rows(mesh.geometry.dofmap, mesh), :2]
-
-
-def _rows(connectivity, mesh) -> np.ndarray:
     # DOLFINx 0.5 and 0.6 have an adjacency list where later ones have an array.
-    entries = np.asarray(getattr(connectivity, "array", connectivity))
-    return entries.reshape(mesh.topology.index_map(mesh.topology.dim).size_local, -1)
+    entries = np.asarray(getattr(space.dofmap.list, "array", space.dofmap.list))
+    topology = space.mesh.topology
+    return entries.reshape(topology.index_map(topology.dim).size_local, -1)
 
 
 def node_coordinates(space) -> np.ndarray:

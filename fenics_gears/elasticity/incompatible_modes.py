@@ -57,7 +57,7 @@ def _mode_strain(mesh):
     cells = adapter.cell_nodes(corners)
     xi, eta = (adapter.function(corners, _by_node(cells, values)) for values in (XI, ETA))
     gradients = adapter.cell_space(mesh, 0, MODES)
-    at_centre = adapter.function(gradients, _scaled_centre_gradients(adapter.cell_corners(mesh)).ravel())
+    at_centre = adapter.function(gradients, _scaled_centre_gradients(adapter.node_coordinates(corners)[cells]).ravel())
     jacobian = ufl.Jacobian(mesh)
     # DOLFINx's reference cell has sides of one, this element's of two.
     determinant = abs(jacobian[0, 0] * jacobian[1, 1] - jacobian[0, 1] * jacobian[1, 0]) / 4.0
