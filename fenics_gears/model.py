@@ -99,7 +99,8 @@ class Model:
             from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 
             steps = self.resolution.steps_per_mesh_cycle
-            found += time_step_warnings(self.vibrations, judged_frequency(self.vibrations, self.scene.mesh_frequencies), steps, self.pace)
+            judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
+            found += time_step_warnings(self.vibrations, judged, steps, self.pace, self.time_step)
         return found
 
 

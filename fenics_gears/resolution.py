@@ -44,6 +44,8 @@ LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 ONCE, EVERY_STEP = "once", "every step"
 # Where the scene has no material: window in modules, and the nodes in it among which the first to touch is sought.
 RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
+# Fewer see so little of the change from one tooth pair to two that the peak-to-peak transmission error is up to 10 % too small, with 4 up to half.
+FEWEST_STEPS = 20
 
 
 @dataclass(frozen=True)
@@ -148,8 +150,13 @@ def mesh_stiffness(scene: Scene) -> float:
 
 
 def resolution_warnings(resolution: Resolution) -> list[str]:
-    """Sentences on settings too coarse to resolve the contact, or contact nodes too close for the elements."""
+    """Sentences on settings too coarse to resolve the contact or the mesh cycle, or contact nodes too close for the elements."""
     found, spacing = [], resolution.contact_grid.spacing
+    if resolution.steps_per_mesh_cycle < FEWEST_STEPS:
+        found.append(
+            f"accuracy.steps_per_mesh_cycle is {resolution.steps_per_mesh_cycle}: what lies between the steps is not seen, and the peak-to-peak "
+            f"transmission error is too small; from {FEWEST_STEPS} on it is right within about 1%, without vibrations"
+        )
     for name, size in (("accuracy.flank_element_size", resolution.flank_element_size), ("the spacing of accuracy.contact_nodes", spacing)):
         if size > resolution.half_width > 0.0:
             found.append(

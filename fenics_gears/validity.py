@@ -43,9 +43,11 @@ def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     Window, sharp edges, rank, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
     """
     records = list(march.records)
-    of_flanks = [*_window(cycle, records), *_sharp_edge(cycle, records), *_rank(records)] if cycle.resolves_flanks else []
+    of_flanks = [*_window(cycle, records), *_rank(records)] if cycle.resolves_flanks else []
+    if cycle.resolves_flanks and cycle.spreads_pressure:
+        of_flanks += _sharp_edge(cycle, records)
     return [
-        *of_flanks, *_rotation(drivetrain, records),
+        *of_flanks, *_rotation(drivetrain, records), *_wedged(cycle, records),
         *_separation(cycle, drivetrain, march, clock), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
     ]  # fmt: skip
 
@@ -89,6 +91,27 @@ def _rotation(drivetrain: Drivetrain, records: list[Record]) -> list[str]:
                 f"(below {LARGEST_ROTATION} rad): stiffen the shafts or lower the torque"
             )
     return found
+
+
+def _wedged(cycle: Cycle, records: list[Record]) -> list[str]:
+    """Teeth pressed on both sides at once: less backlash than run-out, errors or deflection take, and forces that no load asks for."""
+    if not cycle.coast_flanks:
+        return []
+    coast = [_force(record, drive=False) for record in records]
+    both = [min(_force(record, drive=True), force) > NO_FORCE for record, force in zip(records, coast)]
+    if not any(both):
+        return []
+    largest = max(force for force, wedged in zip(coast, both) if wedged)
+    return [
+        f"the teeth are wedged in {sum(both)} of {len(records)} stored steps: drive and coast flanks press at once, the coast flanks by up to "
+        f"{largest:.4g} N, since there is less backlash ({cycle.pair.backlash * 1e3:.3g} um) than the gears need: raise gears.centre_distance"
+    ]
+
+
+def _force(record: Record, *, drive: bool) -> float:
+    """Normal force (N) of all nodes on the drive or on the coast flanks."""
+    operator = record.position.operator
+    return float(record.solution.forces[: operator.nodes][operator.on_drive_flanks == drive].sum())
 
 
 def _sharp_edge(cycle: Cycle, records: list[Record]) -> list[str]:

@@ -77,6 +77,8 @@ class Cycle:
     divisible = False
     # Whether contact nodes are points of the flanks, among which a pressure is spread.
     resolves_flanks = True
+    # Whether a pressure is meant by the forces of contact nodes; rigid flanks have none.
+    spreads_pressure = True
     # Whether friction goes by a rule of its own, not by slip as it comes.
     prescribes_friction = False
 

@@ -39,6 +39,7 @@ class RigidCycle(Cycle):
     """
 
     divisible = False
+    spreads_pressure = False
 
     def __init__(
         self,

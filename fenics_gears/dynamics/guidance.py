@@ -53,8 +53,13 @@ def judged_frequency(elastic: Sequence[Vibration], mesh_frequencies: tuple[float
     return lowest if effect_of_inertia(slowest, lowest) >= NOTABLE else highest
 
 
-def time_step_warnings(elastic: Sequence[Vibration], mesh_frequency: float, steps_per_mesh_cycle: int, pace: Pace) -> list[str]:
-    """Sentences on vibrations that the step does not resolve, and on inertia that does not matter; `elastic`: modes by frequency."""
+def time_step_warnings(
+    elastic: Sequence[Vibration], mesh_frequency: float, steps_per_mesh_cycle: int, pace: Pace, longest_step: float = 0.0
+) -> list[str]:
+    """Sentences on vibrations that the step does not resolve, and on inertia that does not matter; `elastic`: modes by frequency.
+
+    `longest_step`, s: of a run whose speed changes, by which its method in time is chosen (`pace`).
+    """
     time_step = 1.0 / (mesh_frequency * steps_per_mesh_cycle)
     excited = [vibration for vibration in elastic if vibration.excited] or list(elastic)
     slowest, inertia = excited[0], effect_of_inertia(excited[0], mesh_frequency)
@@ -65,6 +70,12 @@ def time_step_warnings(elastic: Sequence[Vibration], mesh_frequency: float, step
             "peak-to-peak value; leave out [inertia] and [damping] to solve without them, at any number of steps"
         ]
         return said if pace.samples_vibration else [f"{said[0]}. {_not_sampled(slowest, time_step)}"]
+    if not pace.samples_vibration and longest_step > time_step:
+        sampled = 2.0 * slowest.frequency / steps_per_mesh_cycle
+        return [
+            f"vibrations are not resolved anywhere in the speed ramp, whose slow end has steps too long for them. {_not_sampled(slowest, longest_step)}: "
+            f"keep both ends of [speed_ramp] above {sampled:.3g} Hz, or raise accuracy.steps_per_mesh_cycle ({steps_per_mesh_cycle})"
+        ]
     if not pace.samples_vibration:
         return [
             f"vibrations are not resolved, and the result is about the quasi-static one though inertia matters. {_not_sampled(slowest, time_step)}: "

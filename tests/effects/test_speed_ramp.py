@@ -251,6 +251,16 @@ def test_warnings_and_steps_go_by_the_range_of_frequencies(paper_scene):
     assert not any("inertia hardly matters" in said for said in model(replace(crawling, speed_ramp=SpeedRamp(200.0))).warnings)
 
 
+def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
+    """Authority: the rule of `dynamics.pace`, half the slowest period; above the frequency that the warning names it is gone."""
+    crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
+    assert not model(crawl).pace.samples_vibration
+    (said,) = [warning for warning in model(crawl).warnings if "backward Euler" in warning]
+    needed = float(re.search(r"above ([\d.e+]+) Hz", said)[1])
+    assert model(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).pace.samples_vibration
+    assert not model(replace(crawl, speed_ramp=SpeedRamp(0.98 * needed))).pace.samples_vibration
+
+
 def test_without_the_section_there_is_nothing_of_it(paper_scene):
     """House rule 9: no variable, one clock of equal steps, no import."""
     built = model(paper_scene)

@@ -140,3 +140,10 @@ def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):
     forces = result.normal_force.values[2:]
     assert np.all(forces > 0.0)
     assert forces == pytest.approx(expected, rel=1e-6)
+
+
+def test_rigid_flanks_say_nothing_of_pressures(rigid_scene):
+    """Authority: the result, which has no pressures; what does not exist need not converge."""
+    result = simulate(rigid_scene)
+    assert "contact_pressure" not in result
+    assert "sharp edge" not in result.attrs["warnings"]

@@ -1,6 +1,7 @@
 """Contact on the coast flanks: their place against the tooth outlines, and their forces against the drive flanks'."""
 
 from dataclasses import replace
+from math import radians
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.friction import Friction
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.scene.data import Accuracy, Motion
@@ -75,3 +77,13 @@ def test_a_pair_without_load_says_nothing_of_friction_and_pressure(both_flanks):
     idle = simulate(quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=0.0), friction=Friction(0.1), coast_flanks=None))
     assert "friction_loss" not in idle.attrs
     assert "sharp edge" not in idle.attrs["warnings"]
+
+
+def test_run_out_beyond_the_backlash_wedges_the_teeth_and_is_named(both_flanks, paper_pair):
+    """Authority: geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of action that the load holds apart."""
+    towards = Eccentricity(Offset(2.0 * paper_pair.backlash, radians(-90.0) + paper_pair.operating_pressure_angle), None)
+    wedged = simulate(quasi_static(both_flanks, shafts=None, bearings=None, eccentricity=towards))
+    assert wedged.coast_normal_force.max() > 0.0
+    (said,) = [line for line in wedged.attrs["warnings"].splitlines() if "wedged" in line]
+    assert f"by up to {float(wedged.coast_normal_force.max()):.4g} N" in said
+    assert "wedged" not in simulate(quasi_static(both_flanks)).attrs["warnings"]
