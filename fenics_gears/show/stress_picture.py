@@ -20,8 +20,10 @@ from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run_scene import conditions, scene_of
 from fenics_gears.show.stress_grid import outline, shown_points, surface, upright
 
-# Pale where nothing happens, so that the bodies stay in the background.
-COLOURS = LinearSegmentedColormap.from_list("stress", ["#F1F3F5", "#B4D0E8", "#539FD0", "#35A388", "#F0D24A", "#EB7A2F", "#A90E18"])
+# Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
+COLOURS = LinearSegmentedColormap.from_list("stress", [
+    (0.0, "#F1F3F5"), (0.1, "#B4D0E8"), (0.24, "#539FD0"), (0.4, "#35A388"), (0.58, "#F0D24A"), (0.79, "#EB7A2F"), (1.0, "#A90E18"),
+])  # fmt: skip
 # Bodies are drawn so many times finer than shown, and averaged: anti-aliasing that every VTK has.
 FINER = 2
 # The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the roots.
@@ -281,9 +283,9 @@ def exceeds(mesh: GearsInMesh, limit: float) -> bool:
 
 def _colour_bar(figure: Figure, limit: float, beyond: bool) -> None:
     colours = ScalarMappable(Normalize(0.0, limit), COLOURS)
-    axes = figure.add_axes((0.942, 0.08, 0.014, 0.72))
+    axes = figure.add_axes((0.937, 0.08, 0.013, 0.72))
     bar = figure.colorbar(colours, cax=axes, extend="max" if beyond else "neither")
-    bar.set_label("von Mises stress (MPa), plane strain")
+    bar.set_label("von Mises stress (MPa), plane strain", labelpad=3.0)
     axes.grid(False)
 
 
