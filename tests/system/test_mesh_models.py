@@ -81,6 +81,13 @@ def test_table_knows_relief_and_backlash(static, paper_scene):
         assert set(full.data_vars) - set(table.data_vars) == set(OVER_CONTACT_NODES) & set(full.data_vars)
 
 
+def test_table_without_load(static):
+    """Limit: a pair without load stands as its geometry says, by the table as by the full contact."""
+    idle = replace(static, load=replace(static.load, wheel_torque=0.0))
+    full, table = simulate(idle).transmission_error.values, simulate(by(idle, STIFFNESS_TABLE)).transmission_error.values
+    assert np.abs(table - full).max() <= 1e-9 * np.abs(full).max()
+
+
 def test_table_in_motion(paper_scene):
     """Limit: teeth without mass and friction are a mesh spring at any speed; at 200 Hz only the table's own interpolation is between them."""
     scene = frictionless(coarse_scene(paper_scene, cycles=4))
