@@ -104,7 +104,7 @@ def _wedged(cycle: Cycle, records: list[Record]) -> list[str]:
     largest = max(force for force, wedged in zip(coast, both) if wedged)
     return [
         f"the teeth are wedged in {sum(both)} of {len(records)} stored steps: drive and coast flanks press at once, the coast flanks by up to "
-        f"{largest:.4g} N, since there is less backlash ({cycle.pair.backlash * 1e3:.3g} um) than the gears need: raise gears.centre_distance"
+        f"{largest:.4g} N, since there is less backlash ({max(cycle.pair.backlash * 1e3, 0.0):.3f} um) than the gears need: raise gears.centre_distance"
     ]
 
 

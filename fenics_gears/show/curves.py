@@ -131,7 +131,7 @@ def load_sharing(dataset: xr.Dataset) -> Figure | None:
     forces = in_unit(dataset["pair_normal_force"].transpose("time", "pair"), "N")
     total = in_unit(dataset["normal_force"], "N")
     if np.isnan(forces).any():
-        axes.set_title("Rigid flanks: where two pairs touch at once their shares are not determined")
+        axes.set_title("Rigid flanks: where two pairs touch at once their shares are not determined", pad=30.0)
     axes.plot(phase, total, color=DARK, linewidth=1.4, linestyle=(0, (4, 2)), label="all pairs" if "pair_coast_normal_force" not in dataset else "all drive flanks", zorder=3)
     for number, force in zip(dataset["pair"].values, forces.T):
         if np.any(force != 0.0):

@@ -24,7 +24,8 @@ LABEL = {"va": "center", "fontsize": 10.5, "bbox": {"facecolor": "white", "edgec
 def effect_costs(report: Report) -> Figure:
     """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds' least and most."""
     rows = report.rows
-    height = 2.8 + LINE_HEIGHT * len(rows)
+    # Less leaves no room between heading and footnotes.
+    height = max(2.8 + LINE_HEIGHT * len(rows), 4.6)
     figure = Figure(figsize=(15.0, height), layout="constrained")
     # Room for three lines below.
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.6 / height, 1, 1 - 0.6 / height))

@@ -45,7 +45,7 @@ def contact_pressure(dataset: xr.Dataset) -> Figure | None:
     for axes, side in zip(every_axes, sides):
         _draw_side(figure, axes, dataset, side)
         if COAST in sides:
-            name, note = "Coast flanks" if side == COAST else "Drive flanks", axes.get_title(loc="left")
+            name, note = "Coast flanks" if side == COAST else "Drive flanks", axes.get_title(loc="left").split(" (")[0]
             axes.set_title(f"{name}. {note}" if note else name)
     return figure
 

@@ -142,3 +142,13 @@ def test_legends_cover_no_curve_and_stay_in_the_picture(cycles):
             box, panel = axes.get_legend().get_window_extent(), axes.get_window_extent()
             assert box.y0 >= panel.y1 - 1.0
             assert box.x0 >= 0 and box.x1 <= figure.bbox.x1 and box.y1 <= figure.bbox.y1
+
+
+def test_a_heading_with_every_effect_stays_on_the_paper(paper_scene):
+    """Authority: the edge of the figure. Conditions of a scene with all effects are longer than a line."""
+    sections = '[root_relief]\ndepth = "5 um"\nstart = "LPSTC"\n[flank_errors]\ntolerance_class = 6\n[eccentricity.pinion]\ndistance = "9 um"\n'
+    if "[tip_relief]" not in paper_scene.text:
+        sections += '[tip_relief]\ndepth = "9 um"\nstart = "HPSTC"\n'
+    figure = transmission_error(made_up_run(scene=paper_scene.text + "\n" + sections))
+    FigureCanvasAgg(figure).draw()
+    assert figure._suptitle.get_window_extent().x1 <= figure.bbox.x1
