@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.tooth_pair import coast_place, drive_place
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
 from fenics_gears.elasticity.ring import rotation
@@ -47,13 +48,18 @@ class GearInSpace:
 
 @dataclass(frozen=True)
 class GearsInMesh:
-    """Pinion and wheel at a stored time; `approach`: mm along the line of action that the hubs' motion brings the drive flanks together."""
+    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks.
+
+    `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more; coast flanks stand apart by
+    the backlash before it.
+    """
 
     time: float
     mesh_phase: float
     gears: tuple[GearInSpace, GearInSpace]
     pair: GearPair
     approach: float
+    coast: bool
 
 
 class RunStresses:
@@ -84,11 +90,13 @@ class RunStresses:
         """Both gears at a stored step."""
         stored = stored_forces(self.result, self.built, self.cycle, index)
         motion = hub_motion(self.result, index)
-        pair = self.built.pair
-        approach = float(motion[0, 0] - motion[1, 0] + pair.pinion.base_radius * motion[0, 2] + pair.wheel.base_radius * motion[1, 2])
+        pair, coast = self.built.pair, stored.on_coast_flanks
+        place = coast_place(pair, 0, pair.pitch_point) if coast else drive_place(pair, 0, pair.pitch_point)
+        arcs = pair.pinion.base_radius * motion[0, 2] + pair.wheel.base_radius * motion[1, 2]
+        approach = float((motion[0, :2] - motion[1, :2]) @ place.axes[0] + place.turn * arcs)
         gears = tuple(self._gear(gear, stored, motion[gear]) for gear in (0, 1))
         phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
-        return GearsInMesh(time, phase, gears, pair, approach)
+        return GearsInMesh(time, phase, gears, pair, approach, coast)
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
         recovery = self.recoveries[gear]

@@ -32,9 +32,24 @@ def summary_rows(dataset) -> list[tuple[str, str, str]]:
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
     if "friction_loss" in dataset.attrs:
         rows.append(("friction takes", f"{dataset.attrs['friction_loss']:.3%} of the work of the drive", ""))
+    rows += _root_stress(dataset)
     rows += _rungs(dataset.attrs)
     rows += [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
     rows += [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
+    return rows
+
+
+def _root_stress(dataset) -> list[tuple[str, str, str]]:
+    """Largest root stress of either gear and the dynamic factors, where the scene asks for them."""
+    if "root_stress_maximum" not in dataset or not dataset.sizes["time"]:
+        return []
+    largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
+    rows = [("largest root stress", f"{largest[0]:.4g} pinion, {largest[1]:.4g} wheel", "MPa")]
+    if "dynamic_factor_by_stress" in dataset.attrs:
+        factors = [dataset.attrs[f"dynamic_factor_by_{kind}"] for kind in ("force", "stress")]
+        rows.append(("dynamic factor", f"{factors[0]:.3f} by force, {factors[1]:.3f} by root stress", ""))
+    if "dynamic_factor_unknown" in dataset.attrs:
+        rows.append(("dynamic factor", dataset.attrs["dynamic_factor_unknown"], ""))
     return rows
 
 

@@ -29,6 +29,14 @@ class StoredForces:
     pairs: tuple[ToothPair, ...]
     forces: tuple[np.ndarray, ...]
 
+    @property
+    def on_coast_flanks(self) -> bool:
+        """Whether the coast flanks carry a larger normal force than the drive flanks."""
+        carried = {DRIVE: 0.0, COAST: 0.0}
+        for pair, force in zip(self.pairs, self.forces):
+            carried[pair.place.flank] += float(force[: len(pair.offsets)].sum())
+        return carried[COAST] > carried[DRIVE]
+
     def on_flanks(self, built: Model, gear: int) -> dict[int, np.ndarray]:
         """Line forces (N/mm) on the flank nodes of a gear's loaded teeth; see `contact.flank_forces`."""
         data = (built.pair.pinion, built.pair.wheel)[gear]

@@ -43,7 +43,8 @@ def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
     body = mesh.gears[gear]
     radius = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius
     arm = body.points - body.centre
-    turned = 0.5 * mesh.approach / radius * np.column_stack([-arm[:, 1], arm[:, 0]])
+    arc = -0.5 * mesh.approach if mesh.coast else 0.5 * mesh.approach
+    turned = arc / radius * np.column_stack([-arm[:, 1], arm[:, 0]])
     return upright(mesh)(body.points + scale * (body.elastic + turned))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +17,10 @@ from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
 from fenics_gears.run_stresses import GearsInMesh
+from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, on_line, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run_scene import conditions, scene_of
-from fenics_gears.show.stress_grid import outline, shown_points, surface, upright
+from fenics_gears.show.stress_grid import outline, shown_points, surface
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
 COLOURS = LinearSegmentedColormap.from_list("stress", [
@@ -76,22 +78,22 @@ def stress_picture(
     or not. width: inches of a figure 16 to 9.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=100.0 * width / 16.0)
-    whole, teeth = whole_view(mesh), teeth_view(mesh)
-    contact = contact_view(mesh, dataset) if close_up else None
-    bottom, high = 0.06, 0.79
-    left = _panel(figure, (0.015, bottom, 0.30, high), fitted(whole, 0.30 * 16, high * 9), mesh, scale, limit)
-    wide = 0.40 if contact is not None else 0.585
-    middle = _panel(figure, (0.325, bottom, wide, high), fitted(teeth, wide * 16, high * 9), mesh, scale, limit)
-    _name_gears(left, mesh)
-    _line_of_action(left, mesh, labelled=False)
-    _line_of_action(middle, mesh, labelled=True)
+    loaded = loaded_contact(mesh, dataset)
+    coast = mesh.coast
+    enlarged = close_up and loaded is not None
+    bottom, high, wide = 0.06, 0.79, 0.40 if enlarged else 0.585
+    left = _panel(figure, (0.015, bottom, 0.30, high), whole_view(mesh), mesh, scale, limit)
+    middle = _panel(figure, (0.325, bottom, wide, high), teeth_view(mesh, coast), mesh, scale, limit)
     left.set_title(f"The pair, displacements × {scale:g}")
     middle.set_title(f"Teeth in contact, displacements × {scale:g}")
+    _name_gears(left, mesh, driving=1 if coast else 0)
+    for axes in (left, middle):
+        _line_of_action(axes, mesh, coast, labelled=axes is middle)
     _frame_in(left, middle)
-    if contact is not None:
-        right = _panel(figure, (0.735, 0.36, 0.19, 0.49), fitted(contact, 0.19 * 16, 0.49 * 9), mesh, 1.0, limit)
+    if enlarged:
+        right = _panel(figure, (0.735, 0.36, 0.19, 0.49), contact_view(loaded), mesh, 1.0, limit)
         right.set_title("Most loaded contact, displacements × 1")
-        _frame_in(middle, right, moved=_moved_contact(mesh, dataset, scale))
+        _frame_in(middle, right, moved=_moved(mesh, loaded.point, scale))
         _length_bar(right)
         _numbers(figure, mesh, dataset, (0.735, 0.30))
     _colour_bar(figure, limit, beyond or exceeds(mesh, limit))
@@ -107,43 +109,22 @@ def whole_view(mesh: GearsInMesh) -> View:
     return View(np.array([0.0, 0.5 * (low + high)]), half)
 
 
-def teeth_view(mesh: GearsInMesh) -> View:
-    """The teeth along the path of contact, their roots included."""
+def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
+    """The teeth along the path of contact of drive or coast flanks, their roots included."""
     pair = mesh.pair
     middle = 0.5 * (pair.path_start + pair.path_end)
-    centre = upright(mesh)(np.array([middle, -pair.pinion.base_radius]))
+    centre = on_line(mesh, np.array([middle, -pair.pinion.base_radius]), coast)
     depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 4.0 * pair.pinion.module
     return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
 
 
-def contact_view(mesh: GearsInMesh, dataset: xr.Dataset) -> View | None:
-    """The contact with the largest force, some Hertz half-widths around it; None where nothing touches."""
-    found = most_loaded(mesh, dataset)
-    if found is None:
-        return None
-    point, half_width = found
-    return View(upright(mesh)(point), CLOSE_UP_HALF_WIDTHS * half_width * np.ones(2))
+def contact_view(contact: LoadedContact) -> View:
+    """A contact with some Hertz half-widths around it."""
+    return View(contact.point, CLOSE_UP_HALF_WIDTHS * contact.half_width * np.ones(2))
 
 
-def most_loaded(mesh: GearsInMesh, dataset: xr.Dataset) -> tuple[np.ndarray, float] | None:
-    """Where the drive flanks' largest pair force acts (x, y), mm in the frame of the line of action, and half the closed length, mm."""
-    index = int(np.argmin(np.abs(dataset["mesh_phase"].values - mesh.mesh_phase)))
-    force = np.nan_to_num(dataset["pair_normal_force"].values[index])
-    row = int(np.argmax(force))
-    if force[row] <= 0.0:
-        return None
-    pressure, offset = dataset["contact_pressure"].values[index, row], dataset["contact_offset"].values[index, row]
-    closed = np.nan_to_num(pressure) > 0.0
-    here = float(np.average(offset[closed], weights=pressure[closed]))
-    number = int(dataset["pair"].values[row])
-    x = mesh.pair.path_start + (mesh.mesh_phase - number) * mesh.pair.base_pitch
-    spacing = float(np.nanmedian(np.diff(offset[~np.isnan(offset)])))
-    return np.array([x, here - mesh.pair.pinion.base_radius]), max(0.5 * spacing * closed.sum(), 2.0 * spacing)
-
-
-def _moved_contact(mesh: GearsInMesh, dataset: xr.Dataset, scale: float) -> np.ndarray:
-    """How far the most loaded contact is drawn from where it is, in the picture at a scale."""
-    point = upright(mesh)(most_loaded(mesh, dataset)[0])
+def _moved(mesh: GearsInMesh, point: np.ndarray, scale: float) -> np.ndarray:
+    """How far the bodies at a point of the picture are drawn from where they are at scale 1."""
     nearest = [np.argmin(((shown_points(mesh, gear, 0.0) - point) ** 2).sum(axis=1)) for gear in (0, 1)]
     return np.mean([shown_points(mesh, gear, scale)[node] - shown_points(mesh, gear, 1.0)[node] for gear, node in enumerate(nearest)], axis=0)
 
@@ -154,8 +135,9 @@ def fitted(view: View, width: float, height: float) -> View:
     return View(view.centre, np.array([max(half[0], half[1] * width / height), max(half[1], half[0] * height / width)]))
 
 
-def _panel(figure: Figure, place, view: View, mesh: GearsInMesh, scale: float, limit: float) -> Axes:
+def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float, limit: float) -> Axes:
     axes = figure.add_axes(place)
+    view = fitted(wanted, place[2] * 16.0, place[3] * 9.0)
     pixels = np.round(np.array([place[2] * 16.0, place[3] * 9.0]) * figure.dpi).astype(int)
     axes.imshow(rendered(mesh, view, pixels, scale, limit), extent=view.extent, interpolation="antialiased", aspect="auto")
     axes.set_xlim(view.extent[:2])
@@ -207,9 +189,9 @@ def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
     return parts[(x.max(axis=1) > left) & (x.min(axis=1) < right) & (y.max(axis=1) > bottom) & (y.min(axis=1) < top)]
 
 
-def _line_of_action(axes: Axes, mesh: GearsInMesh, labelled: bool) -> None:
+def _line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) -> None:
     """The line between the base circles, its part that is the path of contact, and the pitch point."""
-    pair, frame = mesh.pair, upright(mesh)
+    pair, frame = mesh.pair, partial(on_line, mesh, coast=coast)
     height = -pair.pinion.base_radius
     ends = frame(np.array([[0.0, height], [pair.line_of_action_length, height]]))
     path = frame(np.array([[pair.path_start, height], [pair.path_end, height]]))
@@ -219,8 +201,9 @@ def _line_of_action(axes: Axes, mesh: GearsInMesh, labelled: bool) -> None:
         axes.plot(*path.T, color=colour, linewidth=2.4 + wider, solid_capstyle="butt")
     axes.plot(*pitch, "o", markersize=8 if labelled else 5, markerfacecolor="white", markeredgecolor="black", markeredgewidth=1.4)
     if labelled:
-        _note(axes, "pitch point", pitch, (14, 16))
-        _note(axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (12, 30))
+        side = -1 if coast else 1
+        _note(axes, "pitch point", pitch, (side * 14, 16))
+        _note(axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (side * 12, 30))
 
 
 def _note(axes: Axes, words: str, point, offset) -> None:
@@ -228,9 +211,10 @@ def _note(axes: Axes, words: str, point, offset) -> None:
     axes.annotate(words, point, xytext=offset, textcoords="offset points", fontsize=11.5, color=DARK, bbox=box, ha="left" if offset[0] > 0 else "right")
 
 
-def _name_gears(axes: Axes, mesh: GearsInMesh) -> None:
-    """Names in the bores and the sense in which either gear turns."""
-    for gear, name, turns in ((mesh.pair.pinion, "pinion\ndrives", 1), (mesh.pair.wheel, "wheel", -1)):
+def _name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
+    """Names in the bores, which gear drives, and the sense in which either turns."""
+    for number, (gear, name, turns) in enumerate(((mesh.pair.pinion, "pinion", 1), (mesh.pair.wheel, "wheel", -1))):
+        name += "\ndrives" if number == driving else ""
         centre = np.zeros(2) if turns > 0 else np.array([0.0, -mesh.pair.centre_distance])
         axes.text(*centre, name, ha="center", va="center", fontsize=11.5, color=DARK)
         radius = 0.78 * gear.bore_radius
@@ -263,15 +247,18 @@ def _length_bar(axes: Axes) -> None:
 
 
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
-    index = int(np.argmin(np.abs(dataset["mesh_phase"].values - mesh.mesh_phase)))
-    force = float(dataset["normal_force"].values[index])
+    index = stored_place(mesh, dataset)
+    forces, pressures = (
+        [float(np.nanmax(dataset[name].values[index])) for name in names if name in dataset]
+        for names in (("normal_force", "coast_normal_force"), ("contact_pressure", "coast_contact_pressure"))
+    )
     peaks = [float(body.von_mises.max()) for body in mesh.gears]
     lines = [
-        f"mesh force {force:.0f} N",
-        f"largest contact pressure {np.nanmax(dataset['contact_pressure'].values[index]):.0f} MPa",
+        f"mesh force {max(forces):.0f} N",
+        f"largest contact pressure {max(pressures):.0f} MPa",
         f"largest von Mises stress {max(peaks):.0f} MPa",
         f"largest in the fillets {_stress_of_roots(mesh):.0f} MPa",
-        f"approach of the flanks {1e3 * mesh.approach:.1f} µm",
+        f"{'approach and backlash' if mesh.coast else 'approach of the flanks'} {1e3 * mesh.approach:.1f} µm",
     ]
     figure.text(*place, "\n".join(lines), fontsize=11.5, color=DARK, va="top", linespacing=1.45)
 

@@ -19,8 +19,8 @@ from fenics_gears.results.stored_forces import stored_forces, stored_index
 from fenics_gears.run_stresses import RunStresses, hub_motion, standing
 from fenics_gears.scene.data import Load
 from fenics_gears.show.drawn_scale import automatic_scale, overlap
-from fenics_gears.show.stress_grid import save_vtu
-from fenics_gears.show.stress_picture import most_loaded
+from fenics_gears.show.loaded_contact import loaded_contact
+from fenics_gears.show.stress_grid import save_vtu, upright
 from fenics_gears.simulation import simulate
 
 
@@ -78,13 +78,13 @@ def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(run, 
     for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
         radius = np.linalg.norm(body.points - body.centre, axis=1)
         assert radius.max() == pytest.approx(gear.tip_radius, rel=1e-9) and radius.min() == pytest.approx(gear.bore_radius, rel=1e-3)
-    if "coast_normal_force" not in result:
-        contact, _ = most_loaded(mesh, result)
-        outlines = [body.points[np.unique(body.outline)] + body.displacement[np.unique(body.outline)] for body in mesh.gears]
-        # Nodes 0.12 mm apart on either flank.
-        assert all(cKDTree(outline).query(contact)[0] < 0.2 for outline in outlines)
-        # Neither gear is inside the other by more than the sagitta of its straight elements and the averaging of the hats.
-        assert overlap(mesh, 1.0) < 2e-3
+    contact, frame = loaded_contact(mesh, result), upright(mesh)
+    assert mesh.coast == ("coast_normal_force" in result)
+    outlines = [frame(body.points + body.displacement)[np.unique(body.outline)] for body in mesh.gears]
+    # Nodes 0.12 mm apart on either flank, and hubs displaced by up to 0.06 mm on their bearings.
+    assert all(cKDTree(outline).query(contact.point)[0] < 0.13 for outline in outlines)
+    # Neither gear is inside the other by more than the sagitta of its straight elements and the averaging of the hats.
+    assert overlap(mesh, 1.0) < 2e-3
 
 
 def test_a_tooth_pair_later_is_the_same_position(run, stresses):

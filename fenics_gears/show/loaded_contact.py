@@ -1,0 +1,56 @@
+"""Where in the picture of a pair the contact with the largest force is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.contact.window import coast_roll_angles
+from fenics_gears.geometry.involute import flank_point
+from fenics_gears.run_stresses import GearsInMesh
+from fenics_gears.show.stress_grid import upright
+
+MIRROR = np.array([-1.0, 1.0])
+FEWEST_NODES = 4
+
+
+@dataclass(frozen=True)
+class LoadedContact:
+    """The most loaded contact: its middle (2,), mm, in the picture's frame; half the length that is closed, mm."""
+
+    point: np.ndarray
+    half_width: float
+
+
+def stored_place(mesh: GearsInMesh, dataset: xr.Dataset) -> int:
+    """Which of the stored steps a recovered pair is at."""
+    return int(np.argmin(np.abs(dataset["mesh_phase"].values - mesh.mesh_phase)))
+
+
+def on_line(mesh: GearsInMesh, points: np.ndarray, coast: bool) -> np.ndarray:
+    """Points (..., 2), mm, given along and off the line of action, in the picture; the coast flanks' is its mirror at the line of centres."""
+    shown = upright(mesh)(points)
+    return shown * MIRROR if coast else shown
+
+
+def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | None:
+    """The contact of the tooth pair with the largest normal force, on the flanks that carry more; None where nothing touches."""
+    index, pair = stored_place(mesh, dataset), mesh.pair
+    coast = mesh.coast
+    forces = np.nan_to_num(dataset["pair_coast_normal_force" if coast else "pair_normal_force"].values[index])
+    row = int(np.argmax(forces))
+    if forces[row] <= 0.0:
+        return None
+    prefix = "coast_" if coast else ""
+    pressure, rolls = (dataset[prefix + name].values[index, row] for name in ("contact_pressure", "contact_roll_angle"))
+    xi = pair.path_start + (mesh.mesh_phase - int(dataset["pair"].values[row])) * pair.base_pitch
+    contact_roll = coast_roll_angles(pair, xi)[0] if coast else xi / pair.pinion.base_radius
+    known = ~np.isnan(rolls)
+    x, height = flank_point(pair.pinion.base_radius, rolls[known], contact_roll)
+    pressure = pressure[known]
+    points = np.column_stack([x, -height])
+    spacing = float(np.median(np.linalg.norm(np.diff(points, axis=0), axis=1))) if len(points) > 1 else 0.0
+    closed = max(np.count_nonzero(pressure > 0.0), FEWEST_NODES)
+    return LoadedContact(on_line(mesh, np.average(points, axis=0, weights=pressure), coast), 0.5 * spacing * closed)
