@@ -1,0 +1,109 @@
+"""The picture of `gears accuracy`: error against time of whole settings and cheaper models, and of every knob's rungs alone."""
+
+from __future__ import annotations
+
+import textwrap
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator
+
+from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
+from fenics_gears.show.run_scene import conditions
+from fenics_gears.studies.accuracy.measured import OWN, Report, WholeResult
+from fenics_gears.studies.accuracy.measures import judged
+from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
+
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
+LEAST_SHOWN = 1e-6
+
+
+@styled
+def work_precision(report: Report) -> Figure:
+    """Left: whole settings with the front labelled, the scene's own, cheaper models. Right: each knob's rungs, the others fine."""
+    figure = Figure(figsize=(15.0, 9.2), layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.09, 1, 0.91))
+    whole, alone = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.35, 1.0)})
+    _whole(whole, report)
+    _alone(alone, report)
+    _heading(figure, report)
+    return figure
+
+
+def _whole(axes: Axes, report: Report) -> None:
+    front = report.front
+    for each in report.settings:
+        if each.name != OWN and each not in front:
+            axes.plot(each.times.total, each.counted, "o", color=GREY, markersize=5)
+    axes.plot([each.times.total for each in front], [each.counted for each in front], "-o", color=PALETTE[0], label="settings that pay")
+    axes.plot(report.own.times.total, report.own.counted, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
+    for place, each in enumerate(report.models):
+        axes.plot(each.times.total, each.counted, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
+    axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")
+    _logarithmic(axes, [*report.settings, *report.models], report.floor)
+    _labels(axes, front)
+    axes.set_title("Whole settings: error charged (sum of its knobs', or distance from the reference)")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=10.5)
+
+
+def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
+    """Numbers at the points, and what they are in the corner that a falling front leaves free."""
+    lines = []
+    for number, each in enumerate(front, 1):
+        axes.annotate(str(number), (each.times.total, each.counted), xytext=(6, 5), textcoords="offset points", fontsize=11, color=PALETTE[0])
+        lines.append(f"{number}  {each.setting.words if each.setting else each.name}; limited by {limits_it(each)}")
+    axes.text(
+        0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=9.0, color=DARK, linespacing=1.5,
+        bbox={"facecolor": "white", "edgecolor": "#E3E3E3", "alpha": 0.9, "pad": 5.0},
+    )  # fmt: skip
+
+
+def _logarithmic(axes: Axes, results, floor: float) -> None:
+    errors = np.array([each.counted for each in results])
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    # Room above for the list of settings.
+    low, high = min(errors.min(), max(floor, LEAST_SHOWN)), errors.max()
+    axes.set_ylim(0.5 * low, high * (high / low) ** 0.55)
+    _percent_over_seconds(axes)
+
+
+def _alone(axes: Axes, report: Report) -> None:
+    for place, result in enumerate(report.knobs):
+        points = [(each.times.total, judged(each.errors)) for each in result.rungs if judged(each.errors) > LEAST_SHOWN]
+        if not points:
+            continue
+        order, expected = result.order("T_E"), result.knob.expected
+        told = "" if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+        style = "-" if expected is not None else ":"
+        colour = PALETTE[place % len(PALETTE)]
+        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.knob.name + told)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    _percent_over_seconds(axes)
+    axes.set_title("Each knob alone, all others fine")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=9.5, columnspacing=1.0)
+
+
+def _percent_over_seconds(axes: Axes) -> None:
+    axes.set_xlabel("Time of a run (s, median; meshing, condensing, marching)")
+    axes.set_ylabel("Relative error (%), the larger of T$_E$ in L$_2$ and T$_{EPP}$")
+    plain = FuncFormatter(lambda value, _: f"{value:g}")
+    axes.xaxis.set_major_formatter(plain)
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
+    narrow = np.ptp(np.log10(axes.get_xlim())) < 1.0
+    axes.xaxis.set_minor_locator(LogLocator(subs=range(2, 10) if narrow else (2, 5)))
+    axes.xaxis.set_minor_formatter(plain)
+    axes.tick_params(axis="x", which="minor", labelsize=9)
+
+
+def _heading(figure: Figure, report: Report) -> None:
+    title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
+    figure.suptitle(
+        f"What accuracy costs in time: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False,
+    )  # fmt: skip
+    where = report.machine
+    sentence = "\n".join(textwrap.wrap(in_one_sentence(report), 165))
+    measured = f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}; timed runs: {report.own.times.rounds}"
+    figure.text(0.008, 0.012, f"{sentence}\n{measured}", fontsize=10, color=DARK, parse_math=False)

@@ -1,0 +1,260 @@
+"""The study itself: knobs turned one at a time, the reference, whole settings and cheaper models, all run and timed."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fenics_gears.errors import ComputationError, GearsError
+from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Scene
+from fenics_gears.studies.accuracy import ladder, whole
+from fenics_gears.studies.accuracy.ladder import Knob, Rung, Setting
+from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, distance, distances, judged
+from fenics_gears.studies.accuracy.reference import Limit, last_of, richardson, together
+from fenics_gears.studies.accuracy.timing import KeptGears, Times, run_afresh
+from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.warm_up import compile_kernels
+
+ROUNDS, QUICK_ROUNDS = 5, 1
+# Rungs are timed in as many rounds as whole settings if that takes no longer, s; their answers need one.
+MOST_SECONDS_ON_RUNGS = 300.0
+MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
+OWN = "the scene's own"
+
+
+@dataclass(frozen=True)
+class RungResult:
+    """A rung that was run: relative errors by measure against its knob's limit, and times."""
+
+    rung: Rung
+    errors: dict[str, float]
+    times: Times
+
+
+@dataclass(frozen=True)
+class KnobResult:
+    """A knob: its rungs that ran, and by measure its limit, with the order observed."""
+
+    knob: Knob
+    rungs: tuple[RungResult, ...]
+    limits: dict[str, Limit]
+
+    def order(self, measure: str) -> float | None:
+        """Observed in a measure; None where there is none."""
+        return self.limits[measure].order if measure in self.limits else None
+
+
+@dataclass(frozen=True)
+class WholeResult:
+    """A whole setting or a cheaper model: direct errors against the reference, errors by knob, what it is charged, and times.
+
+    `parts` is empty for a cheaper model, whose error no knob makes smaller.
+    """
+
+    name: str
+    setting: Setting | None
+    errors: dict[str, float]
+    parts: dict[str, float]
+    times: Times
+
+    @property
+    def counted(self) -> float:
+        """The error that it is charged."""
+        return whole.counted_error(judged(self.errors), self.parts)
+
+
+@dataclass(frozen=True)
+class Report:
+    """All that was measured; `uncertainty`: of the reference, relative, by measure; `failures`: what did not run, and why."""
+
+    scene: Scene
+    half_width: float
+    fine: Setting
+    knobs: tuple[KnobResult, ...]
+    settings: tuple[WholeResult, ...]
+    models: tuple[WholeResult, ...]
+    uncertainty: dict[str, float]
+    failures: tuple[tuple[str, str], ...]
+    machine: dict[str, str]
+
+    @property
+    def own(self) -> WholeResult:
+        """The scene's own setting."""
+        return next(each for each in self.settings if each.name == OWN)
+
+    @property
+    def front(self) -> tuple[WholeResult, ...]:
+        """The whole settings that pay, the quickest first."""
+        places = whole.pareto_front([(each.times.total, each.counted) for each in self.settings])
+        return tuple(self.settings[place] for place in places)
+
+    @property
+    def floor(self) -> float:
+        """Below this an error cannot be told from the reference's own."""
+        return judged(self.uncertainty)
+
+
+def measure(scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None) -> Report:
+    """Run and time the ladder of a scene; `quick`: few rungs, coarse ones. Raises SceneError, GeometryError, ComputationError."""
+    study = Study(scene, progress or SilentProgress(), quick, rounds or (QUICK_ROUNDS if quick else ROUNDS))
+    knobs = study.turn_knobs()
+    reference, uncertainty = study.reference(knobs)
+    settings, models = study.whole_runs(knobs, reference)
+    return Report(
+        scene, ladder.half_width(scene), study.base, knobs, settings, models, uncertainty, tuple(study.failures), machine(),
+    )  # fmt: skip
+
+
+class Study:
+    """One scene's study while it runs: what was answered by which setting, and what failed."""
+
+    def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int):
+        self.scene, self.progress, self.rounds = scene, progress, rounds
+        self.pair = ladder.checked_model(scene).pair
+        self.base, self.knobs = ladder.fine(scene, quick), ladder.knobs(scene, quick)
+        lengths = [rung.setting.length for knob in self.knobs for rung in knob.rungs]
+        self.window = max(lengths)
+        self.failures: list[tuple[str, str]] = []
+        self._known: dict[Setting, tuple[Answer, Times]] = {}
+        self._gears = KeptGears()
+
+    def turn_knobs(self) -> tuple[KnobResult, ...]:
+        """Every rung run with the other knobs fine."""
+        self.progress.stage("compile")
+        compile_kernels(self.scene.friction is not None)
+        self.progress.stage("knobs")
+        begun, total, done = time.perf_counter(), sum(len(knob.rungs) for knob in self.knobs), 0
+        if not self._run(self.base, "all knobs fine"):
+            raise ComputationError(f"the setting that all others are compared with does not run: {self.failures[-1][1]}")
+        for knob in self.knobs:
+            for rung in knob.rungs:
+                self.progress.update(done, total, f"{knob.name} {rung.label}")
+                done += 1
+                self._run(rung.setting, f"{knob.name} {rung.label}")
+        self._time_rungs(time.perf_counter() - begun)
+        results = [self._knob_result(knob) for knob in self.knobs]
+        return tuple(result for result in results if result.rungs)
+
+    def _time_rungs(self, round_takes: float) -> None:
+        """More rounds of the rungs, for their times."""
+        rounds = min(self.rounds - 1, int(MOST_SECONDS_ON_RUNGS / round_takes))
+        if rounds:
+            self.progress.stage("knobs for the time")
+        for turn in range(rounds):
+            gears = KeptGears()
+            for place, (setting, (answers, times)) in enumerate(list(self._known.items())):
+                self.progress.update(turn * len(self._known) + place, rounds * len(self._known))
+                self._known[setting] = answers, times.and_also(gears.run(self._scene(setting)))
+
+    def _knob_result(self, knob: Knob) -> KnobResult:
+        ran = [(rung, *self._known[rung.setting]) for rung in knob.rungs if rung.setting in self._known]
+        return _knob_result(knob, ran, self._known[self.base][0])
+
+    def _scene(self, setting: Setting) -> Scene:
+        return replace(self.scene, accuracy=setting.accuracy(self.scene.gears.module))
+
+    def reference(self, knobs: tuple[KnobResult, ...]) -> tuple[Answer, dict[str, float]]:
+        """All knobs at their limits, and how uncertain that is, relative, by measure."""
+        base, value, uncertainty = self._known[self.base][0], {}, {}
+        for name in MEASURES:
+            limit = together(base[name], [each.limits[name] for each in knobs])
+            value[name], scale = limit.value, float(np.linalg.norm(limit.value))
+            uncertainty[name] = limit.uncertainty / scale if scale and name != DEFECT else 0.0
+        return value, uncertainty
+
+    def whole_runs(self, knobs: tuple[KnobResult, ...], reference: Answer) -> tuple[tuple[WholeResult, ...], tuple[WholeResult, ...]]:
+        """Whole settings and cheaper models in turns, and what they are charged."""
+        mine = ladder.own(self.scene)
+        results = [each.knob for each in knobs]
+        errors = {(each.knob.name, place): judged(rung.errors) for each in knobs for place, rung in _places(each)}
+        chosen = {OWN: (mine, self.scene)}
+        for setting in whole.path(self.base, results, errors, self._fits):
+            chosen[setting.words] = (setting, self._scene(setting))
+        for name in MODELS:
+            chosen[name] = (None, replace(self.scene, accuracy=_accuracy_of(self.scene, name)))
+        answers, times = self._in_turns({name: scene for name, (_, scene) in chosen.items()})
+        found = []
+        for name in answers:
+            setting = chosen[name][0]
+            parts = {} if setting is None else whole.parts_of(setting, results, errors)
+            found.append(WholeResult(name, setting, distances(answers[name], reference), parts, times[name]))
+        if OWN not in answers:
+            raise ComputationError(f"the scene itself does not run: {dict(self.failures)[OWN]}")
+        return tuple(each for each in found if each.setting), tuple(each for each in found if not each.setting)
+
+    def _fits(self, setting: Setting) -> bool:
+        return whole.operator_bytes(self.scene, setting, self.pair.contact_ratio) <= whole.MOST_BYTES
+
+    def _run(self, setting: Setting, name: str) -> bool:
+        """A setting's answers and time, run once whatever knobs it stands on; whether it ran."""
+        if setting in self._known:
+            return True
+        try:
+            if not self._fits(setting):
+                raise ComputationError(f"its contact operators would take more than {whole.MOST_BYTES / 1e9:g} GB")
+            run = self._gears.run(self._scene(setting))
+        except GearsError as error:
+            self.failures.append((name, str(error).splitlines()[0]))
+            return False
+        self._known[setting] = (answer(run, self.window), Times().and_also(run))
+        return True
+
+    def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
+        """Every scene once a round, so that whatever else the machine does meets all of them."""
+        self.progress.stage("whole settings")
+        answers, times, left = {}, {}, dict(scenes)
+        for turn in range(self.rounds):
+            for place, (name, scene) in enumerate(list(left.items())):
+                self.progress.update(turn * len(scenes) + place, self.rounds * len(scenes), name)
+                try:
+                    run = run_afresh(scene)
+                except GearsError as error:
+                    self.failures.append((name, str(error).splitlines()[0]))
+                    del left[name]
+                    continue
+                times[name] = times.get(name, Times()).and_also(run)
+                answers.setdefault(name, answer(run, self.window))
+        return answers, times
+
+
+def _knob_result(knob: Knob, ran: list, base: Answer) -> KnobResult:
+    """Errors of the rungs against the knob's own limit, in the fine setting of all others.
+
+    Choices are measured from the fine setting: none of them is the limit of the others.
+    """
+    regular = [(rung, found) for rung, found, _ in ran if not rung.own or knob.field == "length"]
+    limits = {name: _limit(knob, regular, base, name) for name in MEASURES}
+    rungs = tuple(RungResult(rung, {name: _error(found, limits[name], name) for name in MEASURES}, times) for rung, found, times in ran)
+    return KnobResult(knob, rungs, limits)
+
+
+def _error(found: Answer, limit: Limit, name: str) -> float:
+    """Relative distance from a knob's limit; not less than can be told where the limit is the finest rung itself."""
+    scale = float(np.linalg.norm(limit.value))
+    least = limit.least_error / scale if scale and name != DEFECT else 0.0
+    return max(distance(found, {name: limit.value}, name), least)
+
+
+def _limit(knob: Knob, ran: list, base: Answer, name: str) -> Limit:
+    values = [found[name] for _, found in ran]
+    if knob.expected is not None and len(values) > 1:
+        return richardson(values, [rung.size for rung, _ in ran], knob.expected)
+    if knob.field == "length" and len(values) > 1:
+        return last_of(values)
+    return Limit(base[name], None, 0.0)
+
+
+def _places(result: KnobResult):
+    """Rungs that ran, with their places on the whole ladder."""
+    ran = {each.rung: each for each in result.rungs}
+    return [(place, ran[rung]) for place, rung in enumerate(result.knob.rungs) if rung in ran]
+
+
+def _accuracy_of(scene: Scene, name: str) -> Accuracy:
+    """The scene's own accuracy for a cheaper model; those without flanks in contact have steps alone."""
+    if name == STIFFNESS_TABLE:
+        return replace(scene.accuracy, model=name)
+    return Accuracy(model=name, steps_per_mesh_cycle=ladder.own(scene).steps)

@@ -1,0 +1,79 @@
+"""How long a run takes, stage by stage and without the cache; of several rounds, in which runs take turns, the median."""
+
+from __future__ import annotations
+
+import statistics
+from dataclasses import dataclass
+
+import xarray as xr
+
+from fenics_gears.model import Model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.scene.data import Scene
+from fenics_gears.simulation import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
+from fenics_gears.studies.workshop import GEARS, gear_key
+
+STAGES = ("mesh", "condense", "march")
+
+
+@dataclass(frozen=True)
+class Times:
+    """Seconds of every round: meshing, condensing, marching with the contact operators. Compiling does not count."""
+
+    mesh: tuple[float, ...] = ()
+    condense: tuple[float, ...] = ()
+    march: tuple[float, ...] = ()
+
+    def and_also(self, run: xr.Dataset) -> Times:
+        """With one more run."""
+        return Times(*((*getattr(self, stage), float(run.attrs[f"time_{stage}"])) for stage in STAGES))
+
+    @property
+    def rounds(self) -> int:
+        """How many runs."""
+        return len(self.march)
+
+    @property
+    def totals(self) -> tuple[float, ...]:
+        """Of every run."""
+        return tuple(map(sum, zip(self.mesh, self.condense, self.march)))
+
+    @property
+    def total(self) -> float:
+        """The median run."""
+        return statistics.median(self.totals)
+
+    def median(self, stage: str) -> float:
+        """Of one stage."""
+        return statistics.median(getattr(self, stage))
+
+
+def run_afresh(scene: Scene) -> xr.Dataset:
+    """A run that takes nothing from the cache and leaves nothing there. Ctrl-C in its march ends all."""
+    return _whole(simulate(scene, preparation=lambda built, progress, cache: prepared(built, SilentProgress(), None)))
+
+
+class KeptGears:
+    """Gears condensed once for all runs that share them, without the cache; each keeps the times that it took."""
+
+    def __init__(self):
+        self._gears: dict = {}
+
+    def run(self, scene: Scene) -> xr.Dataset:
+        """A run of the full contact; its times are those of a run of its own."""
+        return _whole(simulate(scene, preparation=lambda built, progress, cache: self._prepared(built)))
+
+    def _prepared(self, built: Model):
+        reach = tooth_reach(built)
+        for name in GEARS:
+            key = gear_key(built, name, reach)
+            if key not in self._gears:
+                self._gears[key] = gear_compliance(built, name, reach, None)
+        compliances = tuple(self._gears[gear_key(built, name, reach)] for name in GEARS)
+        return compliances, mesh_cycle(built, compliances)
+
+
+def _whole(result: xr.Dataset) -> xr.Dataset:
+    if not result.attrs["complete"]:
+        raise KeyboardInterrupt
+    return result

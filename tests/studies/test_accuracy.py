@@ -1,0 +1,192 @@
+"""`gears accuracy`: the ladder of a small scene measured, told, written and drawn; times of this machine, errors of the method."""
+
+import csv
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.effects.examples import scene_of, text_of
+
+from fenics_gears.cli import main
+from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.model import model
+from fenics_gears.scene.data import RIGID_TEETH, Accuracy
+from fenics_gears.simulation import simulate
+from fenics_gears.studies.accuracy import ladder, measured, table
+from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, SPAN, judged
+
+TEETH = "tooth_elasticity"
+# Fewer and coarser than --quick: what is tested here is the way, not the ladder.
+TINY = {"flank elements": (0.5, 1.0), "contact nodes": (0.5, 1.0), "body elements": (4.0,), "contact length": (0.5, 1.0), "steps": (10, 20, 40)}
+TINY_FINE = {"flank elements": 1.0, "contact nodes": 1.0, "body elements": 4.0, "contact length": 1.0, "steps": 20}
+SETTINGS = Accuracy("P1", 0.25, 3.0, 13, 20)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def tiny():
+    """Few rungs for `quick`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ladder, "QUICK", TINY)
+        patch.setattr(ladder, "QUICK_FINE", TINY_FINE)
+        yield
+
+
+@pytest.fixture(scope="module")
+def scene():
+    """The paper's pair, quasi-static and without friction, at a coarse setting."""
+    return replace(scene_of(TEETH), accuracy=SETTINGS)
+
+
+@pytest.fixture(scope="module")
+def report(scene, tiny):
+    """Its study, timed twice."""
+    return measured.measure(scene, quick=True, rounds=2)
+
+
+def knob(report, name):
+    return next(each for each in report.knobs if each.knob.name == name)
+
+
+def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
+    """Authority: identity; error and answers are those of `gears run` of the scene as it stands."""
+    run = simulate(scene)
+    reference = report.own.errors[SPAN]
+    span = run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]
+    again = measured.answer(run, 3.0)
+    assert again[SPAN][0] == pytest.approx(span) and reference > 0.0
+    assert ladder.own(scene).flank == model(scene).resolution.flank_element_size == SETTINGS.flank_element_size
+    assert ladder.own(scene).grid.nodes == SETTINGS.contact_nodes
+
+
+def test_every_knob_of_the_issue_is_turned_with_the_others_fine(report):
+    """Authority: issue 6; each rung differs from the fine setting in its own field alone."""
+    assert {each.knob.name for each in report.knobs} == {
+        "flank element size", "contact node spacing", "body element size", "steps per mesh cycle", "contact length", "element",
+        "interpolation", "elastic teeth",
+    }  # fmt: skip
+    for result in report.knobs:
+        for each in result.rungs:
+            assert replace(each.rung.setting, **{result.knob.field: getattr(report.fine, result.knob.field)}) == report.fine
+
+
+def test_the_scenes_own_values_are_rungs(report):
+    """Authority: definition; else what a scene is charged would leave a knob out."""
+    assert set(report.own.parts) == {each.knob.name for each in report.knobs}
+    assert sum(each.rung.own for each in knob(report, "flank element size").rungs) == 1
+    assert not any(each.rung.own for each in knob(report, "steps per mesh cycle").rungs)
+
+
+def test_more_steps_are_better(report):
+    """Authority: straight lines between steps; each halving of the step must not make the curve worse."""
+    errors = [each.errors[CURVE] for each in knob(report, "steps per mesh cycle").rungs]
+    assert errors == sorted(errors, reverse=True) and errors[-1] < 0.5 * errors[0]
+
+
+def test_a_setting_is_charged_at_least_its_parts_and_its_distance(report):
+    """Authority: issue 6, errors that cancel are no accuracy."""
+    for each in report.settings:
+        assert each.counted >= judged(each.errors) and each.counted >= sum(each.parts.values()) * (1 - 1e-12)
+
+
+def test_cheaper_models_stand_beside_them(report):
+    """Authority: rigid teeth without errors of form have no transmission error: all of it is lost, and there is no pressure."""
+    models = {each.name: each for each in report.models}
+    assert set(models) == set(measured.MODELS)
+    rigid = models[RIGID_TEETH]
+    assert rigid.errors[SPAN] == pytest.approx(1.0, abs=1e-6) and np.isnan(rigid.errors["pressure"]) and not rigid.parts
+    assert all(each not in report.front for each in report.models)
+
+
+def test_times_are_split_and_of_every_round(report):
+    """Authority: identity; the total of a run is its stages', rungs and whole settings are timed in all rounds."""
+    results = [*report.settings, *report.models, *(each for knob in report.knobs for each in knob.rungs)]
+    for each in results:
+        assert each.times.rounds == 2
+        assert each.times.totals[0] == pytest.approx(each.times.mesh[0] + each.times.condense[0] + each.times.march[0])
+        assert each.times.total == pytest.approx(np.median(each.times.totals))
+    assert report.own.times.median("condense") > 0.0 and "cores" in report.machine["processor"]
+
+
+def test_the_energy_account_closes_to_round_off(report):
+    """Authority: the exact account of a quasi-static, frictionless run."""
+    assert max(each.errors["energy defect"] for each in report.settings) < 1e-9
+
+
+def test_the_sentence_says_no_more_than_the_reference_can(report):
+    """Authority: the reference's uncertainty; a target below it is not claimed."""
+    said = table.in_one_sentence(replace(report, uncertainty=dict.fromkeys(MEASURES, 0.004)))
+    assert "0.1 % cannot be told" in said and said.startswith("1 % in T_E")
+    assert f"what limits you is the {table.dominant(report.own.parts)}" in said
+    cheap = replace(report.settings[0], errors=dict.fromkeys(MEASURES, 1e-4), parts={"steps per mesh cycle": 2e-4})
+    sure = replace(report, settings=(replace(report.own), cheap), uncertainty=dict.fromkeys(MEASURES, 1e-5))
+    cost = table.seconds(cheap.times.total)
+    sure_words = table.in_one_sentence(replace(sure, settings=(report.own, replace(cheap, name="cheap"))))
+    assert f"0.1 % in T_E and T_EPP costs {cost} s (cheap)" in sure_words
+
+
+@pytest.mark.parametrize(
+    "changes, words",
+    [
+        ({"accuracy": Accuracy(model=RIGID_TEETH)}, "accuracy.model"),
+        ({"accuracy": Accuracy(condensation="every step")}, 'Take "once"'),
+    ],
+)
+def test_what_cannot_be_measured_is_refused_with_the_remedy(scene, changes, words):
+    """Authority: house rule; no option is silently ignored."""
+    with pytest.raises(SceneError, match=words):
+        measured.measure(replace(scene, **changes))
+
+
+def test_without_load_there_is_nothing_to_measure(scene):
+    """Authority: house rule; an error says what, and the remedy."""
+    with pytest.raises(SceneError, match="wheel_torque is 0"):
+        measured.measure(replace(scene, load=replace(scene.load, wheel_torque=0.0)))
+
+
+def test_a_rung_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
+    """Authority: house style, a failed case is a record among the results."""
+    kept = measured.KeptGears.run
+
+    def fails(self, scene):
+        if scene.accuracy.interpolation == "collocated":
+            raise ComputationError("no solution at step 3\nand a history")
+        return kept(self, scene)
+
+    monkeypatch.setattr(measured.KeptGears, "run", fails)
+    study = measured.Study(scene, measured.SilentProgress(), True, 1)
+    study.knobs = tuple(each for each in study.knobs if each.name == "interpolation")
+    (result,) = study.turn_knobs()
+    assert [each.rung.label for each in result.rungs] == ["averaged"]
+    assert study.failures == [("interpolation collocated", "no solution at step 3")]
+
+
+def test_the_command_prints_and_writes_table_and_picture(tmp_path, monkeypatch, capsys):
+    """Authority: issue 6; tables and the sentence on the terminal, DIR/accuracy.csv and DIR/accuracy.png; the cache is left alone."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))
+    (tmp_path / "small.toml").write_text(text_of(TEETH, "friction"), encoding="utf-8")
+    assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 0
+    output = capsys.readouterr().out
+    assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["accuracy.csv", "accuracy.png"]
+    assert not (tmp_path / "cache").exists()
+    assert (tmp_path / "there" / "accuracy.png").read_bytes().startswith(b"\x89PNG")
+    assert "what limits you is" in output and "rigid teeth" in output
+    with open(tmp_path / "there" / "accuracy.csv", encoding="utf-8", newline="") as file:
+        lines = list(csv.DictReader(file))
+    assert {line["kind"] for line in lines} == {"knob", "setting", "model", "reference"}
+    own = next(line for line in lines if line["name"] == measured.OWN)
+    assert float(own["charged_error"]) >= float(own["judged_error"]) > 0.0
+    assert float(own["time_s"]) == pytest.approx(sum(float(own[f"time_{stage}_s"]) for stage in ("mesh", "condense", "march")))
+    assert all(None not in line and None not in line.values() for line in lines)
+
+
+def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
+    """Authority: the exit codes; 130, and no half of a comparison is kept."""
+    from fenics_gears.studies.accuracy import timing
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(timing, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))
+    (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
+    assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
+    assert "Interrupted" in capsys.readouterr().err
+    assert not (tmp_path / "there").exists()

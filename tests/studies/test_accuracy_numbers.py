@@ -1,0 +1,239 @@
+"""Orders, limits, fronts and charged errors of `gears accuracy` on numbers known exactly."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from fenics_gears.studies.accuracy import measures, whole
+from fenics_gears.studies.accuracy.ladder import Knob, Rung, Setting
+from fenics_gears.studies.accuracy.measures import CURVE, JUDGED, PEAK, PRESSURE, SPAN, STIFFNESS
+from fenics_gears.studies.accuracy.reference import last_of, observed_order, richardson, together
+
+SHAPE = np.sin(np.linspace(0.0, 6.0, 50)) + 2.0
+ERROR = np.cos(np.linspace(0.0, 2.0, 50))
+BASE = Setting("P2", 0.04, 0.04, 3.2, 0.5, 80)
+
+
+def sequence(sizes, order, constant=0.3):
+    """u(h) = u(0) + C h^p, a curve."""
+    return [SHAPE + constant * ERROR * size**order for size in sizes]
+
+
+@pytest.mark.parametrize("order", [0.7, 1.0, 2.0, 3.0, 4.0])
+@pytest.mark.parametrize("sizes", [(0.8, 0.4, 0.2), (1.0, 0.7, 0.3), (1.0 / 100, 1.0 / 160, 1.0 / 320)])
+def test_the_order_of_an_exact_power_is_found(sizes, order):
+    """Authority: manufactured sequence; sizes need not halve."""
+    assert observed_order(sequence(sizes, order), sizes) == pytest.approx(order, rel=1e-6)
+
+
+def test_the_limit_of_an_exact_power_is_its_constant():
+    """Authority: Richardson 1911; one power is removed exactly, and the uncertainty is 1.25 times what was extrapolated (Roache)."""
+    sizes = (0.8, 0.4, 0.2)
+    limit = richardson(sequence(sizes, 2.0), sizes, expected=2.0)
+    assert np.allclose(limit.value, SHAPE, atol=1e-12)
+    assert limit.uncertainty == pytest.approx(1.25 * 0.3 * 0.04 * np.linalg.norm(ERROR))
+    assert limit.least_error == 0.0
+
+
+def test_richardson_on_archimedes_polygons():
+    """Authority: n sin(pi/n) goes to pi as 1/n^2; three polygons give an order near 2, and the limit lies within its uncertainty."""
+    counts = (24, 48, 96)
+    values = [np.array([n * np.sin(np.pi / n)]) for n in counts]
+    limit = richardson(values, [1.0 / n for n in counts], expected=2.0)
+    assert limit.order == pytest.approx(2.0, abs=2e-3)
+    assert abs(limit.value[0] - np.pi) < 1e-3 * abs(values[-1][0] - np.pi)
+    assert abs(limit.value[0] - np.pi) <= limit.uncertainty
+
+
+@pytest.mark.parametrize("values", [(1.0, 0.9, 0.95), (1.0, 0.9, 0.7), (1.0, 1.0, 1.0)])
+def test_without_an_order_nothing_is_extrapolated(values):
+    """Authority: Roache; where a sequence turns back, diverges or stands still, three times its last difference is uncertain."""
+    terms = [np.array([value]) for value in values]
+    limit = richardson(terms, (0.4, 0.2, 0.1), expected=2.0)
+    assert limit.order is None
+    assert limit.value[0] == values[-1]
+    assert limit.uncertainty == pytest.approx(3.0 * abs(values[-1] - values[-2]))
+    assert limit.least_error == pytest.approx(abs(values[-1] - values[-2]))
+
+
+def test_an_order_far_above_the_expected_is_not_trusted():
+    """Authority: a leading power that happens to vanish says nothing of the next rung; the safe side is the last difference."""
+    sizes = (0.8, 0.4, 0.2)
+    limit = richardson(sequence(sizes, 6.0), sizes, expected=2.0)
+    assert limit.order == pytest.approx(6.0)
+    assert np.array_equal(limit.value, sequence(sizes, 6.0)[-1]) and limit.least_error > 0.0
+
+
+def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated():
+    """Authority: errors of size h in directions at right angles; their norms fall with the first power, their sum has no one direction."""
+    directions, sizes = np.eye(3), (4.0, 2.0, 1.0)
+    steps = [directions[0] * 2.0, directions[1] * 1.0]
+    values = [np.full(3, 9.0) - steps[0] - steps[1], np.full(3, 9.0) - steps[1], np.full(3, 9.0)]
+    limit = richardson(values, sizes, expected=1.0)
+    assert limit.order == pytest.approx(1.0)
+    assert np.array_equal(limit.value, values[-1])
+    assert limit.least_error == pytest.approx(1.0) and limit.uncertainty == pytest.approx(3.0)
+
+
+def test_limits_of_several_knobs_add_and_so_do_their_uncertainties():
+    """Authority: u = c + a h^2 + b k; both extrapolated from one base give c."""
+    def u(h, k):
+        return np.array([5.0 + 0.7 * h**2 - 0.4 * k])
+
+    sizes, base = (0.4, 0.2, 0.1), u(0.2, 0.2)
+    limits = [richardson([u(h, 0.2) for h in sizes], sizes, 2.0), richardson([u(0.2, k) for k in sizes], sizes, 1.0)]
+    found = together(base, limits)
+    assert found.value[0] == pytest.approx(5.0)
+    assert found.uncertainty == pytest.approx(sum(limit.uncertainty for limit in limits))
+    assert together(base, [last_of([base])]).value[0] == base[0]
+
+
+def brute_front(points):
+    """All points that no other one beats, by comparing each with each."""
+    def beaten(mine, other):
+        return other[0] <= mine[0] and other[1] <= mine[1] and other != mine
+
+    return {mine for mine in points if not any(beaten(mine, other) for other in points)}
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_front_is_that_of_comparing_each_with_each(seed):
+    """Authority: definition; random points on a coarse lattice, so that there are ties and equal points."""
+    random = np.random.default_rng(seed)
+    points = [tuple(map(float, point)) for point in random.integers(1, 9, size=(25, 2))]
+    front = whole.pareto_front(points)
+    assert {points[place] for place in front} == brute_front(points)
+    assert len({points[place] for place in front}) == len(front)
+    assert [points[place][0] for place in front] == sorted(points[place][0] for place in front)
+
+
+def test_errors_that_cancel_are_no_accuracy():
+    """Authority: issue 6; +5 % of one knob and -5 % of another give the right answer and are charged 10 %."""
+    def span(h, k):
+        return np.array([10.0 * (1.0 + 0.05 * h**2 - 0.05 * k**2)])
+
+    exact = {SPAN: span(0.0, 0.0)}
+    direct = measures.distance({SPAN: span(1.0, 1.0)}, exact, SPAN)
+    parts = {"h": measures.distance({SPAN: span(1.0, 0.0)}, exact, SPAN), "k": measures.distance({SPAN: span(0.0, 1.0)}, exact, SPAN)}
+    assert direct == 0.0
+    assert whole.counted_error(direct, parts) == pytest.approx(0.10)
+    honest = whole.counted_error(measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()})
+    assert honest == pytest.approx(0.025)
+    assert whole.pareto_front([(1.0, whole.counted_error(direct, parts)), (1.5, honest)]) == [0, 1]
+
+
+def test_a_model_is_charged_its_distance_and_a_setting_never_less():
+    """Authority: definition; no knob makes a cheaper model's error smaller."""
+    assert whole.counted_error(0.2, {}) == 0.2
+    assert whole.counted_error(0.2, {"a": 0.01}) == 0.2
+
+
+def knob(name, field, values, expected=2.0):
+    """A knob of synthetic rungs."""
+    return Knob(name, field, tuple(Rung(str(value), replace(BASE, **{field: value}), float(value)) for value in values), expected, "made up")
+
+
+FLANK, STEPS = knob("flank", "flank", (0.16, 0.08, 0.04)), knob("steps", "steps", (20, 40, 80, 160))
+ERRORS = {("flank", 0): 0.08, ("flank", 1): 0.02, ("flank", 2): 0.005}
+ERRORS |= {("steps", place): error for place, error in enumerate((0.2, 0.05, 0.012, 0.003))}
+
+
+def test_the_path_refines_what_limits_it():
+    """Authority: by hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.6 or below."""
+    found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
+    assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
+
+
+def test_the_path_ends_at_what_is_not_allowed():
+    """Authority: definition; steps beyond 40 do not fit."""
+    found = whole.path(BASE, [FLANK, STEPS], ERRORS, allowed=lambda setting: setting.steps <= 40)
+    assert found[-1] == replace(BASE, flank=0.08, steps=40)
+
+
+def test_parts_are_those_of_the_settings_own_rungs():
+    """Authority: identity; and the largest names what limits."""
+    for (i, flank), (j, steps) in itertools.product(enumerate((0.16, 0.08, 0.04)), enumerate((20, 40, 80, 160))):
+        parts = whole.parts_of(replace(BASE, flank=flank, steps=steps), [FLANK, STEPS], ERRORS)
+        assert parts == {"flank": ERRORS["flank", i], "steps": ERRORS["steps", j]}
+        assert ERRORS[whole.dominant(parts), {"flank": i, "steps": j}[whole.dominant(parts)]] == max(parts.values())
+
+
+def test_contact_nodes_are_no_closer_than_the_flank_bears_and_windows_share_their_nodes():
+    """Authority: resolution.CLOSEST_NODES of the distance of flank nodes, which P2 has two of an element."""
+    coarse = replace(BASE, flank=0.4)
+    assert coarse.grid.spacing == pytest.approx(0.7 * 0.2)
+    assert replace(coarse, element="P1").grid.spacing == pytest.approx(0.7 * 0.4)
+    narrow, wide = BASE.grid, replace(BASE, length=4.0).grid
+    assert narrow.spacing == pytest.approx(wide.spacing) == pytest.approx(0.04)
+    cells = (wide.length - narrow.length) / (2.0 * narrow.spacing)
+    assert cells == pytest.approx(round(cells))
+
+
+def run(steps, amplitude=1.0, nodes=41, first_pair=0):
+    """A made-up result of two mesh cycles: a sine for a transmission error, a parabola of pressure on two pairs."""
+    phase = np.arange(2 * steps + 1) / steps
+    offsets = np.broadcast_to(np.linspace(-1.0, 1.0, nodes), (len(phase), 2, nodes))
+    pressure = amplitude * 100.0 * (1.0 - offsets**2)
+    error = amplitude * 1e-3 * np.sin(2 * np.pi * phase) + 7.0
+    data = {
+        "transmission_error": ("time", error), "mesh_phase": ("time", phase), "normal_force": ("time", np.full(len(phase), 100.0)),
+        "energy_teeth": ("time", np.full(len(phase), 2.0)), "work_input": ("time", 50.0 * phase), "energy_defect": ("time", 0.1 * phase),
+        "contact_pressure": (("time", "pair", "contact_node"), pressure), "contact_offset": (("time", "pair", "contact_node"), offsets),
+        "pair": ("pair", np.array([first_pair, first_pair + 1])),
+    }  # fmt: skip
+    attributes = {
+        "peak_to_peak_transmission_error": float(np.ptp(error)), "base_radius_wheel": 50.0, "peak_contact_pressure": 100.0 * amplitude,
+    }  # fmt: skip
+    return xr.Dataset(data, attrs=attributes)
+
+
+def test_measures_of_a_sine_and_a_parabola():
+    """Authority: exact: 2 a rb peak to peak, rms a rb/sqrt 2 without the mean of 7 rad, F^2/(2U) = 2500, defect 0.2/100."""
+    found = measures.answer(run(640), window=2.0)
+    assert found[SPAN][0] == pytest.approx(0.1, rel=1e-4)
+    assert np.sqrt(np.mean(found[CURVE] ** 2)) == pytest.approx(0.05 / np.sqrt(2.0), rel=1e-4)
+    assert abs(found[CURVE].mean()) < 1e-12
+    assert found[STIFFNESS][0] == pytest.approx(2500.0)
+    assert measures.distance(found, found, measures.DEFECT) == pytest.approx(0.002)
+
+
+def test_distances_are_relative_and_do_not_see_the_grid():
+    """Authority: linearity; 10 % more is 0.1 in every measure; the same parabola on other nodes and steps is the same but for h^2."""
+    one, more = measures.answer(run(640), 2.0), measures.answer(run(640, 1.1), 2.0)
+    for name in (CURVE, SPAN, PRESSURE, PEAK):
+        assert measures.distance(more, one, name) == pytest.approx(0.1, rel=1e-6)
+    assert measures.judged(measures.distances(more, one)) == pytest.approx(0.1)
+    other = measures.answer(run(160, nodes=61), 2.0)
+    assert measures.distance(other, one, PRESSURE) < 1e-3
+    assert 0.0 < measures.distance(other, one, CURVE) < 1e-3
+
+
+def test_pressure_of_pairs_that_differ_is_not_the_same():
+    """Authority: identity; pairs are counted through the run, and the same pressure on the next pair is another field."""
+    one, next_pair = measures.answer(run(40), 2.0), measures.answer(run(40, first_pair=1), 2.0)
+    assert measures.distance(next_pair, one, PRESSURE) == pytest.approx(1.0, rel=1e-6)
+
+
+def test_straight_lines_between_steps_lose_the_second_order():
+    """Authority: interpolation error h^2/8 f''; the curve's observed order over steps is 2."""
+    counts = (40, 80, 160)
+    curves = [measures.answer(run(count), 2.0)[CURVE] for count in counts]
+    assert observed_order(curves, [1.0 / count for count in counts]) == pytest.approx(2.0, abs=0.02)
+
+
+def test_no_judging_by_peak_pressure():
+    """Authority: issue 6; the judged error is of the transmission error's curve and height."""
+    assert set(JUDGED) == {CURVE, SPAN}
+    errors = dict.fromkeys(measures.MEASURES, 0.01) | {PEAK: 5.0}
+    assert measures.judged(errors) == 0.01
+
+
+def test_a_measure_that_a_model_lacks_is_not_a_number():
+    """Authority: definition; a stiffness table has no pressure, and is not charged for it."""
+    whole_answer = measures.answer(run(40), 2.0)
+    without = {name: value for name, value in whole_answer.items() if name not in (PRESSURE, PEAK)}
+    assert np.isnan(measures.distance(without, whole_answer, PRESSURE))
+    assert measures.distance(without, whole_answer, SPAN) == 0.0
