@@ -36,7 +36,9 @@ class Model:
     @property
     def time_step(self) -> float:
         """Length of a step, s; of the longest where they are not all as long."""
-        return 1.0 / (self.scene.mesh_frequencies[0] * self.resolution.steps_per_mesh_cycle)
+        if any(effect.clock is not None for effect in effects_on(self.scene)):
+            return max(self.clock.duration(0, 1), self.clock.duration(self.steps - 1, self.steps))
+        return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
 
     @property
     def clock(self) -> Clock:

@@ -42,6 +42,7 @@ EFFECT = Effect(
     terms=("contact along the coast flanks' own line of action",),
     variables=(
         ResultVariable("coast_normal_force", "N", "contact force of the coast flanks along their line of action"),
+        ResultVariable("coast_friction_force", "N", "friction force of the coast flanks", "friction"),
         ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth"),
         ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity"),
         ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank", "tooth_elasticity"),

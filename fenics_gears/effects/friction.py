@@ -28,7 +28,7 @@ EFFECT = Effect(
     unknowns=("tangential force of each closed contact node",),
     terms=("friction law with stick and slip",),
     variables=(
-        ResultVariable("friction_force", "N", "friction force of the mesh"),
+        ResultVariable("friction_force", "N", "friction force of the mesh, on the drive flanks"),
         ResultVariable("pair_friction_force", "N", "friction force of the tooth pair"),
         ResultVariable("contact_traction", "MPa", "friction traction on the flank"),
         ResultVariable("work_friction", "N mm", "work that friction takes"),

@@ -36,6 +36,9 @@ def mesh_variables(scene: Scene, records: list[Record]) -> dict:
     if scene.coast_flanks is not None:
         coast = [_normal(record)[~drive].sum() for record, drive in zip(records, on_drive)]
         values["coast_normal_force"] = (("time",), np.array(coast))
+        if scene.friction is not None:
+            across = [_tangential(record)[~drive].sum() for record, drive in zip(records, on_drive)]
+            values["coast_friction_force"] = (("time",), np.array(across))
         for name, flank in (("drive_flank_opening", DRIVE), ("coast_flank_opening", COAST)):
             openings = [max(smallest_opening(record, flank), 0.0) for record in records]
             values[name] = (("time",), np.array(openings))

@@ -111,9 +111,15 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
             attributes["peak_contact_pressure"] = _peak_pressure(result)
         attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
         attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
-    if len(error) > 1 and scene.friction is not None and result["work_input"].values[-1] and largest_normal_force(result) > NO_FORCE:
-        attributes["friction_loss"] = float(result["work_friction"].values[-1] / abs(result["work_input"].values[-1]))
+    if len(error) > 1 and scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
+        attributes |= _friction_loss(result)
     return attributes
+
+
+def _friction_loss(result: xr.Dataset) -> dict[str, float]:
+    """The share of the drive's work that friction takes; nothing where the drive does no work."""
+    drive = abs(float(result["work_input"].values[-1]))
+    return {"friction_loss": float(result["work_friction"].values[-1]) / drive} if drive else {}
 
 
 def _peak_pressure(result: xr.Dataset) -> float:
