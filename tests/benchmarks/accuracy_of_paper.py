@@ -1,0 +1,92 @@
+"""What accuracy of the paper's scene costs, into docs/accuracy.md: `python -m tests.benchmarks.accuracy_of_paper [--rounds 5]`.
+
+Runs what `gears accuracy` runs on demos/lundvall2004.toml quasi-static and at 200 Hz, with friction and without; writes each one's
+tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV. Times are this machine's; errors must
+not change. Names of scenes as further arguments run those alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+from fenics_gears.progress import LineProgress
+from fenics_gears.scene.data import Motion, Scene
+from fenics_gears.scene.read import load_scene
+from fenics_gears.studies.accuracy import table
+from fenics_gears.studies.accuracy.measured import Report, measure
+
+ROOT = Path(__file__).parents[2]
+SCENE, PAGE, PICTURES = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md", ROOT / "docs" / "pictures"
+
+
+def scenes() -> dict[str, Scene]:
+    """The paper's scene four times."""
+    fast = load_scene(SCENE)
+    slow = replace(fast, inertia=None, damping=None, motion=Motion(200.0, 2, 1))
+    found = {"200_hz_friction": fast, "quasi_static_friction": slow}
+    found |= {name.replace("friction", "frictionless"): replace(each, friction=None) for name, each in found.items()}
+    return found
+
+
+def markers(name: str) -> tuple[str, str]:
+    """The lines of the page between which a scene's section stands."""
+    return f"<!-- accuracy, {name}: begin -->", f"<!-- accuracy, {name}: end -->"
+
+
+def section(name: str, report: Report) -> str:
+    """The sentence, the picture, both tables and the remarks."""
+    own = [("|".join(["", *cells, ""])) for cells in ((_with_units(table.HEADINGS, table.UNITS)), *table.table_rows(report))]
+    own.insert(1, "|---" * len(table.HEADINGS) + "|")
+    whole = [("|".join(["", *cells, ""])) for cells in (_with_units(table.WHOLE_HEADINGS, table.WHOLE_UNITS), *table.whole_rows(report))]
+    whole.insert(1, "|---" * len(table.WHOLE_HEADINGS) + "|")
+    where = report.machine
+    measured = (
+        f"Whole settings timed {report.own.times.rounds} times in turns, medians; rungs {report.knobs[0].rungs[0].times.rounds} times. "
+        f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}."
+    )
+    remarks = [f"* {remark}" for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))]
+    return "\n".join([
+        f"**{table.in_one_sentence(report)}**", "", f"![](pictures/accuracy_{name}.png)", "",
+        f"Whole settings and cheaper models; \\* pays. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
+        *(line.replace(" *|", " \\*|") for line in whole), "", f"Each knob alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
+    ])  # fmt: skip
+
+
+def _with_units(headings, units) -> tuple[str, ...]:
+    return tuple(f"{heading}, {unit}" if unit else heading for heading, unit in zip(headings, units))
+
+
+def replaced(page: str, name: str, words: str) -> str:
+    """The page with a scene's section. Raises SystemExit where its markers are missing."""
+    begin, end = markers(name)
+    before, found, rest = page.partition(begin)
+    _, closed, after = rest.partition(end)
+    if not (found and closed):
+        raise SystemExit(f"{PAGE}: the lines {begin} and {end} are missing; put them where the section shall stand")
+    return f"{before}{begin}\n\n{words}\n\n{end}{after}"
+
+
+def main() -> None:
+    """Measure, write pictures, numbers and the page's sections, each as soon as it is there."""
+    from fenics_gears.show.plots import save_figure
+    from fenics_gears.show.work_precision import work_precision
+
+    all_scenes = scenes()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
+    parser.add_argument("--rounds", type=int, default=5)
+    options = parser.parse_args()
+    for name in options.names:
+        progress = LineProgress()
+        print(name, flush=True)
+        report = measure(all_scenes[name], progress, rounds=options.rounds)
+        progress.close()
+        save_figure(work_precision(report), PICTURES / f"accuracy_{name}.png")
+        table.write_csv(report, PICTURES / f"accuracy_{name}.csv")
+        PAGE.write_text(replaced(PAGE.read_text(encoding="utf-8"), name, section(name, report)), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
