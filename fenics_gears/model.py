@@ -97,6 +97,10 @@ class Model:
         """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
         found = [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.material)
+        if self.corner is not None:
+            from fenics_gears.contact.corner import edge_warnings
+
+            found += edge_warnings(self.pair, self.corner)
         if self.vibrations:
             from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 

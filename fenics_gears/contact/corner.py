@@ -46,6 +46,19 @@ def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.
     return CornerContact((tip_edge(pair.pinion, radii[0]), tip_edge(pair.wheel, radii[1])))
 
 
+def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
+    """A sentence on edges that leave the flanks too little of the path of contact; between flanks only edges then carry."""
+    pinion, wheel = corner.edges
+    start = pair.line_of_action_length - pair.wheel.base_radius * wheel.flank_roll
+    ratio = (pair.pinion.base_radius * pinion.flank_roll - start) / pair.base_pitch
+    if ratio >= 1.0:
+        return []
+    return [
+        f"the rounded edges of corner_contact leave the flanks a contact ratio of {ratio:.3g}: at some positions only the tips' edges touch; "
+        "lower corner_contact.edge_radius, or see that accuracy.contact_length reaches to the next pair"
+    ]
+
+
 def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
     """The place of a pair, seen along the mate's normal where a tip edge is beyond the path of contact; else as it is."""
     tip = corner.edge_beyond(place)
