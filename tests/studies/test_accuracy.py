@@ -17,7 +17,7 @@ from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, SPAN, judged
 
 TEETH = "tooth_elasticity"
 # Fewer and coarser than --quick: what is tested here is the way, not the ladder.
-TINY = {"flank elements": (0.5, 1.0), "contact nodes": (0.5, 1.0), "body elements": (4.0,), "contact length": (0.5, 1.0), "steps": (10, 20, 40)}
+TINY = {"flank elements": (0.5, 1.0), "contact nodes": (1.0,), "body elements": (4.0,), "contact length": (1.0,), "steps": (10, 20, 40)}
 TINY_FINE = {"flank elements": 1.0, "contact nodes": 1.0, "body elements": 4.0, "contact length": 1.0, "steps": 20}
 SETTINGS = Accuracy("P1", 0.25, 3.0, 13, 20)
 
@@ -158,6 +158,22 @@ def test_a_rung_that_fails_is_told_and_the_others_are_measured(scene, monkeypatc
     (result,) = study.turn_knobs()
     assert [each.rung.label for each in result.rungs] == ["averaged"]
     assert study.failures == [("interpolation collocated", "no solution at step 3")]
+
+
+def test_the_picture_names_every_setting_that_pays(report):
+    """Authority: identity; each point of the front has its number and its line, and all errors and times are inside the axes."""
+    from fenics_gears.show.work_precision import work_precision
+
+    figure = work_precision(report)
+    whole, alone = figure.axes
+    said = "\n".join(text.get_text() for text in whole.texts)
+    for number, each in enumerate(report.front, 1):
+        assert f"{number}  {each.setting.words}" in said
+    for each in (*report.settings, *report.models):
+        for value, (low, high) in ((each.times.total, whole.get_xlim()), (each.counted, whole.get_ylim())):
+            assert low <= value <= high
+    assert len(alone.lines) >= 5
+    assert any(table.in_one_sentence(report)[:40] in text.get_text() for text in figure.texts)
 
 
 def test_the_command_prints_and_writes_table_and_picture(tmp_path, monkeypatch, capsys):

@@ -49,7 +49,7 @@ def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
 def path(base: Setting, knobs: Sequence[Knob], errors: Errors, allowed=lambda setting: True) -> list[Setting]:
     """Whole settings from the coarsest on: at each the knob with the largest error goes one rung finer.
 
-    It ends where that knob has no finer rung, or none that is `allowed`. Knobs that are choices stay as `base` has them.
+    It ends where that knob has no finer rung, or none that is `allowed`; the end is kept. Knobs that are choices stay as `base` has them.
     """
     moving = [knob for knob in knobs if knob.expected is not None or knob.field == "length"]
     rungs = {knob.name: [place for place, rung in enumerate(knob.rungs) if not rung.own and (knob.name, place) in errors] for knob in moving}
@@ -74,6 +74,8 @@ def path(base: Setting, knobs: Sequence[Knob], errors: Errors, allowed=lambda se
         if at[worst] + 1 == len(rungs[worst]) or last == 0.0:
             break
         at[worst] += 1
+    if moving and found and found[-1] != setting() and allowed(setting()):
+        found.append(setting())
     return _thinned(found)
 
 
