@@ -277,7 +277,7 @@ def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, ca
     assert files(tmp_path) == []
 
 
-@pytest.mark.parametrize("arguments", [[], ["accuracy", "x.toml"], ["study"], ["run"], ["run", "x.toml", "--fast"], ["run", "x.toml", "-v", "-q"]])
+@pytest.mark.parametrize("arguments", [[], ["measure", "x.toml"], ["study"], ["run"], ["run", "x.toml", "--fast"], ["run", "x.toml", "-v", "-q"]])
 def test_a_wrong_call_has_exit_code_2(arguments, capsys):
     """Authority: design.md's exit codes; commands that come later are not offered."""
     with pytest.raises(SystemExit) as leaving:
