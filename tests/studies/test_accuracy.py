@@ -206,3 +206,10 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err
     assert not (tmp_path / "there").exists()
+
+
+@pytest.mark.parametrize("sections, order", [((TEETH,), 2.0), ((TEETH, "friction"), 1.0), ((TEETH, "inertia"), 2.0), ((TEETH, "inertia", "friction"), 1.0)])
+def test_the_order_expected_of_steps_is_that_of_what_moves(sections, order):
+    """Authority: straight lines and average acceleration h^2; friction's slip by backward differences h."""
+    steps = next(each for each in ladder.knobs(scene_of(*sections), quick=True) if each.name == "steps per mesh cycle")
+    assert steps.expected == order

@@ -143,11 +143,12 @@ def knobs(scene: Scene, quick: bool = False) -> tuple[Knob, ...]:
     base, unit, values = fine(scene, quick), half_width(scene), QUICK if quick else FULL
     in_time, why_time = _order_in_time(scene)
     powers = (
-        Knob("flank element size", "flank", _sizes(base, "flank", [unit / n for n in values["flank elements"]], unit), 3.0,
-             "P2 under a pressure with square-root ends: energy h^3"),
+        Knob("flank element size", "flank", _sizes(base, "flank", [unit / n for n in values["flank elements"]], unit), 2.0,
+             "straight sides on a curved flank: h^2, whatever the element's order"),
         Knob("contact node spacing", "spacing", _sizes(base, "spacing", [unit / n for n in values["contact nodes"]], unit), 2.0,
              "hat functions in a saddle point with exact averages: h^2"),
-        Knob("body element size", "body", _sizes(base, "body", values["body elements"], None), 4.0, "energy of P2: h^4"),
+        Knob("body element size", "body", _sizes(base, "body", values["body elements"], None), 2.0,
+             "straight sides along the outline: h^2"),
         Knob("steps per mesh cycle", "steps", _steps(base, values["steps"]), in_time, why_time),
         Knob("contact length", "length", _lengths(base, values["contact length"]), None, "nothing, once all that touches is inside"),
     )  # fmt: skip
@@ -159,6 +160,8 @@ def knobs(scene: Scene, quick: bool = False) -> tuple[Knob, ...]:
 
 def _order_in_time(scene: Scene) -> tuple[float, str]:
     built = model(scene)
+    if scene.friction is not None:
+        return 1.0, "slip over a step stands for the rate of slip, and reverses a step late: h"
     if built.drivetrain.mass is None:
         return 2.0, "straight lines between steps: h^2"
     return (2.0, "average acceleration: h^2") if built.pace.averages_acceleration else (1.0, "backward Euler: h")
