@@ -1,7 +1,11 @@
 """What tests of several folders share: the paper's pair, with and without finite elements."""
 
+import os
 from dataclasses import replace
 from pathlib import Path
+
+# BLAS sums in another order with other numbers of threads; programs that tests start shall have the same bits as the tests' own process.
+os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
 import pytest
 from hypothesis import HealthCheck, settings
