@@ -9,7 +9,7 @@ from pathlib import Path
 
 from fenics_gears.commands.drawing import draw
 from fenics_gears.commands.exit_codes import INTERRUPTED
-from fenics_gears.commands.scene_file import add_scene_argument, checked_scene
+from fenics_gears.commands.scene_file import add_output_argument, add_scene_argument, checked_scene_and_directory
 from fenics_gears.commands.told_progress import told_progress
 from fenics_gears.errors import ComputationError
 from fenics_gears.interruption import Interruption
@@ -23,17 +23,13 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("run", parents=[shared], help="run a scene; write run.nc and pictures")
     add_scene_argument(command)
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the scene file>)")
+    add_output_argument(command)
     command.set_defaults(command=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Run a scene."""
-    from fenics_gears.output import check_writable
-
-    scene = checked_scene(options.scene)
-    directory = options.output or Path("results") / scene.name
-    check_writable(directory)
+    scene, directory = checked_scene_and_directory(options)
     # Every rank has now found the scene and the directory right, and none leaves the others waiting.
     comm = communicator()
     if comm is not None and comm.rank > 0:

@@ -24,6 +24,21 @@ def checked_scene(path: Path):
     return scene
 
 
+def checked_scene_and_directory(options):
+    """The scene of a command's options, found right, and the directory to write into, found writable. Raises as `checked_scene` does."""
+    from fenics_gears.output import check_writable
+
+    scene = checked_scene(options.scene)
+    directory = options.output or Path("results") / scene.name
+    check_writable(directory)
+    return scene, directory
+
+
 def add_scene_argument(command) -> None:
     """The argument SCENE of a command's parser."""
     command.add_argument("scene", type=Path, metavar="SCENE", help="a scene file (TOML)")
+
+
+def add_output_argument(command) -> None:
+    """The option --output of a command that writes a scene's results."""
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the scene file>)")

@@ -1,0 +1,48 @@
+"""What commands share that run variants of a scene and measure times: a report, written as table and picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from fenics_gears.commands.scene_file import checked_scene_and_directory
+from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.errors import SceneError
+from fenics_gears.job import communicator
+
+
+def scene_to_measure(options, command: str):
+    """The scene and the directory of a command that measures times. Raises SceneError under mpirun, and as `checked_scene` does."""
+    scene, directory = checked_scene_and_directory(options)
+    if communicator() is not None:
+        raise SceneError(f"gears {command} measures times, which mean nothing while processes share the machine. Start it without mpirun.")
+    return scene, directory
+
+
+def measured(measure: Callable, quiet: bool):
+    """The report that `measure(progress)` gives."""
+    progress = told_progress(quiet)
+    try:
+        return measure(progress)
+    finally:
+        progress.close()
+
+
+def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
+    """Write `name`.csv by `write_csv(report, file)` and `name`.png, the figure `draw(report)`; return the files."""
+    from fenics_gears.output import written_aside
+    from fenics_gears.show.plots import save_figure
+
+    written: list[Path] = []
+    with written_aside(directory, written) as aside:
+        write_csv(report, aside / f"{name}.csv")
+        save_figure(draw(report), aside / f"{name}.png")
+    return written
+
+
+def print_origin(report, files: list[Path]) -> None:
+    """The end of a report: what it was measured on, and its files."""
+    from fenics_gears.console import print_rows
+
+    print_rows("Measured on", [(name, words, "") for name, words in report.machine.items()])
+    print_rows("Files", [("", str(file), "") for file in files])
