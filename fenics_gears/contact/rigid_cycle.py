@@ -115,19 +115,29 @@ def _solved(problem: StepProblem, touching: list[int]) -> tuple[np.ndarray | Non
     rows = problem.rigid[touching]
     if len(touching) > 1 and not _independent(rows):
         return None, np.zeros(k)
+    pressing, coordinates = tied(problem, rows, rows.T, problem.gap[touching])
+    if pressing is None:
+        return None, coordinates
+    forces[touching] = pressing
+    return forces, coordinates
+
+
+def tied(problem: StepProblem, rows: np.ndarray, pushes: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
+    """Forces (t,) and coordinates (k,) with `rows` (t, k) of the flanks closed to their `gap` (t,), where a unit force pushes the drivetrain
+    by `pushes` (k, t); forces None where that cannot be solved."""
+    k, t = len(problem.load), len(gap)
     # The forces in units of the load's stiffness over a length, so that the matrix is not torn between magnitudes.
     unit = np.abs(problem.stiffness).max(initial=0.0) or 1.0
-    matrix = np.zeros((k + len(touching), k + len(touching)))
-    matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, unit * rows.T, unit * rows
-    right = np.append(problem.load, unit * problem.gap[touching])
+    matrix = np.zeros((k + t, k + t))
+    matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, unit * pushes, unit * rows
+    right = np.append(problem.load, unit * gap)
     try:
         solution = np.linalg.solve(matrix, right)
         # Slow masses are no stiffness to speak of: the load over it is a length beside which the gap is lost in round-off.
         solution += np.linalg.solve(matrix, right - matrix @ solution)
     except np.linalg.LinAlgError:
         return None, np.zeros(k)
-    forces[touching] = unit * solution[k:]
-    return forces, solution[:k]
+    return unit * solution[k:], solution[:k]
 
 
 def _independent(rows: np.ndarray) -> bool:

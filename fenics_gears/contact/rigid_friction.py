@@ -12,7 +12,7 @@ from fenics_gears.contact.ladder import StepProblem, StepSolution
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator, earlier_rigid_tangent, involute_arms, over_nodes, rigid_rows, rigid_slip
-from fenics_gears.contact.rigid_cycle import RigidCycle, RigidPosition, no_equilibrium, obeys, pairs_that_touch, why_none_holds
+from fenics_gears.contact.rigid_cycle import RigidCycle, RigidPosition, no_equilibrium, obeys, pairs_that_touch, tied, why_none_holds
 
 
 class RigidFrictionCycle(RigidCycle):
@@ -75,13 +75,5 @@ def _solved(problem: StepProblem, leader: int | None, unit: np.ndarray) -> tuple
         if len(problem.free_motion):
             return None, np.zeros(k)
         return unit, np.linalg.solve(problem.stiffness, problem.load)
-    scale = np.abs(problem.stiffness).max(initial=0.0) or 1.0
-    matrix = np.zeros((k + 1, k + 1))
-    matrix[:k, :k], matrix[:k, k], matrix[k, :k] = problem.stiffness, scale * (problem.rigid.T @ unit), scale * problem.rigid[leader]
-    right = np.append(problem.load, scale * problem.gap[leader])
-    try:
-        solution = np.linalg.solve(matrix, right)
-        solution += np.linalg.solve(matrix, right - matrix @ solution)
-    except np.linalg.LinAlgError:
-        return None, np.zeros(k)
-    return scale * solution[k] * unit, solution[:k]
+    pressing, coordinates = tied(problem, problem.rigid[[leader]], (problem.rigid.T @ unit)[:, None], problem.gap[[leader]])
+    return None if pressing is None else pressing[0] * unit, coordinates

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import event
+from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import random_problem
@@ -34,6 +34,30 @@ def solved(problem: StepProblem, start: np.ndarray) -> StepSolution | None:
         return None
     event(RUNGS[solution.rung])
     return solution
+
+
+def judged_steps(measured, drawn, limits, examples: int) -> None:
+    """Draw steps, hold each solution against `limits` (name: words, limit, unit), and tell the worst also where one fails."""
+    worst, count = dict.fromkeys(limits, 0.0), {"solved": 0, "typed": 0}
+
+    @settings(max_examples=examples)
+    @given(drawn)
+    def every_step(step):
+        solution = solved(*step)
+        count["solved" if solution is not None else "typed"] += 1
+        if solution is None:
+            return
+        found = violations(step[0], solution)
+        for name, (_, limit, _) in limits.items():
+            worst[name] = max(worst[name], found[name])
+            assert found[name] <= limit, name
+
+    try:
+        every_step()
+    finally:
+        for name, (words, limit, unit) in limits.items():
+            measured(f"{words}, single steps", worst[name], f"{limit:g} {unit}".rstrip(), unit)
+        measured("single steps drawn at random", f"{count['solved']} solved, {count['typed']} typed errors", "no other end")
 
 
 def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]:

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.contact.problems import all_open, random_problem
-from tests.hard_cases.random_steps import solved, steps, violations
+from tests.hard_cases.random_steps import judged_steps, steps
 
 from fenics_gears.contact.ladder import solve_step
 
@@ -18,36 +17,15 @@ LIMITS = {
 }
 
 
-def judged(measured, examples):
-    worst = dict.fromkeys(LIMITS, 0.0)
-
-    @settings(max_examples=examples)
-    @given(steps(st.floats(1e-3, 2.0)))
-    def every_step(step):
-        solution = solved(*step)
-        if solution is None:
-            return
-        found = violations(step[0], solution)
-        for name, (_, limit, _) in LIMITS.items():
-            worst[name] = max(worst[name], found[name])
-            assert found[name] <= limit, name
-
-    try:
-        every_step()
-    finally:
-        for name, (words, limit, unit) in LIMITS.items():
-            measured(f"{words}, single steps", worst[name], f"{limit:g} {unit}".rstrip(), unit)
-
-
 def test_any_step_obeys_coulomb(measured):
     """Authority: Coulomb's law, from forces and coordinates."""
-    judged(measured, 300)
+    judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 300)
 
 
 @pytest.mark.nightly
 def test_many_steps_obey_coulomb(measured):
     """Authority: as above, ten thousand times."""
-    judged(measured, 10000)
+    judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 10000)
 
 
 def test_friction_dissipates_what_it_bounds(measured):
