@@ -38,7 +38,7 @@ def depth_field() -> Any:
 
 def shape_field() -> Any:
     """How a relief grows from its start to its end."""
-    return choice(LINEAR, PARABOLIC, planned={})
+    return choice(LINEAR, PARABOLIC)
 
 
 class TipReliefOfGearText(Section):

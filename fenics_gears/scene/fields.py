@@ -22,8 +22,7 @@ class Allowed:
     """What a field allows, in words, and how its text becomes a number.
 
     ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one; ``words`` are
-    texts that stand for other values; ``below`` is added when a value lies below the range; ``planned`` are choices of the
-    format that this version does not have, with what they stand for.
+    texts that stand for other values; ``below`` is added when a value lies below the range.
     """
 
     description: str
@@ -31,7 +30,6 @@ class Allowed:
     unit: str = ""
     words: dict[str, Any] = field(default_factory=dict)
     below: str = ""
-    planned: dict[str, str] = field(default_factory=dict)
 
     def convert(self, value: Any) -> Any:
         """The number in N, mm, s, rad for a quantity's text; anything else as it is.
@@ -208,10 +206,10 @@ def whole_number(lowest: int, highest: int, example: int, *, optional: bool = Fa
     return _field(Allowed(description, words=words), optional, ge=lowest, le=highest)
 
 
-def choice(*names: str, planned: dict[str, str]) -> Any:
-    """One of a few names, optional; ``planned`` are names of the format that this version does not have, and what they stand for."""
+def choice(*names: str) -> Any:
+    """One of a few names, optional."""
     listed = ", ".join(f'"{name}"' for name in names)
-    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}", planned=planned), optional=True)
+    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}"), optional=True)
 
 
 def text(longest: int) -> Any:

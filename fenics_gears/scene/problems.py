@@ -67,8 +67,6 @@ def _reason(error: Mapping[str, Any], value: Any, allowed: Allowed) -> str:
     if kind in ("greater_than", "greater_than_equal"):
         return f"{_too_low(error['input'], context)} {allowed.below}".rstrip()
     if kind == "literal_error" and isinstance(value, str):
-        if value in allowed.planned:
-            return f"is not available: this version does not have {allowed.planned[value]}."
         return "is not known." + did_you_mean(value, re.findall(r"'([^']+)'", context["expected"]))
     if kind in _REASONS:
         return _REASONS[kind]

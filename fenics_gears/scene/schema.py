@@ -64,17 +64,17 @@ class Motion(Section):
 class Accuracy(Section):
     """``[accuracy]``: what is left out is derived from the scene."""
 
-    element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice("P1", "P2", "Q1", "Q1 incompatible", "Q2", planned={})
+    element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice("P1", "P2", "Q1", "Q1 incompatible", "Q2")
     flank_element_size: Optional[float] = quantity("1e-6 mm", "1 m", "0.08 mm", optional=True)
     body_element_size: Optional[float] = quantity("1e-6 mm", "10 m", "1.3 mm", optional=True)
     contact_length: Optional[float] = quantity("1e-6 mm", "10 m", "1.5 mm", optional=True)
     contact_nodes: Optional[int] = whole_number(2, 1000, 20, optional=True)
-    interpolation: Optional[Literal["averaged", "collocated"]] = choice("averaged", "collocated", planned={})
+    interpolation: Optional[Literal["averaged", "collocated"]] = choice("averaged", "collocated")
     elastic_teeth: Optional[int] = whole_number(1, 1000, 2, optional=True)
     steps_per_mesh_cycle: Optional[int] = whole_number(2, 1_000_000, 100, optional=True)
-    condensation: Optional[Literal["once", "every step"]] = choice("once", "every step", planned={})
+    condensation: Optional[Literal["once", "every step"]] = choice("once", "every step")
     model: Optional[Literal["elastic", "rigid teeth", "stiffness table", "ISO 6336-1"]] = choice(
-        "elastic", "rigid teeth", "stiffness table", "ISO 6336-1", planned={}
+        "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
     )
 
 
