@@ -1,4 +1,4 @@
-"""Say what this Python lacks of what fenics_gears needs; exit code 0 when nothing.
+"""Say what this Python lacks of what fenics_gears needs, with the argument "test" its tests too; exit code 0 when nothing.
 
 Run by the launcher before the program: a plain script that imports nothing of it.
 """
@@ -10,11 +10,12 @@ import sys
 NEEDED = (
     "tomllib", "vtkmodules.vtkRenderingOpenGL2", "pyvista", "dolfinx", "petsc4py.PETSc", "mpi4py.MPI", "gmsh",
     "numpy", "scipy", "cvxopt", "numba", "h5py", "h5netcdf", "xarray", "pydantic", "pint", "rich", "platformdirs",
-    "matplotlib", "threadpoolctl", "pytest", "pytest_benchmark", "hypothesis",
+    "matplotlib", "threadpoolctl",
 )
+NEEDED_BY_TESTS = ("pytest", "pytest_benchmark", "hypothesis", "sphinx", "myst_parser", "furo")
 
 
-def lacking(names=NEEDED):
+def lacking(names):
     """Names that do not import, each with the reason."""
     missing = {}
     for name in names:
@@ -31,7 +32,7 @@ def lacking(names=NEEDED):
 
 
 if __name__ == "__main__":
-    missing = lacking()
+    missing = lacking(NEEDED + NEEDED_BY_TESTS if sys.argv[1:] == ["test"] else NEEDED)
     for name, reason in missing.items():
         print(f"{name.split('.')[0]} ({reason})")
     sys.exit(bool(missing))

@@ -21,6 +21,7 @@ TOOLS = "awk bash cat cksum comm df env flock grep head mkdir mv readlink rm sed
 PROGRAM = "import os, sys\nprint(os.getcwd(), *sys.argv[1:], sep='|')\n"
 BARE_PYTHON = f"exec {sys.executable} -I -S \"$@\""
 NO_PACKAGES = "exit 0"
+ONLY_FOR_TESTS = {"python3-pytest", "python3-hypothesis", "python3-sphinx", "chromium"}
 
 
 @pytest.fixture
@@ -121,6 +122,37 @@ def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
     done = call(checkout / "gears", "run", environment=environment)
     assert done.returncode == 1
     assert "needs root or sudo" in done.stderr and "apt-get install" in done.stderr and "python3-dolfinx-real" in done.stderr
+    assert not ONLY_FOR_TESTS & set(done.stderr.split())
+
+
+@pytest.mark.parametrize("arguments", [("test",), ("test", "-x"), ("--set-up-only", "--test")])
+def test_packages_of_the_tests_are_asked_for_by_the_tests(checkout, machine, arguments):
+    """What the program needs and what only the tests need, in one installation."""
+    environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 1000")
+    done = call(checkout / "gears", *arguments, environment=environment)
+    assert done.returncode == 1
+    assert {"python3-dolfinx-real", *ONLY_FOR_TESTS} <= set(done.stderr.split())
+
+
+def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
+    """Where only a module of the tests is lacking the program runs; the tests say what is lacking and leave the program ready."""
+    check = checkout / "setup/check.py"
+    check.write_text(check.read_text().replace("NEEDED_BY_TESTS = (", 'NEEDED_BY_TESTS = ("no_such_module", '))
+    set_up_already(checkout, this_python)
+    tested = call(checkout / "gears", "test", environment=this_python)
+    assert tested.returncode == 1 and "lacks no_such_module" in tested.stderr
+    (checkout / "setup/install").chmod(0o644)
+    again = call(checkout / "gears", "run", environment=this_python)
+    assert (again.returncode, again.stdout) == (0, "/|run\n"), again.stderr
+
+
+def test_tests_that_are_ready_make_the_program_ready(checkout, this_python):
+    """The second call needs no set-up: what the program needs was found with what the tests need."""
+    done = call(checkout / "gears", "--set-up-only", "--test", environment=this_python)
+    assert done.returncode == 0, done.stderr
+    (checkout / "setup/install").chmod(0o644)
+    for arguments in (["run"], ["test", "--version"]):
+        assert call(checkout / "gears", *arguments, environment=this_python).returncode == 0
 
 
 @pytest.mark.parametrize(
