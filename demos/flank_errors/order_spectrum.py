@@ -1,36 +1,56 @@
-"""Orders of a pair with errors of manufacture: the picture docs/pictures/order_spectrum.png.
-
-    python -m demos.flank_errors.order_spectrum [directory]
-
-runs flank_errors.toml and draws its order spectrum. Mesh orders are multiples of 16, the pinion's teeth. Run-out of the pinion is order
-1, of the wheel 2/3; pitch deviations fill the multiples of both, beside the mesh orders as sidebands; 37 waves on the pinion's
-flanks are order 37. Orders of neither gear alone come from both teeth that meet, and repeat with the hunting tooth.
-"""
+"""Orders of a pair with errors of manufacture: run flank_errors.toml, draw its order spectrum, print its lines. Called by `run`."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from demos.arguments import output_directory
 
-from fenics_gears.scene.read import load_scene
-from fenics_gears.show.panels import DOTS_PER_INCH
-from fenics_gears.show.spectrum import order_spectrum
-from fenics_gears.simulation import simulate
+SCENE = Path(__file__).parent / "flank_errors.toml"
+PICTURE = "order_spectrum.png"
+# Lines of the table, turns of the pinion being order 1: turns of the wheel are order 2/3, mesh orders the multiples of its 16 teeth.
+NAMED = {
+    "run-out of the wheel": 2 / 3,
+    "run-out of the pinion": 1.0,
+    "sideband of the mesh, one turn of the pinion below": 15.0,
+    "mesh": 16.0,
+    "sideband of the mesh, one turn of the pinion above": 17.0,
+    "twice the mesh": 32.0,
+    "ghost order of 37 waves on the pinion": 37.0,
+    "three times the mesh": 48.0,
+}
 
-HERE = Path(__file__).parent
-PICTURES = HERE.parents[1] / "docs" / "pictures"
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run, draw, print; returns 0."""
+    directory = output_directory("flank_errors", "Orders of the transmission error of a pair with errors of manufacture.", arguments)
+    from fenics_gears import load_scene, simulate
+    from fenics_gears.output import written_aside
+    from fenics_gears.show.plots import save_figure
+    from fenics_gears.show.spectrum import order_spectrum
+
+    result = simulate(load_scene(SCENE))
+    with written_aside(directory, written := []) as aside:
+        save_figure(order_spectrum(result), aside / PICTURE)
+    for name, amplitude in named_lines(result).items():
+        print(f"{name}: order {NAMED[name]:.4g}, {amplitude:.2f} um")
+    print(written[0])
+    return 0
 
 
-def main(directory: Path) -> Path:
-    """Run the scene, draw its orders into a directory, and return the file."""
-    figure = order_spectrum(simulate(load_scene(HERE / "flank_errors.toml")))
-    file = directory / "order_spectrum.png"
-    FigureCanvasAgg(figure)
-    figure.savefig(file, dpi=DOTS_PER_INCH, metadata={"Software": None})
-    return file
+def named_lines(result) -> dict[str, float]:
+    """Amplitudes (um on the wheel's base circle) of the orders that one cause is known for; `result`: of whole hunting tooth periods."""
+    import numpy as np
+
+    from fenics_gears.show.run_scene import scene_of
+    from fenics_gears.show.spectrum import order_lines
+
+    gears, phase = scene_of(result).gears, result["mesh_phase"].values
+    error = result["transmission_error"].values * result.attrs["base_radius_wheel"] * 1e3
+    lines = order_lines(error, float(phase[-1] - phase[0]), (gears.pinion.teeth, gears.wheel.teeth))
+    return {name: float(lines.amplitudes[np.argmin(np.abs(lines.orders - order))]) for name, order in NAMED.items()}
 
 
 if __name__ == "__main__":
-    print(main(Path(sys.argv[1]) if len(sys.argv) > 1 else PICTURES))
+    sys.exit(main())

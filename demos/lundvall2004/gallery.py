@@ -5,7 +5,6 @@ Called by `run`; a second call computes only what is missing.
 
 from __future__ import annotations
 
-import argparse
 import multiprocessing
 import os
 import sys
@@ -13,7 +12,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
-from fenics_gears import environment
+from demos.arguments import output_directory
 
 INTERRUPTED = 130
 # Longest first, so that no process is left alone with one at the end.
@@ -22,11 +21,7 @@ LONGEST_FIRST = ("figure06_high", "figure10_high", "figure10_low", "figure06_low
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, draw, write; returns the exit code of `gears study`."""
-    environment.prepare()
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    parser = argparse.ArgumentParser(prog="demos/lundvall2004/run", description="The figures and claims of Lundvall, Strömberg and Klarbring, 2004.")
-    parser.add_argument("directory", nargs="?", type=Path, default=Path("results/lundvall2004"), help="where to write (default: %(default)s)")
-    directory = parser.parse_args(arguments).directory
+    directory = output_directory("lundvall2004", "The figures and claims of Lundvall, Strömberg and Klarbring, 2004.", arguments)
     begun = time.perf_counter()
     code = run_studies(directory / "studies", begun)
     if code:

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
-import os
 import time
 from pathlib import Path
 
-import numpy as np
-
-from fenics_gears import environment
+from demos.arguments import output_directory
 
 # Mesh frequencies (Hz) of the steady runs.
 STEADY = (160.0, 180.0, 190.0, 200.0, 208.0, 214.0, 225.0, 240.0)
@@ -17,11 +13,9 @@ STEADY = (160.0, 180.0, 190.0, 200.0, 208.0, 214.0, 225.0, 240.0)
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, draw, print; returns 0."""
-    environment.prepare()
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    parser = argparse.ArgumentParser(prog="demos/speed_ramp/run", description="Jumps between branches of vibration, on the way up and down.")
-    parser.add_argument("directory", nargs="?", type=Path, default=Path("results/speed_ramp"), help="where to write (default: %(default)s)")
-    directory = parser.parse_args(arguments).directory
+    directory = output_directory("speed_ramp", "Jumps between branches of vibration, on the way up and down.", arguments)
+    import numpy as np
+
     from demos.speed_ramp.picture import draw
     from demos.speed_ramp.sweeps import ramps, steady
     from fenics_gears.output import written_aside

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
 from pathlib import Path
 
-from fenics_gears import environment
+from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
 STUDY = HERE / "study.toml"
@@ -16,11 +14,7 @@ PICTURE = "undamped_resonance.png"
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, draw; returns the exit code of `gears study`."""
-    environment.prepare()
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    parser = argparse.ArgumentParser(prog="demos/undamped_resonance/run", description="The undamped pair through its first torsional resonance.")
-    parser.add_argument("directory", nargs="?", type=Path, default=Path("results/undamped_resonance"), help="where to write (default: %(default)s)")
-    directory = parser.parse_args(arguments).directory
+    directory = output_directory("undamped_resonance", "The undamped pair through its first torsional resonance.", arguments)
     code = compute(STUDY, directory)
     if code == 0:
         print(picture(directory))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from tests.coarse import COARSE
 
-from demos.flank_errors.order_spectrum import HERE
+from demos.flank_errors.order_spectrum import SCENE, named_lines
 from fenics_gears.scene.read import load_scene
 from fenics_gears.show.spectrum import order_spectrum
 from fenics_gears.simulation import simulate
@@ -13,10 +13,11 @@ from fenics_gears.simulation import simulate
 def test_the_picture_names_every_error_of_the_scene():
     """The scene's own sections: run-out of both gears, 37 waves on the pinion, tolerance class 6; a whole hunting tooth period of 48 mesh
     cycles, so that every line stands alone. On coarse teeth."""
-    scene = load_scene(HERE / "flank_errors.toml")
+    scene = load_scene(SCENE)
     assert (scene.motion.mesh_cycles, scene.motion.recorded_cycles) == (48, 48)
     assert scene.flank_errors.tolerance_class == 6
-    axes = order_spectrum(simulate(replace(scene, accuracy=COARSE))).axes[0]
+    result = simulate(replace(scene, accuracy=COARSE))
+    axes = order_spectrum(result).axes[0]
     words = {text.get_text() for text in axes.texts}
     named = {"mesh", "mesh − 1", "mesh + 1", "run-out of the pinion", "run-out of the wheel", "ghost order: 37 waves\non the pinion"}
     assert named <= words
@@ -26,3 +27,8 @@ def test_the_picture_names_every_error_of_the_scene():
     ghost = next(text for text in axes.texts if text.get_text().startswith("ghost"))
     # A wave of 1 um, seen by one or two pairs in contact patches shorter than itself.
     assert ghost.xy[0] == 37.0 and 0.5 < ghost.xy[1] < 1.1
+    # What the README says of them: the mesh's own lines stand out of its sidebands, the ghost order out of its neighbours.
+    lines = named_lines(result)
+    assert lines["ghost order of 37 waves on the pinion"] == ghost.xy[1]
+    assert lines["mesh"] > 5.0 * max(amplitude for name, amplitude in lines.items() if name.startswith("sideband"))
+    assert lines["run-out of the wheel"] > lines["run-out of the pinion"] > lines["mesh"]
