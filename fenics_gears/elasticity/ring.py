@@ -2,7 +2,8 @@
 
 Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
 ``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
-exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1.
+exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. Of many teeth that are not asked for runs of
+sectors are joined instead (`elasticity.cut_chain`).
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import numpy as np
 from scipy.linalg.lapack import zpotrf, zpotri
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
+from fenics_gears.elasticity.cut_chain import CutResponse, Run, chain_is_quicker, chain_response
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
@@ -53,13 +55,12 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
     and for each harmonic one of the size of a cut. Back from harmonics to teeth, each power of e^{ik} is a shift by one tooth.
     """
     check_congruent(sector, teeth)
-    lower, upper, same, ahead = _joined_blocks(sector, teeth)
+    lower, upper, cuts = _joined_blocks(sector, teeth)
     flank_compliance = np.linalg.inv(sector.between("flank", "flank"))
     to_lower, to_upper = flank_compliance @ lower, flank_compliance @ upper
-    # D_k - B_k^H S_FF^-1 B_k, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power 1.
-    same = same - lower.T @ to_lower - upper.T @ to_upper
-    ahead = ahead - lower.T @ to_upper
-    joint = _cut_compliance(same, ahead, teeth, offsets + 1)
+    # One sector between its cuts, its flank free.
+    link = Run(cuts.lower - lower.T @ to_lower, cuts.upper - upper.T @ to_upper, cuts.across - lower.T @ to_upper)
+    joint = cut_response(link, teeth, offsets + 1)
     blocks = np.stack([
         (to_lower @ joint(m) + to_upper @ joint(m + 1)) @ to_lower.T + (to_lower @ joint(m - 1) + to_upper @ joint(m)) @ to_upper.T
         for m in range(offsets + 1)
@@ -69,27 +70,35 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
     return blocks
 
 
-def _joined_blocks(sector: CondensedBody, teeth: int):
-    """Couplings of the flank to either cut; cut stiffness by the powers 0 and 1 of e^{ik} that it goes with."""
+def _joined_blocks(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, Run]:
+    """Couplings of the flank to either cut; the sector between its cuts, its flank held."""
     turn = _turned_nodes(teeth, len(sector.points["upper"]))
-    same = sector.between("lower", "lower") + turn.T @ sector.between("upper", "upper") @ turn
-    ahead = sector.between("lower", "upper") @ turn
-    return sector.between("flank", "lower"), sector.between("flank", "upper") @ turn, same, ahead
+    cuts = Run(
+        sector.between("lower", "lower"), turn.T @ sector.between("upper", "upper") @ turn, sector.between("lower", "upper") @ turn
+    )
+    return sector.between("flank", "lower"), sector.between("flank", "upper") @ turn, cuts
 
 
-def _cut_compliance(same, ahead, teeth: int, offsets: int):
-    """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= offsets, as a function of m.
+def cut_response(link: Run, teeth: int, reach: int) -> CutResponse:
+    """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= reach; `link`: one sector between its cuts."""
+    return (chain_response if chain_is_quicker(teeth, reach) else fourier_response)(link, teeth, reach)
+
+
+def fourier_response(link: Run, teeth: int, reach: int) -> CutResponse:
+    """The same by the discrete Fourier transform.
 
     The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian and positive definite; k and teeth - k
     are complex conjugates.
     """
-    responses = np.zeros((offsets + 1, *same.shape))
+    # D_k - B_k^H S_FF^-1 B_k of `ring_compliance`, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power 1.
+    same, ahead = link.lower + link.upper, link.across
+    responses = np.zeros((reach + 1, *same.shape))
     for harmonic in range(teeth // 2 + 1):
         phase = np.exp(2j * np.pi * harmonic / teeth)
         inverse = _hermitian_inverse(same + ahead * phase + ahead.T * np.conj(phase))
         own_conjugate = harmonic == 0 or 2 * harmonic == teeth
         weight = (1.0 if own_conjugate else 2.0) / teeth
-        for offset in range(offsets + 1):
+        for offset in range(reach + 1):
             turned = weight * phase**offset
             responses[offset] += turned.real * inverse.real - turned.imag * inverse.imag
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
