@@ -1,4 +1,4 @@
-"""Read the mesh of a gear body that the user made with gmsh."""
+"""The mesh of a gear body in a file of gmsh, read and written."""
 
 from __future__ import annotations
 
@@ -7,18 +7,20 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears.elasticity.gmsh_session import gmsh_model
-from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
-from fenics_gears.errors import SceneError
+from fenics_gears.elasticity.mesh_data import BodyMesh, corner_areas, oriented
+from fenics_gears.errors import ComputationError, SceneError
 
 LINE = 1
 CORNERS_BY_TYPE = {2: 3, 3: 4}  # gmsh's numbers of straight-sided triangles and quadrilaterals
+TYPE_BY_CORNERS = {corners: number for number, corners in CORNERS_BY_TYPE.items()}
+# Points of a plane mesh lie so near to one plane, in parts of the body's size.
+PLANE = 1e-6
 
 
 def read_body_mesh(path) -> BodyMesh:
-    """Body from a gmsh file, mm, in the canonical frame of tooth 0, of first-order triangles or quadrilaterals (not both).
+    """Body from a gmsh file, mm, of first-order triangles or quadrilaterals (not both); its physical curves become the named edges.
 
-    Its physical curves "hub" and "flank 0", "flank 1", ... become the named edges.
-    Raises SceneError for a file that cannot be read, has other cells or names no hub.
+    Raises SceneError for a file that cannot be read, is not plane, has other cells or cells turned inside out.
     """
     if not Path(path).is_file():
         raise SceneError(f"body mesh {path}: there is no such file")
@@ -28,21 +30,72 @@ def read_body_mesh(path) -> BodyMesh:
         except Exception as error:  # gmsh raises nothing more precise
             raise SceneError(f"body mesh {path}: gmsh cannot read it ({error})") from error
         tags, coordinates, _ = gmsh.model.mesh.getNodes()
+        if len(gmsh.model.mesh.getElementTypes(3)):
+            raise SceneError(f"body mesh {path}: has cells in space; a gear body is meshed in its plane")
         index = np.full(int(np.max(tags, initial=0)) + 1, -1)
         cell_types = gmsh.model.mesh.getElementTypes(2)
         if len(cell_types) != 1 or cell_types[0] not in CORNERS_BY_TYPE:
-            raise SceneError(f"body mesh {path}: cells must all be 3-node triangles or all 4-node quadrilaterals")
+            raise SceneError(
+                f"body mesh {path}: has {_kinds(gmsh, cell_types)}; its cells must all be 3-node triangles or all 4-node quadrilaterals "
+                "(in gmsh Mesh.ElementOrder = 1)"
+            )
         corners = CORNERS_BY_TYPE[cell_types[0]]
         cells = np.asarray(gmsh.model.mesh.getElementsByType(cell_types[0])[1], dtype=int).reshape(-1, corners)
         edges = {name: lines for name, lines in _named_lines(gmsh).items() if len(lines)}
     used = np.unique(cells)
     index[used] = np.arange(len(used))
-    position = np.empty((len(index), 2))
-    position[np.asarray(tags, dtype=int)] = np.asarray(coordinates).reshape(-1, 3)[:, :2]
-    if "hub" not in edges:
-        raise SceneError(f"body mesh {path}: no physical curve 'hub'; there are: {', '.join(sorted(edges)) or 'none'}")
+    position = np.empty((len(index), 3))
+    position[np.asarray(tags, dtype=int)] = np.asarray(coordinates).reshape(-1, 3)
     points = position[used]
-    return BodyMesh(points, oriented(points, index[cells]), {name: index[lines] for name, lines in edges.items()})
+    _check_plane(points, path)
+    points = np.ascontiguousarray(points[:, :2])
+    named = {name: index[lines] for name, lines in edges.items() if (index[lines] >= 0).all()}
+    return BodyMesh(points, _facing_one_way(points, index[cells], path), named)
+
+
+def write_body_mesh(mesh: BodyMesh, path) -> None:
+    """Write a body, mm, as a gmsh file of format 4.1; named edges become physical curves, the body the physical surface "gear"."""
+    corners = mesh.cells.shape[1]
+    with gmsh_model("body mesh") as gmsh:
+        surface = gmsh.model.addDiscreteEntity(2)
+        coordinates = np.column_stack([mesh.points, np.zeros(len(mesh.points))])
+        gmsh.model.mesh.addNodes(2, surface, np.arange(1, len(mesh.points) + 1), coordinates.ravel())
+        gmsh.model.mesh.addElementsByType(surface, TYPE_BY_CORNERS[corners], [], (mesh.cells + 1).ravel())
+        gmsh.model.setPhysicalName(2, gmsh.model.addPhysicalGroup(2, [surface]), "gear")
+        for name, lines in mesh.edges.items():
+            curve = gmsh.model.addDiscreteEntity(1)
+            gmsh.model.mesh.addElementsByType(curve, LINE, [], (np.asarray(lines) + 1).ravel())
+            gmsh.model.setPhysicalName(1, gmsh.model.addPhysicalGroup(1, [curve]), name)
+        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
+        gmsh.option.setNumber("Mesh.Binary", 0)
+        gmsh.write(str(path))
+
+
+def _kinds(gmsh, cell_types) -> str:
+    names = [gmsh.model.mesh.getElementProperties(kind)[0] for kind in cell_types]
+    return "cells of the kinds " + ", ".join(names) if names else "no plane cells"
+
+
+def _check_plane(points: np.ndarray, path) -> None:
+    size = np.ptp(points, axis=0)
+    if size[2] > PLANE * size.max():
+        raise SceneError(f"body mesh {path}: is not plane: its points lie between z = {points[:, 2].min():.6g} and {points[:, 2].max():.6g}")
+
+
+def _facing_one_way(points: np.ndarray, cells: np.ndarray, path) -> np.ndarray:
+    """The cells counter-clockwise, all of which faced the same way; raises SceneError for a mesh that folds over itself."""
+    clockwise = corner_areas(points, cells).sum(axis=1) < 0.0
+    if 0 < clockwise.sum() < len(cells):
+        fewer = np.flatnonzero(clockwise == (clockwise.sum() < 0.5 * len(cells)))
+        where = points[cells[fewer[0]]].mean(axis=0)
+        raise SceneError(
+            f"body mesh {path}: {len(fewer)} of {len(cells)} cells are inverted, the first near x = {where[0]:.4g}, y = {where[1]:.4g}: "
+            "the mesh folds over itself there"
+        )
+    try:
+        return oriented(points, cells)
+    except ComputationError as error:
+        raise SceneError(f"body mesh {path}: {error}") from error
 
 
 def _named_lines(gmsh) -> dict[str, np.ndarray]:

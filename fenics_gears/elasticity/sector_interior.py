@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from petsc4py import PETSc
 from scipy import sparse
 from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.condensation import by_radius, without
 from fenics_gears.elasticity.element_nodes import element_nodes
 from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.factor import Factor
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.errors import ComputationError
-
-# Right-hand sides solved at once; more would take memory and no less time.
-COLUMNS_AT_ONCE = 64
 
 
 class SectorInterior:
@@ -35,7 +32,7 @@ class SectorInterior:
         self.stiffness = self._assembled(comm)
         held = np.concatenate([self.lower, self.upper, self.hub])
         self.free = dofs_of(np.setdiff1d(np.arange(len(self.nodes.points)), held))
-        self._factor = _Factor(self.stiffness[self.free][:, self.free])
+        self._factor = Factor(self.stiffness[self.free][:, self.free], "a tooth sector for its stresses")
         self._to_lower, self._to_upper = (self.stiffness[self.free][:, dofs_of(cut)] for cut in (self.lower, self.upper))
 
     def __enter__(self) -> SectorInterior:
@@ -87,56 +84,3 @@ class SectorInterior:
 def dofs_of(nodes: np.ndarray) -> np.ndarray:
     """Dofs (2 k,) of nodes (k,)."""
     return (2 * np.asarray(nodes)[:, None] + [0, 1]).ravel()
-
-
-class _Factor:
-    """Cholesky factor of a sparse symmetric positive definite matrix by MUMPS."""
-
-    def __init__(self, matrix: sparse.csr_matrix):
-        matrix = matrix.tocsr()
-        matrix.sort_indices()
-        index = PETSc.IntType
-        csr = (matrix.indptr.astype(index), matrix.indices.astype(index), matrix.data)
-        self._matrix = PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
-        self._matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-        self._preconditioner = PETSc.PC().create(PETSc.COMM_SELF)
-        self._preconditioner.setOperators(self._matrix)
-        self._preconditioner.setType("cholesky")
-        self._preconditioner.setFactorSolverType("mumps")
-        self._preconditioner.setFactorSetUpSolverType()
-        self._factor = self._preconditioner.getFactorMatrix()
-        try:
-            self._preconditioner.setUp()
-            status = self._factor.getMumpsInfog(1)
-        except PETSc.Error as error:
-            self.close()
-            raise ComputationError(f"PETSc could not factorise a tooth sector for its stresses: {error}") from error
-        if status < 0:
-            self.close()
-            raise ComputationError(f"MUMPS could not factorise a tooth sector for its stresses (INFOG(1) = {status}); memory may be short")
-
-    def solve(self, loads: np.ndarray) -> np.ndarray:
-        """Solution (n, k) for loads (n, k)."""
-        result = np.empty_like(loads)
-        for first in range(0, loads.shape[1], COLUMNS_AT_ONCE):
-            part = slice(first, first + COLUMNS_AT_ONCE)
-            result[:, part] = self._solved(np.asfortranarray(loads[:, part]))
-        return result
-
-    def _solved(self, loads: np.ndarray) -> np.ndarray:
-        right = PETSc.Mat().createDense(loads.shape, array=loads, comm=PETSc.COMM_SELF)
-        solution = np.zeros_like(loads, order="F")
-        left = PETSc.Mat().createDense(loads.shape, array=solution, comm=PETSc.COMM_SELF)
-        right.assemble()
-        left.assemble()
-        self._factor.matSolve(right, left)
-        result = left.getDenseArray().copy()
-        right.destroy()
-        left.destroy()
-        return result
-
-    def close(self) -> None:
-        # PETSc 3.18 leaks the factor unless both are destroyed, in this order.
-        self._preconditioner.destroy()
-        self._factor.destroy()
-        self._matrix.destroy()

@@ -53,25 +53,32 @@ def _filled_with_quadrilaterals(boundary: SectorBoundary, field: SizeField, part
 
 
 def filled(
-    boundary: np.ndarray, field: SizeField, scale: float, recombine: bool
+    boundary: np.ndarray, field: SizeField, scale: float, recombine: bool, slit: np.ndarray | None = None, mouth: int = 0
 ) -> tuple[np.ndarray, list[np.ndarray]]:
     """Mesh the inside of a closed polygon (n, 2) whose edges stay undivided.
 
-    Returns points, the boundary's first and in its order, and the cells: triangles, then with ``recombine`` quadrilaterals.
+    slit: (k, 2), points of a line that goes inwards from the boundary's point `mouth` and along which cells meet; its edges stay
+    undivided too. Returns points, the boundary's first and in its order, then the slit's, and the cells: triangles, then with
+    ``recombine`` quadrilaterals.
     """
     with gmsh_model("gear sector") as gmsh:
         try:
             tags = [gmsh.model.geo.addPoint(x, y, 0.0) for x, y in boundary]
             lines = [gmsh.model.geo.addLine(a, b) for a, b in zip(tags, tags[1:] + tags[:1])]
+            inner = [] if slit is None else [gmsh.model.geo.addPoint(x, y, 0.0) for x, y in slit]
+            along_slit = [gmsh.model.geo.addLine(a, b) for a, b in zip([tags[mouth], *inner], inner)]
             surface = gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(lines)])
             gmsh.model.geo.synchronize()
-            for line in lines:
+            for line in lines + along_slit:
                 gmsh.model.mesh.setTransfiniteCurve(line, 2)
+            if along_slit:
+                gmsh.model.mesh.embed(1, along_slit, 2, surface)
             if recombine:
                 gmsh.model.mesh.setRecombine(2, surface)
-            field.set_background(gmsh, boundary, tags, scale)
+            given = boundary if slit is None else np.vstack([boundary, slit])
+            field.set_background(gmsh, given, tags + inner, scale)
             gmsh.model.mesh.generate(2)
-            return _read(gmsh, boundary, recombine)
+            return _read(gmsh, given, recombine)
         except ComputationError:
             raise
         except Exception as error:  # gmsh raises nothing more precise
@@ -118,18 +125,26 @@ def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
 
     Tooth t stands t pitches counter-clockwise of tooth 0 and its flank is "flank t".
     """
+    return joined_sectors([sector] * teeth)
+
+
+def joined_sectors(sectors: list[BodyMesh]) -> BodyMesh:
+    """Mesh of a whole gear from the sector of each tooth, counter-clockwise; their cuts have the same nodes."""
+    teeth, points, index, count = len(sectors), [], [], 0
     pitch = 2.0 * np.pi / teeth
-    lower, upper = _points_by_radius(sector, "lower cut"), _points_by_radius(sector, "upper cut")
-    own = np.setdiff1d(np.arange(len(sector.points)), upper)
-    points, index = [], np.empty((teeth, len(sector.points)), dtype=int)
-    for tooth in range(teeth):
+    for tooth, sector in enumerate(sectors):
+        own = np.setdiff1d(np.arange(len(sector.points)), _points_by_radius(sector, "upper cut"))
         cosine, sine = np.cos(tooth * pitch), np.sin(tooth * pitch)
         points.append(sector.points[own] @ np.array([[cosine, sine], [-sine, cosine]]))
-        index[tooth, own] = tooth * len(own) + np.arange(len(own))
-    index[:, upper] = np.roll(index, -1, axis=0)[:, lower]
-    edges = {f"flank {tooth}": index[tooth][sector.edges["flank"]] for tooth in range(teeth)}
-    edges["hub"] = np.vstack([index[tooth][sector.edges["hub"]] for tooth in range(teeth)])
-    cells = np.vstack([index[tooth][sector.cells] for tooth in range(teeth)])
+        index.append(np.empty(len(sector.points), dtype=int))
+        index[tooth][own] = count + np.arange(len(own))
+        count += len(own)
+    for tooth, sector in enumerate(sectors):
+        ahead = (tooth + 1) % teeth
+        index[tooth][_points_by_radius(sector, "upper cut")] = index[ahead][_points_by_radius(sectors[ahead], "lower cut")]
+    edges = {f"flank {tooth}": numbers[sector.edges["flank"]] for tooth, (numbers, sector) in enumerate(zip(index, sectors))}
+    edges["hub"] = np.vstack([numbers[sector.edges["hub"]] for numbers, sector in zip(index, sectors)])
+    cells = np.vstack([numbers[sector.cells] for numbers, sector in zip(index, sectors)])
     return BodyMesh(np.vstack(points), cells, edges)
 
 

@@ -1,0 +1,50 @@
+"""The flank compliance of a gear whose teeth are not all alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fenics_gears.errors import ComputationError
+
+
+@dataclass(frozen=True)
+class WholeBodyCompliance:
+    """Displacement of drive-flank nodes per unit line force on drive-flank nodes of every tooth, hub ring held.
+
+    Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, strictly increasing. element_order: 1 or 2.
+    blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank m pitches ahead of tooth t
+    under forces on tooth t; dofs and components as in `FlankCompliance`. timings: as there.
+    """
+
+    roll_angles: tuple[np.ndarray, ...]
+    element_order: int
+    blocks: tuple[tuple[np.ndarray, ...], ...]
+    timings: dict = field(default_factory=dict, compare=False)
+    flanks: int = 1
+
+    @property
+    def teeth(self) -> int:
+        """Number of teeth."""
+        return len(self.roll_angles)
+
+    @property
+    def offsets(self) -> int:
+        """Largest distance, in pitches, between two teeth whose interaction is known."""
+        return len(self.blocks[0]) - 1
+
+    def between(self, responding: int, loaded: int) -> np.ndarray:
+        """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after a turn.
+
+        Raises ComputationError for teeth further apart than `offsets`.
+        """
+        ahead = (responding - loaded) % self.teeth
+        if ahead <= self.offsets:
+            return self.blocks[loaded % self.teeth][ahead]
+        if self.teeth - ahead <= self.offsets:
+            return self.blocks[responding % self.teeth][self.teeth - ahead].T
+        raise ComputationError(
+            f"flank compliance: teeth {responding % self.teeth} and {loaded % self.teeth} are further apart than the {self.offsets} pitches "
+            "that were computed; ask whole_body_compliance for more tooth_offsets"
+        )

@@ -1,0 +1,175 @@
+"""From the mesh of a whole gear to its flank compliance: each tooth's part condensed by PETSc, the parts joined exactly.
+
+With F the flank dofs of part t and I the interface dofs of all parts, block inversion gives the compliance between flanks as
+``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, where ``X_t = S_FF^-1 S_FI`` of part t and ``J = sum_t (S_II - S_IF S_FF^-1 S_FI)``
+is the interfaces' own stiffness. For a gear of equal sectors that is `elasticity.ring` without its Fourier transform.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from time import perf_counter
+
+import numpy as np
+from scipy import sparse
+
+from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.elements import Element, element_named
+from fenics_gears.elasticity.factor import Factor
+from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.roll_angles import node_roll_angles
+from fenics_gears.elasticity.sector_interior import dofs_of
+from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
+from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
+from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.scene.data import Material
+
+
+def whole_body_compliance(
+    mesh: BodyMesh,
+    gear: Gear,
+    material: Material,
+    *,
+    element: str = "P2",
+    tooth_offsets: int,
+    cache: Cache | None = None,
+    comm=None,
+) -> WholeBodyCompliance:
+    """Flank compliance of every tooth of a meshed gear (`whole_body.outline`), from the cache or computed.
+
+    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. comm: communicator of one rank, COMM_SELF when None.
+    Raises ComputationError when a stage fails.
+    """
+    chosen, clock = element_named(element), perf_counter()
+    tooth_offsets = min(tooth_offsets, gear.teeth - 1)
+    arrays, timings = None, {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0}
+    if cache is not None:
+        key = _key(mesh, gear, material, chosen, tooth_offsets)
+        arrays = cache.load(key)
+    if arrays is None:
+        arrays, timings = _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets, comm)
+        if cache is not None:
+            cache.store(key, arrays)
+    counts = {name: int(arrays[name]) for name in ("unknowns", "condensed_unknowns")}
+    return WholeBodyCompliance(
+        roll_angles=tuple(arrays[f"roll_angle_{tooth}"] for tooth in range(gear.teeth)),
+        element_order=chosen.order,
+        blocks=tuple(
+            tuple(arrays[_block_name(tooth, ahead)] / material.youngs_modulus for ahead in range(tooth_offsets + 1))
+            for tooth in range(gear.teeth)
+        ),
+        timings={**timings, **counts, "time_condense": perf_counter() - clock - timings["time_compile"]},
+    )
+
+
+def _key(mesh: BodyMesh, gear: Gear, material: Material, element: Element, tooth_offsets: int) -> str:
+    import hashlib
+
+    # The mesh by its points' and cells' own bytes: written out as numbers it would have megabytes.
+    content = hashlib.sha256()
+    for array in (mesh.points, mesh.cells.astype(np.int64)):
+        content.update(np.ascontiguousarray(array).tobytes())
+    return content_key({
+        "version": ALGORITHM_VERSION,
+        "whole body": content.hexdigest(),
+        "gear": asdict(gear),
+        "poissons_ratio": material.poissons_ratio,
+        "element": element.name,
+        "tooth_offsets": tooth_offsets,
+    })
+
+
+def _block_name(tooth: int, ahead: int) -> str:
+    return f"block_{tooth}_{ahead}"
+
+
+def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int, comm):
+    body = divided_body(mesh, gear, element)
+    condensed = [_condensed(part, body, element, poissons_ratio, comm) for part in body.parts]
+    own, to_interface = zip(*(_flank_of(each) for each in condensed))
+    joined = _Interface(body, condensed, to_interface)
+    try:
+        arrays = _blocks(gear, own, to_interface, joined, tooth_offsets)
+    finally:
+        joined.close()
+    for tooth in range(gear.teeth):
+        corners = mesh.points[mesh.edge_points(f"flank {tooth}")]
+        corners = corners[np.argsort(np.linalg.norm(corners, axis=1))]
+        arrays[f"roll_angle_{tooth}"] = node_roll_angles(gear, corners, element.order)
+    arrays["unknowns"] = np.array(2 * len(body.nodes.points))
+    arrays["condensed_unknowns"] = np.array(2 * (len(body.interface) + sum(len(part.flank) for part in body.parts)))
+    compiling = sum(each.timings["time_compile"] for each in condensed)
+    return arrays, {"from_cache": False, "time_mesh": 0.0, "time_compile": compiling}
+
+
+def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float, comm):
+    groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "interface", "hub")}
+    return condense(part.mesh, element, poissons_ratio, groups, comm)
+
+
+def _flank_of(part) -> tuple[np.ndarray, np.ndarray]:
+    """A part's S_FF^-1 and X, its interface and hub held."""
+    own = part.between("flank", "flank")
+    try:
+        np.linalg.cholesky(own)
+    except np.linalg.LinAlgError:
+        raise ComputationError("whole body: the stiffness of a flank is not positive definite; is its tooth held by the body?") from None
+    inverse = np.linalg.inv(own)
+    inverse = 0.5 * (inverse + inverse.T)
+    return inverse, inverse @ part.between("flank", "interface")
+
+
+class _Interface:
+    """The interfaces' stiffness J, factored; `response` between the interface dofs of two parts. Release it by `close`."""
+
+    def __init__(self, body: DividedBody, condensed, to_interface):
+        self._dofs = [dofs_of(np.searchsorted(body.interface, part.interface)) for part in body.parts]
+        self.size = 2 * len(body.interface)
+        entries, rows, columns = [], [], []
+        for dofs, part, to in zip(self._dofs, condensed, to_interface):
+            stiffness = part.between("interface", "interface") - part.between("interface", "flank") @ to
+            entries.append(0.5 * (stiffness + stiffness.T).ravel())
+            rows.append(np.repeat(dofs, len(dofs)))
+            columns.append(np.tile(dofs, len(dofs)))
+        matrix = sparse.coo_matrix((np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape=(self.size, self.size))
+        self._factor = Factor(matrix.tocsr(), "the interfaces of a gear's teeth")
+
+    def under_unit_loads(self, part: int) -> np.ndarray:
+        """Displacement (interface dofs, dofs of the part's interface) under unit forces there."""
+        loads = np.zeros((self.size, len(self._dofs[part])))
+        loads[self._dofs[part], np.arange(len(self._dofs[part]))] = 1.0
+        return self._factor.solve(loads)
+
+    def of_part(self, displacement: np.ndarray, part: int) -> np.ndarray:
+        """The rows of a part's interface."""
+        return displacement[self._dofs[part]]
+
+    def close(self) -> None:
+        """Give the factor's memory back."""
+        self._factor.close()
+
+
+def _blocks(gear: Gear, own, to_interface, joined: _Interface, tooth_offsets: int) -> dict[str, np.ndarray]:
+    """Compliance blocks in the teeth's own frames, Young's modulus 1 MPa, by name."""
+    found = {}
+    for tooth in range(gear.teeth):
+        response = joined.under_unit_loads(tooth)
+        for ahead in range(tooth_offsets + 1):
+            other = (tooth + ahead) % gear.teeth
+            block = to_interface[other] @ joined.of_part(response, other) @ to_interface[tooth].T
+            if ahead == 0:
+                block = own[tooth] + 0.5 * (block + block.T)
+            found[_block_name(tooth, ahead)] = _in_frames(block, other * gear.angular_pitch, tooth * gear.angular_pitch)
+    return found
+
+
+def _in_frames(block: np.ndarray, responding: float, loaded: float) -> np.ndarray:
+    """A block with its rows and columns in the frames of teeth that stand turned by angles (rad)."""
+    rows, columns = block.shape[0] // 2, block.shape[1] // 2
+    parts = block.reshape(rows, 2, columns, 2)
+    turned = np.einsum("xa,ixjy,yb->iajb", rotation(responding), parts, rotation(loaded), optimize=True)
+    return np.ascontiguousarray(turned.reshape(block.shape))

@@ -1,0 +1,201 @@
+"""What the boundary of a meshed gear is made of: bore, tips and drive flanks, told by where they lie.
+
+A mesh need name nothing. It may stand at any angle about the gear's centre, which is the origin; it is turned so that the tooth whose
+drive flank stands nearest to the body frame of a tooth (`geometry.involute`: the tooth points downwards) is tooth 0. Drive flanks are
+the counter-clockwise sides of the teeth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import arc_length, involute_function
+from fenics_gears.geometry.outline import centreline_angle
+
+# Points of bore, tips and flanks lie so near to where the gear data have them, in modules; gaps are those of true involutes.
+OUTLINE_TOLERANCE = 2e-3
+# A flank's first element may begin so far above the form circle, in parts of its length; the displacement is continued below it.
+UNCOVERED = 0.5
+# Factors by which a mesh is too small or too large, and the unit it then is likely to be in.
+UNITS = {1e-3: "metres", 1.0 / 25.4: "inches", 1e3: "micrometres"}
+
+
+@dataclass(frozen=True)
+class WholeBody:
+    """A meshed gear, mm, whose edges are "hub" and "flank 0", "flank 1", ... counted counter-clockwise, tooth 0 in its body frame.
+
+    coarsest_flank: the longest element along a flank, mm.
+    """
+
+    mesh: BodyMesh
+    coarsest_flank: float
+
+
+def whole_body(mesh: BodyMesh, gear: Gear, name: str) -> WholeBody:
+    """Find bore and flanks of a gear in its mesh (mm, about the origin); `name`: what messages call the mesh.
+
+    Raises SceneError where the mesh is not one connected gear of these data.
+    """
+    _check_connected(mesh, name)
+    sides = boundary_sides(mesh.cells)
+    outer = np.linalg.norm(mesh.points[sides], axis=-1)
+    tolerance = OUTLINE_TOLERANCE * gear.module
+    _check_size(float(outer.max()), gear, tolerance, name)
+    _check_teeth(sides[np.abs(outer - gear.tip_radius).max(axis=1) <= tolerance], gear, name)
+    hub = sides[np.abs(outer - gear.bore_radius).max(axis=1) <= tolerance]
+    _check_bore(mesh.points, hub, outer, gear, name)
+    turned = mesh.points @ rotation(_standing_angle(mesh.points[np.unique(sides)], gear, name))
+    flanks = _flanks(turned, sides, gear, tolerance, name)
+    longest = max(np.linalg.norm(turned[flank[:, 0]] - turned[flank[:, 1]], axis=1).max() for flank in flanks)
+    edges = {"hub": hub, **{f"flank {tooth}": flank for tooth, flank in enumerate(flanks)}}
+    return WholeBody(BodyMesh(turned, mesh.cells, edges), float(longest))
+
+
+def boundary_sides(cells: np.ndarray) -> np.ndarray:
+    """Sides (k, 2) that belong to one cell only."""
+    sides = _cell_sides(cells)
+    _, first, count = np.unique(sides, axis=0, return_index=True, return_counts=True)
+    return sides[first[count == 1]]
+
+
+def _cell_sides(cells: np.ndarray) -> np.ndarray:
+    """Sides (cells times corners, 2), the smaller point first."""
+    return np.sort(np.stack([cells, np.roll(cells, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+
+
+def joined_cells(cells: np.ndarray) -> np.ndarray:
+    """Number of the connected piece (cells,) that each cell belongs to; cells hold together along whole sides."""
+    unique, of_side = np.unique(_cell_sides(cells), axis=0, return_inverse=True)
+    owner = np.repeat(np.arange(len(cells)), cells.shape[1])
+    incidence = coo_matrix((np.ones(len(owner)), (owner, of_side.ravel())), shape=(len(cells), len(unique))).tocsr()
+    return connected_components(incidence @ incidence.T, directed=False)[1]
+
+
+def drive_flank_angle(gear: Gear, radius: np.ndarray) -> np.ndarray:
+    """Polar angle (rad) of a drive flank at radii (mm) in its tooth's body frame; below the base circle that of its start."""
+    return -0.5 * np.pi - involute_function(gear.roll_angle(np.maximum(radius, gear.base_radius)))
+
+
+def _check_connected(mesh: BodyMesh, name: str) -> None:
+    piece = joined_cells(mesh.cells)
+    counts = np.bincount(piece)
+    if len(counts) > 1:
+        smallest = np.flatnonzero(piece == np.argmin(counts))
+        where = mesh.points[mesh.cells[smallest]].mean(axis=(0, 1))
+        raise SceneError(
+            f"{name}: the mesh has {len(counts)} parts that do not hold together; the smallest, of {len(smallest)} cells, lies about "
+            f"x = {where[0]:.4g} mm, y = {where[1]:.4g} mm. A tooth that a crack has cut off carries nothing; parts that should be one need "
+            "their common points to be the same points"
+        )
+
+
+def _check_size(largest: float, gear: Gear, tolerance: float, name: str) -> None:
+    if abs(largest - gear.tip_radius) <= tolerance:
+        return
+    ratio = largest / gear.tip_radius
+    units = {**UNITS, 1.0 / gear.module: "modules"}
+    unit = next((f" Is it in {words}? Lengths of a mesh are in mm." for factor, words in units.items() if abs(ratio / factor - 1.0) < 0.01), "")
+    raise SceneError(
+        f"{name}: the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is {gear.tip_radius:.6g} mm.{unit} "
+        f"Allowed: {tolerance:.2g} mm of difference, the gear's centre at the origin"
+    )
+
+
+def _check_teeth(tips: np.ndarray, gear: Gear, name: str) -> None:
+    points = np.unique(tips)
+    ends = np.searchsorted(points, tips)
+    links = coo_matrix((np.ones(len(tips)), (ends[:, 0], ends[:, 1])), shape=(len(points), len(points)))
+    teeth = connected_components(links, directed=False)[0] if len(points) else 0
+    if teeth != gear.teeth:
+        raise SceneError(f"{name}: the mesh has {teeth} tooth tips on its tip circle, the gear of the scene has {gear.teeth} teeth; each must have its tip")
+
+
+def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Gear, name: str) -> None:
+    ends = points[hub]
+    turns = np.angle(((ends[:, 1] @ [1.0, 1.0j]) / (ends[:, 0] @ [1.0, 1.0j]))) if len(hub) else np.zeros(0)
+    covered = np.abs(turns).sum() / (2.0 * np.pi)
+    if abs(covered - 1.0) > 1e-6:
+        raise SceneError(
+            f"{name}: no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is {2.0 * gear.bore_radius:.6g} mm): its circle is "
+            f"covered to {covered:.0%}; the innermost point of the boundary is {radii.min():.6g} mm from the origin"
+        )
+
+
+def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
+    """Angle (rad) by which the mesh stands turned: boundary points (k, 2) of all drive flanks agree on it, up to whole pitches."""
+    radius = np.linalg.norm(points, axis=1)
+    tolerance = OUTLINE_TOLERANCE * gear.module
+    between = (radius > gear.form_radius) & (radius < gear.tip_radius - tolerance)
+    if not between.any():
+        raise SceneError(f"{name}: the boundary of the mesh has no points on the flanks, between form circle and tip circle")
+    pitch, window = gear.angular_pitch, 2.0 * tolerance / gear.base_radius
+    angle = np.arctan2(points[between, 1], points[between, 0]) - drive_flank_angle(gear, radius[between])
+    angle = np.sort(np.mod(angle, pitch))
+    twice = np.concatenate([angle, angle + pitch])
+    within = np.searchsorted(twice, angle + window, side="right") - np.arange(len(angle))
+    densest = int(np.argmax(within))
+    found = float(np.median(twice[densest : densest + within[densest]]))
+    return (found + 0.5 * pitch) % pitch - 0.5 * pitch
+
+
+def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float, name: str) -> list[np.ndarray]:
+    """Sides (k, 2) of each drive flank, from the form circle to the tip."""
+    boundary = np.unique(sides)
+    radius = np.linalg.norm(points[boundary], axis=1)
+    angle = np.arctan2(points[boundary, 1], points[boundary, 0])
+    # From the centreline of each tooth to the middle of the space on its counter-clockwise side.
+    ahead = np.mod(angle - centreline_angle(gear), 2.0 * np.pi) / gear.angular_pitch
+    tooth, on_drive_side = np.floor(ahead + 0.5).astype(int) % gear.teeth, np.mod(ahead, 1.0) < 0.5
+    off = angle - drive_flank_angle(gear, radius) - gear.angular_pitch * tooth
+    # An involute turned by an angle stands off by the base radius times that angle along its normal.
+    off = gear.base_radius * np.abs((off + np.pi) % (2.0 * np.pi) - np.pi)
+    below_tip = radius < gear.tip_radius - tolerance
+    _check_involute(tooth, off, on_drive_side & below_tip & (radius > gear.form_radius + tolerance), tolerance, name)
+    return [
+        _flank(points, sides, boundary[on_drive_side & (tooth == each) & (off <= tolerance)], gear, tolerance, f"{name}: flank of tooth {each}")
+        for each in range(gear.teeth)
+    ]
+
+
+def _check_involute(tooth: np.ndarray, off: np.ndarray, flank: np.ndarray, tolerance: float, name: str) -> None:
+    worst = int(np.argmax(np.where(flank, off, 0.0))) if flank.any() else 0
+    if flank.any() and off[worst] > tolerance:
+        raise SceneError(
+            f"{name}: points of the drive flank of tooth {tooth[worst]} (counted counter-clockwise) lie up to {1e3 * off[worst]:.4g} um off "
+            f"the gear's involute. Allowed: up to {1e3 * tolerance:.3g} um. Contact goes by the gear data; deviations of a flank "
+            "belong into [flank_errors], and chamfers of tips are not known"
+        )
+
+
+def _flank(points, sides, candidates: np.ndarray, gear: Gear, tolerance: float, name: str) -> np.ndarray:
+    """Sides of one flank from points that lie on its involute."""
+    radius = np.linalg.norm(points[candidates], axis=1)
+    order = np.argsort(radius)
+    candidates, radius = candidates[order], radius[order]
+    # Of the points at and below the form circle the highest begins the flank; below it there is fillet.
+    first = max(int(np.searchsorted(radius, gear.form_radius + tolerance, side="right")) - 1, 0)
+    chain = np.sort(np.stack([candidates[first:-1], candidates[first + 1 :]], axis=-1), axis=1)
+    known = {tuple(side) for side in sides.tolist()}
+    broken = [place for place, side in enumerate(chain.tolist()) if tuple(side) not in known]
+    if broken or len(chain) < 2:
+        where = radius[first + broken[0]] if broken else radius[-1] if len(radius) else 0.0
+        raise SceneError(
+            f"{name}: is not one line of elements from form circle to tip: it is broken near radius {where:.5g} mm. Every flank needs elements "
+            "of its own along the whole involute, and no crack may open on it"
+        )
+    length = arc_length(gear.base_radius, gear.roll_angle(np.maximum(radius[first:], gear.base_radius)))
+    form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
+    if length[0] - form > UNCOVERED * (length[1] - length[0]) + tolerance or tip - length[-1] > 2.0 * tolerance:
+        raise SceneError(
+            f"{name}: its points on the involute reach from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm, but the flank goes from the form "
+            f"circle, radius {gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
+        )
+    return chain

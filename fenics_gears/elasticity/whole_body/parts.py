@@ -1,0 +1,105 @@
+"""A meshed gear divided into its teeth: cells by the tooth sector they lie in, so that each part is condensed by itself.
+
+Any division gives the same answer; by teeth it gives small parts that meet in short lines of nodes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import centreline_angle
+
+
+@dataclass(frozen=True)
+class Part:
+    """One part of a body: its mesh, and nodes of the whole body that are kept of it.
+
+    flank: (f,), by radius; interface: (i,), those shared with other parts, not on the hub; hub: (h,).
+    """
+
+    mesh: BodyMesh
+    flank: np.ndarray
+    interface: np.ndarray
+    hub: np.ndarray
+
+
+@dataclass(frozen=True)
+class DividedBody:
+    """The nodes of a body, one part for each tooth, and all interface nodes (k,), ascending."""
+
+    nodes: ElementNodes
+    parts: tuple[Part, ...]
+    interface: np.ndarray
+
+
+def divided_body(mesh: BodyMesh, gear: Gear, element: Element) -> DividedBody:
+    """Divide a whole gear (`whole_body.outline`) into its teeth."""
+    nodes = element_nodes(mesh, element)
+    owner = part_of_cells(mesh, gear)
+    hub = nodes_on(nodes, mesh.edges["hub"])
+    touched = np.unique(np.column_stack([nodes.cells.ravel(), np.repeat(owner, nodes.cells.shape[1])]), axis=0)
+    shared = np.flatnonzero(np.bincount(touched[:, 0], minlength=len(nodes.points)) > 1)
+    interface = np.setdiff1d(shared, hub)
+    parts = []
+    for tooth in range(gear.teeth):
+        own = touched[touched[:, 1] == tooth, 0]
+        flank = nodes_on(nodes, mesh.edges[f"flank {tooth}"])
+        flank = flank[np.argsort(np.linalg.norm(nodes.points[flank], axis=1))]
+        parts.append(Part(_sub_mesh(mesh, owner == tooth), flank, np.intersect1d(own, interface), np.intersect1d(own, hub)))
+    return DividedBody(nodes, tuple(parts), interface)
+
+
+def part_of_cells(mesh: BodyMesh, gear: Gear) -> np.ndarray:
+    """Number of the part (cells,): that of the tooth; all cells on one face of a crack together, and those on a flank with its tooth.
+
+    The two faces of a crack have nodes in the same places. A node of theirs that two parts shared could not be told from its twin.
+    """
+    centre = mesh.points[mesh.cells].mean(axis=1)
+    ahead = np.arctan2(centre[:, 1], centre[:, 0]) - centreline_angle(gear)
+    owner = np.floor(np.mod(ahead, 2.0 * np.pi) / gear.angular_pitch + 0.5).astype(int) % gear.teeth
+    for face in crack_faces(mesh):
+        owner[face] = np.bincount(owner[face]).argmax()
+    for tooth in range(gear.teeth):
+        on_flank = np.isin(mesh.cells, mesh.edge_points(f"flank {tooth}")).any(axis=1)
+        owner[on_flank] = tooth
+    return owner
+
+
+def crack_faces(mesh: BodyMesh) -> list[np.ndarray]:
+    """Cells at each face of each crack: those that touch points which have a twin in the same place, joined by such points."""
+    twins = np.unique(cKDTree(mesh.points).query_pairs(1e-9 * np.abs(mesh.points).max(), output_type="ndarray"))
+    touching = np.isin(mesh.cells, twins)
+    cells = np.flatnonzero(touching.any(axis=1))
+    if not len(cells):
+        return []
+    rows, columns = np.nonzero(touching[cells])
+    points = np.searchsorted(twins, mesh.cells[cells[rows], columns])
+    incidence = coo_matrix((np.ones(len(rows)), (rows, points)), shape=(len(cells), len(twins))).tocsr()
+    count, face = connected_components(incidence @ incidence.T, directed=False)
+    return [cells[face == number] for number in range(count)]
+
+
+def nodes_on(nodes: ElementNodes, sides: np.ndarray) -> np.ndarray:
+    """Nodes (k,) on sides (j, 2) of the body's boundary, the middles of second-order ones included."""
+    if nodes.order == 1:
+        return np.unique(sides)
+    table = nodes.boundary_sides
+    count = len(nodes.points)
+    keys = np.sort(table[:, :2], axis=1) @ [count, 1]
+    order = np.argsort(keys)
+    found = order[np.searchsorted(keys, np.sort(sides, axis=1) @ [count, 1], sorter=order)]
+    return np.unique(np.concatenate([np.unique(sides), table[found, 2]]))
+
+
+def _sub_mesh(mesh: BodyMesh, chosen: np.ndarray) -> BodyMesh:
+    used, cells = np.unique(mesh.cells[chosen], return_inverse=True)
+    return BodyMesh(mesh.points[used], cells.reshape(-1, mesh.cells.shape[1]), {})
