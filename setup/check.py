@@ -10,7 +10,7 @@ import sys
 NEEDED = (
     "tomllib", "vtkmodules.vtkRenderingOpenGL2", "pyvista", "dolfinx", "petsc4py.PETSc", "mpi4py.MPI", "gmsh",
     "numpy", "scipy", "cvxopt", "numba", "h5py", "h5netcdf", "xarray", "pydantic", "pint", "rich", "platformdirs",
-    "matplotlib", "threadpoolctl",
+    "matplotlib", "threadpoolctl", "jinja2", "plotly",
 )
 NEEDED_BY_TESTS = ("pytest", "pytest_benchmark", "hypothesis", "sphinx", "myst_parser", "furo")
 
