@@ -42,16 +42,16 @@ class Bearings(Support):
         return self.along(direction) if stiffness is None else stiffness
 
 
-def _stiffness():
-    return quantity("1e-6 N/mm", "1e20 N/mm", "0.155e6 N/mm", optional=True)
+def _stiffness(meaning: str, otherwise: str):
+    return quantity("1e-6 N/mm", "1e20 N/mm", "0.155e6 N/mm", meaning=meaning, otherwise=otherwise)
 
 
 class SupportText(Section):
     """``[bearings.pinion]`` and ``[bearings.wheel]``; what is left out is taken from ``[bearings]``."""
 
-    stiffness: Optional[float] = _stiffness()
-    stiffness_x: Optional[float] = _stiffness()
-    stiffness_y: Optional[float] = _stiffness()
+    stiffness: Optional[float] = _stiffness("stiffness in every direction", "as of both gears, or from the two below")
+    stiffness_x: Optional[float] = _stiffness("stiffness along the line of action", "`stiffness`")
+    stiffness_y: Optional[float] = _stiffness("stiffness off the line of action", "`stiffness`")
 
 
 class BearingsText(SupportText):

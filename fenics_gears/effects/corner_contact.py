@@ -22,7 +22,9 @@ class CornerContact:
 class EdgeText(Section):
     """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``."""
 
-    edge_radius: Optional[float] = quantity("0 mm", "1 m", "0.1 mm", optional=True)
+    edge_radius: Optional[float] = quantity(
+        "0 mm", "1 m", "0.1 mm", meaning="radius of the edge between flank and tip circle", otherwise="as `[corner_contact]` has it, else sharp, 0 mm"
+    )
 
 
 class CornerContactText(EdgeText):

@@ -23,8 +23,8 @@ class Damping:
 class DampingText(Section):
     """``[damping]``."""
 
-    stiffness_proportional: float = quantity("0 s", "1e3 s", "0.4e-3 s")
-    mass_proportional: float = quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s")
+    stiffness_proportional: float = quantity("0 s", "1e3 s", "0.4e-3 s", meaning="alpha of alpha K + beta M")
+    mass_proportional: float = quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s", meaning="beta of alpha K + beta M")
 
 
 def damping_acts(tree: Tree) -> Iterator[Problem]:

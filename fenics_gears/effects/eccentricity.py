@@ -35,8 +35,20 @@ class Eccentricity:
 class OffsetText(Section):
     """``[eccentricity.pinion]`` and ``[eccentricity.wheel]``."""
 
-    distance: float = quantity("1e-6 um", "100 mm", "10 um", below="For a gear that runs true, leave its section out.")
-    phase: Optional[float] = quantity("-360 deg", "360 deg", "90 deg", optional=True)
+    distance: float = quantity(
+        "1e-6 um",
+        "100 mm",
+        "10 um",
+        meaning="distance of the base circle's centre from the axis of rotation",
+        below="For a gear that runs true, leave its section out.",
+    )
+    phase: Optional[float] = quantity(
+        "-360 deg",
+        "360 deg",
+        "90 deg",
+        meaning="angle of that centre from the line of action, pinion to wheel, at the start of the first mesh cycle, in the gear's sense of rotation",
+        otherwise="0 deg",
+    )
 
 
 class EccentricityText(Section):

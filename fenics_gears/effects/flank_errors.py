@@ -54,28 +54,43 @@ class FlankErrors:
     seed: int = 1
 
 
+DRAWN = "drawn within the tolerance class, none without one"
+
+
 class WavinessText(Section):
     """``[flank_errors.pinion.waviness]`` and the wheel's."""
 
-    amplitude: float = quantity("1e-6 um", "100 mm", "1 um", below="For flanks without waviness, leave the section out.")
-    waves: int = whole_number(1, 1_000_000, 37)
-    phase: Optional[float] = quantity("-360 deg", "360 deg", "90 deg", optional=True)
+    amplitude: float = quantity(
+        "1e-6 um", "100 mm", "1 um", meaning="amplitude of the undulation", below="For flanks without waviness, leave the section out."
+    )
+    waves: int = whole_number(1, 1_000_000, 37, meaning="waves in a turn of the gear")
+    phase: Optional[float] = quantity(
+        "-360 deg", "360 deg", "90 deg", meaning="phase of the wave at the first tooth", otherwise="0 deg"
+    )
 
 
 class GearErrorsText(Section):
     """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: lists with a value for each tooth."""
 
-    pitch: Optional[tuple[float, ...]] = quantities("-100 mm", "100 mm", "3.5 um")
-    profile_slope: Optional[tuple[float, ...]] = quantities("-100 mm", "100 mm", "4 um")
-    profile_form: Optional[tuple[float, ...]] = quantities("-100 mm", "100 mm", "3 um")
+    pitch: Optional[tuple[float, ...]] = quantities(
+        "-100 mm", "100 mm", "3.5 um", meaning="single pitch deviations, positive where the pitch is too long; they sum to zero", otherwise=DRAWN
+    )
+    profile_slope: Optional[tuple[float, ...]] = quantities(
+        "-100 mm", "100 mm", "4 um", meaning="profile slope deviations, positive with material in excess towards the tip", otherwise=DRAWN
+    )
+    profile_form: Optional[tuple[float, ...]] = quantities(
+        "-100 mm", "100 mm", "3 um", meaning="profile form deviations, positive where the middle of the flank stands out", otherwise=DRAWN
+    )
     waviness: Optional[WavinessText] = None
 
 
 class FlankErrorsText(Section):
     """``[flank_errors]``: the class within which is drawn what is not given, and the seed of the drawing (1 unless given)."""
 
-    tolerance_class: Optional[int] = whole_number(1, 11, 6, optional=True)
-    seed: Optional[int] = whole_number(0, 2**31 - 1, 1, optional=True)
+    tolerance_class: Optional[int] = whole_number(
+        1, 11, 6, meaning="flank tolerance class of ISO 1328-1 within which is drawn what no list gives", otherwise="nothing is drawn"
+    )
+    seed: Optional[int] = whole_number(0, 2**31 - 1, 1, meaning="seed of the drawing", otherwise="1")
     pinion: Optional[GearErrorsText] = None
     wheel: Optional[GearErrorsText] = None
 

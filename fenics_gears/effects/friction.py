@@ -16,7 +16,13 @@ class Friction:
 class FrictionText(Section):
     """``[friction]``."""
 
-    coefficient: float = number(0.1, above=0, highest=5, too_low="For a pair without friction, leave the section [friction] out.")
+    coefficient: float = number(
+        0.1,
+        meaning="coefficient of friction on all flanks",
+        above=0,
+        highest=5,
+        too_low="For a pair without friction, leave the section [friction] out.",
+    )
 
 
 EFFECT = Effect(

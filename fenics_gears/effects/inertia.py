@@ -15,10 +15,12 @@ class Inertia:
 
 
 class InertiaText(Section):
-    """``[inertia]``."""
+    """``[inertia]``: lumped at the centres, alike for both gears."""
 
-    mass: float = quantity("1e-9 kg", "1e9 kg", "4.9 kg")
-    moment_of_inertia: float = quantity("1e-15 kg m^2", "1e15 kg m^2", "24.5e-3 kg m^2")
+    mass: float = quantity("1e-9 kg", "1e9 kg", "4.9 kg", meaning="mass of a gear, with its shaft")
+    moment_of_inertia: float = quantity(
+        "1e-15 kg m^2", "1e15 kg m^2", "24.5e-3 kg m^2", meaning="moment of inertia of a gear, and of the output shaft's end"
+    )
 
 
 EFFECT = Effect(

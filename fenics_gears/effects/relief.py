@@ -26,26 +26,39 @@ class Relief:
     start_diameter: float | None = None
 
 
-def start_field(word: str) -> Any:
+def start_field(word: str, word_meaning: str) -> Any:
     """Where a relief starts: ``word``, a roll angle or a diameter."""
-    return either(("1e-3 deg", "360 deg", "29.61 deg"), ("0.1 mm", "100 m", "80.1 mm"), words={word: None})
+    return either(
+        ("1e-3 deg", "360 deg", "29.61 deg"),
+        ("0.1 mm", "100 m", "80.1 mm"),
+        words={word: None},
+        meaning=f"where the relief starts: a roll angle, a diameter, or the {word_meaning}",
+        otherwise="as of both gears; one of them says",
+    )
 
 
 def depth_field() -> Any:
     """How much a relief removes at its end."""
-    return quantity("1e-6 um", "100 mm", "31 um", optional=True, below="For a gear without relief, leave its depth out.")
+    return quantity(
+        "1e-6 um",
+        "100 mm",
+        "31 um",
+        meaning="material removed at the relief's end, along the flank's normal",
+        otherwise="as of both gears, else no relief",
+        below="For a gear without relief, leave its depth out.",
+    )
 
 
 def shape_field() -> Any:
     """How a relief grows from its start to its end."""
-    return choice(LINEAR, PARABOLIC)
+    return choice(LINEAR, PARABOLIC, meaning="how it grows with the roll angle, from its start to its end", otherwise="as of both gears, else `linear`")
 
 
 class TipReliefOfGearText(Section):
     """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; what is left out is taken from ``[tip_relief]``."""
 
     depth: Optional[float] = depth_field()
-    start: Optional[Measured] = start_field("HPSTC")
+    start: Optional[Measured] = start_field("HPSTC", "highest point of single tooth contact")
     shape: Optional[Literal["linear", "parabolic"]] = shape_field()
 
 
@@ -53,7 +66,7 @@ class RootReliefOfGearText(Section):
     """``[root_relief.pinion]`` and ``[root_relief.wheel]``; what is left out is taken from ``[root_relief]``."""
 
     depth: Optional[float] = depth_field()
-    start: Optional[Measured] = start_field("LPSTC")
+    start: Optional[Measured] = start_field("LPSTC", "lowest point of single tooth contact")
     shape: Optional[Literal["linear", "parabolic"]] = shape_field()
 
 

@@ -16,7 +16,9 @@ class Shafts:
 class ShaftsText(Section):
     """``[shafts]``."""
 
-    torsional_stiffness: float = quantity("1e-6 N mm/rad", "1e24 N mm/rad", "0.203e9 N mm/rad")
+    torsional_stiffness: float = quantity(
+        "1e-6 N mm/rad", "1e24 N mm/rad", "0.203e9 N mm/rad", meaning="stiffness of the input and of the output shaft, each"
+    )
 
 
 EFFECT = Effect(

@@ -22,10 +22,12 @@ class SpeedRamp:
 
 
 class SpeedRampText(Section):
-    """``[speed_ramp]``."""
+    """``[speed_ramp]``: from the mesh frequency of the motion to another, linearly in time."""
 
-    end_frequency: float = quantity("1e-6 Hz", "1e6 Hz", "260 Hz")
-    hold_cycles: Optional[int] = whole_number(0, 1_000_000, 20, optional=True)
+    end_frequency: float = quantity("1e-6 Hz", "1e6 Hz", "260 Hz", meaning="mesh frequency at the end of the run")
+    hold_cycles: Optional[int] = whole_number(
+        0, 1_000_000, 20, meaning="mesh cycles at the first frequency before the ramp begins", otherwise="0"
+    )
 
 
 def read(text: SpeedRampText) -> SpeedRamp:

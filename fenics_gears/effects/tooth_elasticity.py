@@ -17,8 +17,8 @@ class Material:
 class MaterialText(Section):
     """``[gears.material]``."""
 
-    youngs_modulus: float = quantity("1 kPa", "1e9 GPa", "206 GPa")
-    poissons_ratio: float = number(0.3, above=-1, below=0.5)
+    youngs_modulus: float = quantity("1 kPa", "1e9 GPa", "206 GPa", meaning="Young's modulus")
+    poissons_ratio: float = number(0.3, meaning="Poisson's ratio", above=-1, below=0.5)
 
 
 EFFECT = Effect(

@@ -92,7 +92,8 @@ def _quantity(place: int, name: str, value: Any) -> float:
 
 _HARMONICS = AllowedHarmonics(
     f"a list of harmonics, each with its order (turns of the wheel's shaft, above 0 up to {HIGHEST_ORDER:g}), an amplitude and, if any, "
-    'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]'
+    'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]',
+    meaning="what adds to the couple: amplitude times the cosine of order times the shaft's angle plus phase",
 )
 
 

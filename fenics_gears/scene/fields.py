@@ -1,6 +1,7 @@
 """The kinds of fields a scene has: quantities with units, bare numbers, choices; each knows what it allows.
 
-Each function returns a pydantic field; its wording travels along as ``Allowed``, for the messages.
+Each function returns a pydantic field; its wording travels along as ``Allowed``, for the messages and the documentation. ``meaning`` says
+what the field is; ``otherwise`` what is taken where a scene leaves it out, and thereby that it may.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ class Allowed:
     """What a field allows, in words, and how its text becomes a number.
 
     ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one; ``words`` are
-    texts that stand for other values; ``below`` is added when a value lies below the range.
+    texts that stand for other values; ``below`` is added when a value lies below the range. ``meaning`` and ``otherwise`` are for the
+    documentation: what the field is, and what is taken where it is left out.
     """
 
     description: str
@@ -30,6 +32,8 @@ class Allowed:
     unit: str = ""
     words: dict[str, Any] = field(default_factory=dict)
     below: str = ""
+    meaning: str = ""
+    otherwise: str = ""
 
     def convert(self, value: Any) -> Any:
         """The number in N, mm, s, rad for a quantity's text; anything else as it is.
@@ -152,20 +156,28 @@ def allowed_in(section: type[BaseModel], name: str) -> Allowed | None:
 
 
 def quantity(
-    lowest: str, highest: str, example: str, *, optional: bool = False, words: dict[str, Any] | None = None, below: str = ""
+    lowest: str,
+    highest: str,
+    example: str,
+    *,
+    meaning: str,
+    otherwise: str = "",
+    words: dict[str, Any] | None = None,
+    below: str = "",
 ) -> Any:
     """A quantity with a unit; bounds, both included, are written with units too."""
     kind = units.quantity(example)[1]
     words = words or {}
     description = f'{kind} from {lowest} to {highest}, with its unit, such as "{example}"'
     description += "".join(f', or "{word}"' for word in words)
-    allowed = Allowed(description, kind, units.unit_of(example), words, below)
-    return _field(allowed, optional, ge=units.quantity(lowest)[0], le=units.quantity(highest)[0])
+    allowed = Allowed(description, kind, units.unit_of(example), words, below, meaning, otherwise)
+    return _field(allowed, ge=units.quantity(lowest)[0], le=units.quantity(highest)[0])
 
 
 def number(
     example: float,
     *,
+    meaning: str,
     above: float | None = None,
     lowest: float | None = None,
     below: float | None = None,
@@ -176,18 +188,18 @@ def number(
     """A bare number; ``above`` and ``below`` are excluded, ``lowest`` and ``highest`` included."""
     least = f"above {above:g}" if lowest is None else f"from {lowest:g}"
     most = f"below {below:g}" if highest is None else f"up to {highest:g}"
-    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", below=too_low)
+    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", below=too_low, meaning=meaning)
     return Field(default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
 
 
-def quantities(lowest: str, highest: str, example: str) -> Any:
+def quantities(lowest: str, highest: str, example: str, *, meaning: str, otherwise: str) -> Any:
     """A list of quantities with units, optional; bounds of each entry, both included, are written with units too."""
     (low, kind), high = units.quantity(lowest), units.quantity(highest)[0]
     description = f'a list of quantities, each {kind} from {lowest} to {highest}, with its unit, such as ["{example}", "{example}"]'
-    return _field(AllowedList(description, kind, units.unit_of(example), bounds=(low, high)), optional=True)
+    return _field(AllowedList(description, kind, units.unit_of(example), bounds=(low, high), meaning=meaning, otherwise=otherwise))
 
 
-def either(*ranges: tuple[str, str, str], words: dict[str, Any]) -> Any:
+def either(*ranges: tuple[str, str, str], words: dict[str, Any], meaning: str, otherwise: str) -> Any:
     """A quantity of one of several kinds, each given as lowest, highest, example with units; optional. It becomes a ``Measured``."""
     described, bounds = [], {}
     for lowest, highest, example in ranges:
@@ -195,32 +207,37 @@ def either(*ranges: tuple[str, str, str], words: dict[str, Any]) -> Any:
         described.append(f'{kind} from {lowest} to {highest}, such as "{example}"')
         bounds[kind] = low, high
     description = ", or ".join([*described, *(f'"{word}"' for word in words)])
-    return _field(AllowedEither(description, next(iter(bounds)), units.unit_of(ranges[0][2]), words, ranges=bounds), optional=True)
+    allowed = AllowedEither(
+        description, next(iter(bounds)), units.unit_of(ranges[0][2]), words, meaning=meaning, otherwise=otherwise, ranges=bounds
+    )
+    return _field(allowed)
 
 
-def whole_number(lowest: int, highest: int, example: int, *, optional: bool = False, words: dict[str, Any] | None = None) -> Any:
+def whole_number(
+    lowest: int, highest: int, example: int, *, meaning: str, otherwise: str = "", words: dict[str, Any] | None = None
+) -> Any:
     """A bare whole number, bounds included."""
     words = words or {}
     description = f"a whole number from {lowest} to {highest}, without unit, such as {example}"
     description += "".join(f', or "{word}"' for word in words)
-    return _field(Allowed(description, words=words), optional, ge=lowest, le=highest)
+    return _field(Allowed(description, words=words, meaning=meaning, otherwise=otherwise), ge=lowest, le=highest)
 
 
-def choice(*names: str) -> Any:
+def choice(*names: str, meaning: str, otherwise: str) -> Any:
     """One of a few names, optional."""
     listed = ", ".join(f'"{name}"' for name in names)
-    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}"), optional=True)
+    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}", meaning=meaning, otherwise=otherwise))
 
 
-def text(longest: int) -> Any:
+def text(longest: int, *, meaning: str, otherwise: str) -> Any:
     """A text, optional."""
-    return _field(Allowed(f"a text of at most {longest} characters"), optional=True, max_length=longest)
+    return _field(Allowed(f"a text of at most {longest} characters", meaning=meaning, otherwise=otherwise), max_length=longest)
 
 
-def switch() -> Any:
+def switch(*, meaning: str) -> Any:
     """True or false; false unless given."""
-    return Field(False, json_schema_extra={"allowed": Allowed("true or false")})
+    return Field(False, json_schema_extra={"allowed": Allowed("true or false", meaning=meaning, otherwise="false")})
 
 
-def _field(allowed: Allowed, optional: bool, **bounds: Any) -> Any:
-    return Field(None if optional else ..., json_schema_extra={"allowed": allowed}, **bounds)
+def _field(allowed: Allowed, **bounds: Any) -> Any:
+    return Field(None if allowed.otherwise else ..., json_schema_extra={"allowed": allowed}, **bounds)

@@ -14,37 +14,44 @@ from fenics_gears.effects.tooth_elasticity import MaterialText
 from fenics_gears.scene.fields import Section, choice, number, quantity, switch, text, whole_number
 
 
-def _diameter(example: str):
-    return quantity("0.1 mm", "100 m", example)
+def _diameter(example: str, meaning: str):
+    return quantity("0.1 mm", "100 m", example, meaning=meaning)
 
 
 class Gear(Section):
-    """``[gears.pinion]`` and ``[gears.wheel]``; the rack's tip radius is in modules."""
+    """``[gears.pinion]`` drives and ``[gears.wheel]`` is driven; an external pair, both with all of these fields."""
 
-    teeth: int = whole_number(5, 1000, 16)
-    profile_shift: float = number(0.196, lowest=-5, highest=5)
-    tip_diameter: float = _diameter("82.64 mm")
-    root_diameter: float = _diameter("62.50 mm")
-    bore_diameter: float = _diameter("30 mm")
-    rack_tip_radius: float = number(0.38, lowest=0, highest=2, default=0.38)
+    teeth: int = whole_number(5, 1000, 16, meaning="number of teeth")
+    profile_shift: float = number(0.196, meaning="profile shift coefficient, in modules", lowest=-5, highest=5)
+    tip_diameter: float = _diameter("82.64 mm", "tip diameter")
+    root_diameter: float = _diameter("62.50 mm", "root diameter; it gives the rack's dedendum")
+    bore_diameter: float = _diameter("30 mm", "bore diameter; the bore is a rigid ring on the shaft")
+    rack_tip_radius: float = number(
+        0.38, meaning="tip radius of the generating rack, in modules; it shapes the fillet", lowest=0, highest=2, default=0.38
+    )
 
 
 class Gears(Section):
-    """``[gears]``."""
+    """``[gears]``: what both gears share."""
 
-    module: float = quantity("0.01 mm", "1 m", "4.5 mm")
-    pressure_angle: float = quantity("10 deg", "35 deg", "20 deg")
-    centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm")
-    face_width: float = quantity("0.01 mm", "100 m", "15 mm")
+    module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module")
+    pressure_angle: float = quantity("10 deg", "35 deg", "20 deg", meaning="pressure angle of the generating rack")
+    centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the shafts' axes")
+    face_width: float = quantity("0.01 mm", "100 m", "15 mm", meaning="width of the teeth in contact")
     pinion: Gear
     wheel: Gear
     material: Optional[MaterialText] = None
 
 
 class Load(Section):
-    """``[load]``."""
+    """``[load]``: a constant couple on the output shaft's end."""
 
-    wheel_torque: float = quantity("-1e12 N m", "1e12 N m", "437 N m")
+    wheel_torque: float = quantity(
+        "-1e12 N m",
+        "1e12 N m",
+        "437 N m",
+        meaning="couple against the wheel's rotation; a negative one drives the pair from the wheel and needs `[coast_flanks]`",
+    )
 
 
 # As many mesh cycles as pass until every tooth has met every other; the number follows from the teeth.
@@ -55,37 +62,97 @@ WHOLE_PERIOD = {HUNTING_TOOTH_PERIOD: None}
 class Motion(Section):
     """``[motion]``: exactly one of the mesh frequency and the pinion's speed."""
 
-    mesh_frequency: Optional[float] = quantity("1e-6 Hz", "1e6 Hz", "200 Hz", optional=True)
-    pinion_speed: Optional[float] = quantity("1e-6 rpm", "1e6 rpm", "750 rpm", optional=True)
-    mesh_cycles: Optional[int] = whole_number(1, 1_000_000, 30, words=WHOLE_PERIOD)
-    recorded_cycles: Optional[int] = whole_number(1, 1_000_000, 2, optional=True, words=WHOLE_PERIOD)
+    mesh_frequency: Optional[float] = quantity(
+        "1e-6 Hz", "1e6 Hz", "200 Hz", meaning="tooth pairs that enter the mesh in a second", otherwise="from `pinion_speed`"
+    )
+    pinion_speed: Optional[float] = quantity(
+        "1e-6 rpm", "1e6 rpm", "750 rpm", meaning="nominal speed of the pinion", otherwise="from `mesh_frequency`"
+    )
+    mesh_cycles: Optional[int] = whole_number(1, 1_000_000, 30, meaning="how many mesh cycles are run", words=WHOLE_PERIOD)
+    recorded_cycles: Optional[int] = whole_number(
+        1, 1_000_000, 2, meaning="how many of them, the last, are stored", otherwise="all", words=WHOLE_PERIOD
+    )
 
 
 class Accuracy(Section):
-    """``[accuracy]``: what is left out is derived from the scene."""
+    """``[accuracy]``: how a scene is computed, not what; what is left out is derived from the scene."""
 
-    element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice("P1", "P2", "Q1", "Q1 incompatible", "Q2")
-    flank_element_size: Optional[float] = quantity("1e-6 mm", "1 m", "0.08 mm", optional=True)
-    body_element_size: Optional[float] = quantity("1e-6 mm", "10 m", "1.3 mm", optional=True)
-    contact_length: Optional[float] = quantity("1e-6 mm", "10 m", "1.5 mm", optional=True)
-    contact_nodes: Optional[int] = whole_number(2, 1000, 20, optional=True)
-    interpolation: Optional[Literal["averaged", "collocated"]] = choice("averaged", "collocated")
-    elastic_teeth: Optional[int] = whole_number(1, 1000, 2, optional=True)
-    steps_per_mesh_cycle: Optional[int] = whole_number(2, 1_000_000, 100, optional=True)
-    condensation: Optional[Literal["once", "every step"]] = choice("once", "every step")
+    element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice(
+        "P1",
+        "P2",
+        "Q1",
+        "Q1 incompatible",
+        "Q2",
+        meaning="finite element: triangles or quadrilaterals of first or second order; `Q1 incompatible` is the paper's, with Wilson's modes",
+        otherwise="`P2`",
+    )
+    flank_element_size: Optional[float] = quantity(
+        "1e-6 mm",
+        "1 m",
+        "0.08 mm",
+        meaning="size of the elements on the flank",
+        otherwise="a quarter of the Hertz half-width at the whole load on one pair and the smallest relative radius; 1/200 to 1/25 of the module",
+    )
+    body_element_size: Optional[float] = quantity(
+        "1e-6 mm", "10 m", "1.3 mm", meaning="largest element in tooth and rim", otherwise="a part of the module, by the element's order"
+    )
+    contact_length: Optional[float] = quantity(
+        "1e-6 mm",
+        "10 m",
+        "1.5 mm",
+        meaning="length, across the line of action, in which the contact of a tooth pair is looked for",
+        otherwise="so long that beyond it the flanks open more than the teeth deflect",
+    )
+    contact_nodes: Optional[int] = whole_number(
+        2, 1000, 20, meaning="contact nodes of a tooth pair", otherwise="0.7 flank elements apart, 1 apart for elements of first order"
+    )
+    interpolation: Optional[Literal["averaged", "collocated"]] = choice(
+        "averaged",
+        "collocated",
+        meaning="how contact nodes see the flanks: by averages over their hat functions, or at their own points",
+        otherwise="`averaged`",
+    )
+    elastic_teeth: Optional[int] = whole_number(
+        1,
+        1000,
+        2,
+        meaning="how far the load of a tooth is felt: 1 by no other tooth, 2 by its neighbours, and so on",
+        otherwise="by all teeth that are loaded together",
+    )
+    steps_per_mesh_cycle: Optional[int] = whole_number(
+        2,
+        1_000_000,
+        100,
+        meaning="time steps of a mesh cycle",
+        otherwise="200; with `[inertia]` up to 1000, for 20 steps in the period of the drivetrain's highest frequency; 1000 where flanks are rigid too",
+    )
+    condensation: Optional[Literal["once", "every step"]] = choice(
+        "once",
+        "every step",
+        meaning="`once`: the fast route; `every step`: the paper's own, which meshes both gears anew at every position, slow, the yardstick",
+        otherwise="`once`",
+    )
     model: Optional[Literal["elastic", "rigid teeth", "stiffness table", "ISO 6336-1"]] = choice(
-        "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
+        "elastic",
+        "rigid teeth",
+        "stiffness table",
+        "ISO 6336-1",
+        meaning="what the mesh is computed as: the full contact, rigid teeth, a table of one quasi-static, frictionless mesh cycle of the full "
+        "contact over phase and load, or the standard's stiffness c' and c_gamma",
+        otherwise="`elastic`",
     )
 
 
 class Output(Section):
     """``[output]``: results that cost something of their own."""
 
-    root_stress: bool = switch()
+    root_stress: bool = switch(
+        meaning="stress along the fillets of the loaded teeth over time, and dynamic factors by force and by stress; see [stress](stress.md)"
+    )
 
 
 class _AlwaysThere(Section):
-    title: Optional[str] = text(500)
+    title: Optional[str] = text(500, meaning="what the scene is called in summaries and pictures", otherwise="the file's name")
     gears: Gears
     load: Load
     motion: Motion
