@@ -16,6 +16,8 @@ from tests.studies.test_run_study import MANY, THREE, load
 
 from fenics_gears.studies.study_file import load_study
 
+pytestmark = pytest.mark.ranks
+
 
 def in_the_way(study, index, directory="here"):
     """A directory where a case's file belongs: its rank computes the case and then cannot write it."""

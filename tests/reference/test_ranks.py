@@ -11,6 +11,8 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation import simulate
 
+pytestmark = pytest.mark.ranks
+
 
 @pytest.fixture(scope="module")
 def scene_file(tmp_path_factory):
@@ -30,10 +32,11 @@ def scene_file(tmp_path_factory):
     return path
 
 
-def test_two_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch):
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch, ranks):
     """Which process condenses a position changes nothing but, with its number of threads, round-off; and only rank 0 writes."""
     monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))
-    run = gears(tmp_path, "run", scene_file, "--output", tmp_path / "run", ranks=2)
+    run = gears(tmp_path, "run", scene_file, "--output", tmp_path / "run", ranks=ranks)
     assert run.returncode == 0, run.stderr
     assert run.stdout.count("Files") == 1
     together, alone = results.load(tmp_path / "run" / "run.nc"), simulate(load_scene(scene_file), cache=Cache(tmp_path / "other"))

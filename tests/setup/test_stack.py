@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 # DOLFINx by the program's adapter first, VTK after it: the order that aborts where nobody takes care of it.
 PICTURE = """
 from fenics_gears import environment
@@ -64,6 +66,7 @@ def test_result_file_is_written_and_read_beside_dolfinx(tmp_path):
     run(RESULT_FILE, str(tmp_path / "run.nc"))
 
 
+@pytest.mark.ranks
 def test_two_ranks_meet_with_one_thread_each():
     """mpirun works as any user, root included, and each rank finds the other."""
     from fenics_gears import environment

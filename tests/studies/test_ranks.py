@@ -11,6 +11,8 @@ from tests.studies.test_run_study import FOUR, load
 from fenics_gears.cli import main
 from fenics_gears.studies.ranks import Alone
 
+pytestmark = pytest.mark.ranks
+
 
 @pytest.mark.parametrize("ranks", [1, 2, 3])
 def test_a_study_under_mpirun_gives_what_it_gives_alone(folder, ranks):
