@@ -13,7 +13,7 @@ LEFT_OUT = ("doc", "groff", "info", "lintian", "linda", "locale", "man")
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 # Behind a proxy these tell apt and pip the way; elsewhere they are not set.
 HANDED_ON = ("http_proxy", "https_proxy", "no_proxy", "HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY")
-CERTIFICATES = "/etc/ssl/certificates-of-the-host.pem"
+CERTIFICATES = "/etc/certificates-of-the-host.pem"
 # Docker gives 64 MiB of shared memory, which browsers and MPI feel. Mounts and processes end with the call, however it ends.
 ENTER = """
 mount -t proc proc "$root/proc" && mount -t sysfs -o ro sysfs "$root/sys" && mount --bind /dev "$root/dev" &&
