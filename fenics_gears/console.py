@@ -11,7 +11,7 @@ Row = tuple[str, Any, str]
 
 def print_rows(heading: str, rows: Sequence[Row]) -> None:
     """Print rows of label, value and unit under a heading to the standard output."""
-    cells = [(label, _number(value), unit) for label, value, unit in rows]
+    cells = [(label, number_text(value), unit) for label, value, unit in rows]
     if sys.stdout.isatty():
         _print_rich(heading, cells)
     else:
@@ -76,6 +76,6 @@ def _print_plain(heading: str, cells: Sequence[tuple[str, str, str]]) -> None:
     print()
 
 
-def _number(value: Any) -> str:
+def number_text(value: Any) -> str:
     """A value for people: six significant digits are more than a picture or a drawing shows."""
     return f"{float(value):.6g}" if hasattr(value, "__float__") and not isinstance(value, (str, int)) else str(value)

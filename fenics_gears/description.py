@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fenics_gears.contact.mesh_cycle import pair_places
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
+from fenics_gears.effects import EFFECTS, Effect, result_variables
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.model import Model, model
 from fenics_gears.resolution import EVERY_STEP
@@ -29,6 +30,29 @@ class Description:
     """Headings, each with rows (label, value, unit)."""
 
     sections: tuple[tuple[str, Rows], ...]
+
+
+@dataclass(frozen=True)
+class EffectState:
+    """An effect of a scene: whether it is on, what the model is by it or without it, and what it adds."""
+
+    effect: Effect
+    on: bool
+    words: str
+    adds: str = ""
+
+
+def effect_states(scene: Scene) -> list[EffectState]:
+    """Every effect there is, as the scene has it."""
+    states, there = [], {variable.name for variable in result_variables(scene)}
+    for effect in EFFECTS:
+        if getattr(scene, effect.section) is None:
+            states.append(EffectState(effect, False, effect.absent))
+            continue
+        results = [variable.name for variable in effect.variables if variable.name in there]
+        added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": results}
+        states.append(EffectState(effect, True, effect.description, "; ".join(f"{kind}: {', '.join(names)}" for kind, names in added.items() if names)))
+    return states
 
 
 def describe(scene: Scene) -> Description:

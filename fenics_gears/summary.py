@@ -6,6 +6,7 @@ import math
 
 from fenics_gears.contact.ladder import LADDER, PUBLISHED
 from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.results.attributes import RUNG
 
 MICROMETRES = 1e3
 
@@ -19,7 +20,13 @@ STAGES = {
 
 
 def summary_rows(dataset) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: transmission error as angle and length at the wheel's base circle, times, Newton iterations."""
+    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings."""
+    warnings = [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
+    return [*result_rows(dataset), *solver_rows(dataset), *stage_rows(dataset), *warnings]
+
+
+def result_rows(dataset) -> list[tuple[str, str, str]]:
+    """What came out: transmission error as angle and length at the wheel's base circle, friction's share, root stress."""
     rows = []
     for name, label in (("mean_transmission_error", "transmission error, mean"), ("peak_to_peak_transmission_error", "transmission error, peak to peak")):
         angle = dataset.attrs.get(name, math.nan)
@@ -27,16 +34,23 @@ def summary_rows(dataset) -> list[tuple[str, str, str]]:
             rows.append((label, f"{angle:.5g} rad = {angle * dataset.attrs['base_radius_wheel'] * MICROMETRES:.4g} um", ""))
         else:
             rows.append((label, "not determined", ""))
+    if "friction_loss" in dataset.attrs:
+        rows.append(("friction takes", f"{dataset.attrs['friction_loss']:.3%} of the work of the drive", ""))
+    return rows + _root_stress(dataset)
+
+
+def solver_rows(dataset) -> list[tuple[str, str, str]]:
+    """How the steps were solved."""
+    rows = []
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
-    if "friction_loss" in dataset.attrs:
-        rows.append(("friction takes", f"{dataset.attrs['friction_loss']:.3%} of the work of the drive", ""))
-    rows += _root_stress(dataset)
-    rows += _rungs(dataset.attrs)
-    rows += [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
-    rows += [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
-    return rows
+    return rows + _rungs(dataset.attrs)
+
+
+def stage_rows(dataset) -> list[tuple[str, str, str]]:
+    """Wall time of each stage that the result carries."""
+    return [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
 
 
 def _root_stress(dataset) -> list[tuple[str, str, str]]:
@@ -56,8 +70,7 @@ def _root_stress(dataset) -> list[tuple[str, str, str]]:
 def _rungs(attributes) -> list[tuple[str, str, str]]:
     """How often a step needed a rung of the fallback ladder beyond its route's own method; nothing where none did."""
     own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else LADDER[0]
-    start = "steps_by_rung: "
-    used = {name.removeprefix(start): int(count) for name, count in attributes.items() if name.startswith(start)}
+    used = {name.removeprefix(RUNG): int(count) for name, count in attributes.items() if name.startswith(RUNG)}
     used.pop(own, None)
     if not used:
         return []

@@ -31,15 +31,10 @@ def check(options: argparse.Namespace) -> int:
 
 def effect_rows(scene) -> list[tuple[str, str, str]]:
     """Each effect: on with what it adds, off with what the model is without it."""
-    from fenics_gears.effects import EFFECTS, result_variables
+    from fenics_gears.description import effect_states
 
-    rows, there = [], {variable.name for variable in result_variables(scene)}
-    for effect in EFFECTS:
-        if getattr(scene, effect.section) is None:
-            rows.append((effect.section, f"off  {effect.absent}", ""))
-            continue
-        results = [variable.name for variable in effect.variables if variable.name in there]
-        added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": results}
-        listed = "".join(f"; {kind}: {', '.join(names)}" for kind, names in added.items() if names)
-        rows.append((effect.section, f"on   {effect.description}{listed}", ""))
+    rows = []
+    for state in effect_states(scene):
+        adds = f"; {state.adds}" if state.adds else ""
+        rows.append((state.effect.section, f"{'on ' if state.on else 'off'}  {state.words}{adds}", ""))
     return rows
