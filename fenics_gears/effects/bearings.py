@@ -49,7 +49,7 @@ def _stiffness(meaning: str, otherwise: str):
 class SupportText(Section):
     """``[bearings.pinion]`` and ``[bearings.wheel]``; what is left out is taken from ``[bearings]``."""
 
-    stiffness: Optional[float] = _stiffness("stiffness in every direction", "as of both gears, or from the two below")
+    stiffness: Optional[float] = _stiffness("stiffness in every direction", "from the two below, or as of both gears")
     stiffness_x: Optional[float] = _stiffness("stiffness along the line of action", "`stiffness`")
     stiffness_y: Optional[float] = _stiffness("stiffness off the line of action", "`stiffness`")
 

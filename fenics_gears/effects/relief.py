@@ -33,7 +33,7 @@ def start_field(word: str, word_meaning: str) -> Any:
         ("0.1 mm", "100 m", "80.1 mm"),
         words={word: None},
         meaning=f"where the relief starts: a roll angle, a diameter, or the {word_meaning}",
-        otherwise="as of both gears; one of them says",
+        otherwise="as of both gears; one of the two must have it",
     )
 
 

@@ -20,6 +20,7 @@ from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record, VaryingLoad
 from fenics_gears.effects import effects_on, result_variables
+from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_variables, pair_variables
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.scene.data import Scene
@@ -105,7 +106,7 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
         "newton_iterations_total": march.newton_iterations,
         "time_march": march.seconds,
     }
-    attributes |= {f"steps_by_rung: {rung}": count for rung, count in march.rungs.items() if count}
+    attributes |= {f"{RUNG}{rung}": count for rung, count in march.rungs.items() if count}
     if len(error):
         if "contact_pressure" in result:
             attributes["peak_contact_pressure"] = _peak_pressure(result)

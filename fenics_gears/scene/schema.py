@@ -34,7 +34,7 @@ class Gear(Section):
 class Gears(Section):
     """``[gears]``: what both gears share."""
 
-    module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module")
+    module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module, in the plane of rotation")
     pressure_angle: float = quantity("10 deg", "35 deg", "20 deg", meaning="pressure angle of the generating rack")
     centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the shafts' axes")
     face_width: float = quantity("0.01 mm", "100 m", "15 mm", meaning="width of the teeth in contact")

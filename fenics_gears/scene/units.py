@@ -102,6 +102,15 @@ def quantity(text: str) -> tuple[float, str]:
     """The number in N, mm, s, rad that ``text`` stands for, and what kind of quantity it is ("a length").
 
     The number may be infinite or NaN; raises QuantityError where there is no number or the unit is unknown.
+
+    >>> quantity("4.9 kg")
+    (0.0049, 'a mass')
+    >>> quantity("750 rpm")[1]
+    'an angular speed'
+    >>> quantity("4.5 Mm")
+    Traceback (most recent call last):
+        ...
+    fenics_gears.scene.units.QuantityError: has the unknown unit "Mm". Did you mean "mm"?
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:
@@ -111,9 +120,25 @@ def quantity(text: str) -> tuple[float, str]:
 
 
 def unit_of(text: str) -> str:
-    """The unit as written in ``text``: "mm" for "4.5 mm"."""
+    """The unit as written in ``text``.
+
+    >>> unit_of("0.203e9 N mm/rad")
+    'N mm/rad'
+    """
     match = _QUANTITY.fullmatch(text)
     return match[2] if match else ""
+
+
+def names_by_kind() -> dict[str, list[str]]:
+    """The names of units that have one word, by the kind of quantity that they stand for.
+
+    >>> names_by_kind()["a length"]
+    ['mm', 'um', 'cm', 'm', 'in']
+    """
+    found = {}
+    for name in _UNITS:
+        found.setdefault(_unit(name)[1], []).append(name)
+    return found
 
 
 @functools.lru_cache(maxsize=None)

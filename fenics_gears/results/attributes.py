@@ -1,0 +1,74 @@
+"""The attributes of a result: what each is, and when it is there. A test holds the results of runs to this list.
+
+What may be in a result beside them: one attribute for each rung of the solver's ladder, by the prefix ``RUNG``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+RUNG = "steps_by_rung: "
+
+
+@dataclass(frozen=True)
+class ResultAttribute:
+    """One attribute: its name, its units ("" for a text or a switch), what it is, and ``when`` it is there ("" for always)."""
+
+    name: str
+    units: str
+    meaning: str
+    when: str = ""
+
+
+WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
+WITH_FRICTION = "`[friction]`, and teeth that move and press"
+AFTER_LOSS = "contact was lost"
+WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
+IN_STUDIES = "the run is a study's case"
+
+RESULT_ATTRIBUTES = (
+    ResultAttribute("title", "", "the scene's title"),
+    ResultAttribute("scene", "", "the scene's whole text; saved as a file it runs again"),
+    ResultAttribute("scene_name", "", "the name of the scene's file"),
+    ResultAttribute("fenics_gears_version", "", "version of this program"),
+    ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
+    ResultAttribute("warnings", "", "what to be wary of, a line each"),
+    ResultAttribute("mean_transmission_error", "rad", "mean over the stored steps, the last left out, which begins the next cycle"),
+    ResultAttribute("peak_to_peak_transmission_error", "rad", "largest less smallest over the stored steps"),
+    ResultAttribute("base_radius_wheel", "mm", "takes the transmission error to a length along the line of action"),
+    ResultAttribute("peak_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes", WITH_CONTACT),
+    ResultAttribute("friction_loss", "1", "share of the drive's work that friction takes", WITH_FRICTION),
+    ResultAttribute("contact_loss_count", "1", "how often the drive flanks lost contact, over the whole run"),
+    ResultAttribute("contact_loss_first", "s", "time of the first loss", AFTER_LOSS),
+    ResultAttribute("contact_loss_longest", "s", "how long the longest lasted", AFTER_LOSS),
+    ResultAttribute("contact_loss_share", "1", "share of the run's time without contact", AFTER_LOSS),
+    ResultAttribute("contact_loss_opening", "mm", "widest opening between the drive flanks", AFTER_LOSS),
+    ResultAttribute("dynamic_factor_by_force", "1", "largest force of a tooth pair over that of the quasi-static run", WITH_ROOT_STRESS),
+    ResultAttribute("dynamic_factor_by_stress", "1", "largest root stress over that of the quasi-static run", WITH_ROOT_STRESS),
+    ResultAttribute("quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_ROOT_STRESS),
+    ResultAttribute("quasi_static_root_stress", "MPa", "largest root stress in the quasi-static run", WITH_ROOT_STRESS),
+    ResultAttribute("dynamic_factor_unknown", "", "why there are none of these four, in their place", WITH_ROOT_STRESS),
+    ResultAttribute("element", "", "finite element that was used"),
+    ResultAttribute("flank_element_size", "mm", "size of the flank's elements that was used"),
+    ResultAttribute("contact_length", "mm", "contact length of a tooth pair that was used"),
+    ResultAttribute("contact_nodes", "1", "contact nodes of a tooth pair that were used"),
+    ResultAttribute("steps_per_mesh_cycle", "1", "time steps of a mesh cycle that were used"),
+    ResultAttribute("condensation", "", "how often the gears were condensed"),
+    ResultAttribute("model", "", "what the mesh was computed as"),
+    ResultAttribute("steps", "1", "time steps of the whole run"),
+    ResultAttribute("newton_iterations_total", "1", "Newton iterations of the whole run"),
+    ResultAttribute("time_mesh", "s", "wall time of meshing; 0 for gears from the cache"),
+    ResultAttribute("time_condense", "s", "wall time of assembling and condensing"),
+    ResultAttribute("time_compile", "s", "wall time of compiling"),
+    ResultAttribute("time_march", "s", "wall time of the march through time"),
+    ResultAttribute("wall_time", "s", "wall time of the case", IN_STUDIES),
+    ResultAttribute("case_key", "", "hash of all that the case's result depends on", IN_STUDIES),
+    ResultAttribute("case_values", "", "the swept values, as JSON", IN_STUDIES),
+    ResultAttribute("record_digest", "", "digest of what `study.nc` took from the case", IN_STUDIES),
+)
+
+
+def undeclared(attributes) -> set[str]:
+    """Names among a result's attributes that are not in the list."""
+    declared = {each.name for each in RESULT_ATTRIBUTES}
+    return {name for name in attributes if name not in declared and not name.startswith(RUNG)}

@@ -1,0 +1,87 @@
+"""docs/commands.md, made from the program's own argument parser."""
+
+from __future__ import annotations
+
+import argparse
+import inspect
+import re
+
+from tests.docs.markdown import capital, table
+
+from fenics_gears import cli
+
+HEADING = """# Commands
+
+`./gears` in a checkout sets up what is missing and is then the program itself; where it is installed (`pip install .`) the command is `gears`. What each command
+writes is said in [the README](../README.md#commands).
+
+This page is written by `python -m tests.docs.write` from the program's argument parser; a test says when it is out of date.
+"""
+
+
+def parser() -> argparse.ArgumentParser:
+    """The program's argument parser."""
+    return cli._parser()
+
+
+def commands() -> dict[str, tuple[str, argparse.ArgumentParser]]:
+    """Each command's help and parser, by its name."""
+    choices = next(action for action in parser()._actions if isinstance(action, argparse._SubParsersAction))
+    helps = {action.dest: action.help for action in choices._choices_actions}
+    return {name: (helps[name], command) for name, command in choices.choices.items()}
+
+
+def page() -> str:
+    """The whole page."""
+    whole = parser()
+    lines = [HEADING, "## `gears`", "", f"    gears{_usage(whole)} COMMAND ...", "", *_options(whole), ""]
+    lines += ["`-h`, `-v` and `-q` may stand after any command, too.", ""]
+    for name, (words, command) in commands().items():
+        rest = " [PYTEST'S OPTIONS]" if name == "test" else _usage(command)
+        lines += [f"## `gears {name}`", "", capital(words), "", f"    gears {name}{rest}", ""]
+        lines += [*_options(command), ""] if _shown(command) else []
+    return "\n".join([*lines, *_exit_codes(), *_environment()]) + "\n"
+
+
+def _shown(command: argparse.ArgumentParser) -> list[argparse.Action]:
+    """The arguments of a command that are its own."""
+    common = () if command.prog == "gears" else ("help", "verbose", "quiet")
+    return [action for action in command._actions if not isinstance(action, argparse._SubParsersAction) and action.dest not in common]
+
+
+def _usage(command: argparse.ArgumentParser) -> str:
+    """What may stand after the command, without -h; the places last."""
+    given = [action for action in _shown(command) if action.dest != "help"]
+    options = "".join(f" [{_spelling(action, action.option_strings[0])}]" for action in given if action.option_strings)
+    return options + "".join(f" {action.metavar}" for action in given if not action.option_strings)
+
+
+def _spelling(action: argparse.Action, name: str) -> str:
+    return name if action.nargs == 0 else f"{name} {action.metavar}"
+
+
+def _options(command: argparse.ArgumentParser) -> list[str]:
+    rows = []
+    for action in _shown(command):
+        names = action.option_strings or [action.metavar]
+        written = ", ".join(f"`{_spelling(action, name) if action.option_strings else name}`" for name in names)
+        # A name in angle brackets would be taken for a tag.
+        rows.append((written, action.help.replace("<", "\\<")))
+    return table(("argument", "is"), rows)
+
+
+def _exit_codes() -> list[str]:
+    """The table of exit codes, in the words of the command line's own docstring."""
+    words = " ".join(inspect.getdoc(cli).split("Exit codes: ")[1].split())
+    codes = re.findall(r"(\d+) (.*?)(?:, (?=\d+ )|\.$)", words)
+    return ["## Exit codes", "", *table(("code", "means"), codes), "", "What to do: [troubleshooting](troubleshooting.md).", ""]
+
+
+def _environment() -> list[str]:
+    """Variables of the environment that the program reads."""
+    rows = [
+        ("`FENICS_GEARS_PYTHON`", "the Python that `./gears` uses; without it one is found or made"),
+        ("`FENICS_GEARS_CACHE`", "folder of the condensed gears; without it the user's cache folder"),
+        ("`OMP_NUM_THREADS`", "threads of the factorisation; 1 under mpirun"),
+    ]
+    return ["## Environment", "", *table(("variable", "is"), rows)]

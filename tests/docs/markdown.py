@@ -1,0 +1,24 @@
+"""Pieces of Markdown that the generated pages share."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+
+def table(heading: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """Lines of a table; a bar in a cell would end it and is escaped."""
+    lines = [heading, ["---"] * len(heading), *rows]
+    return ["| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines]
+
+
+def from_docstring(text: str) -> str:
+    """The first paragraph of a docstring in Markdown, on one line."""
+    paragraph = " ".join(text.strip().split("\n\n")[0].split())
+    return re.sub(r"``(.+?)``", r"`\1`", paragraph)
+
+
+def capital(words: str) -> str:
+    """The words as a sentence, with a full stop."""
+    words = words[:1].upper() + words[1:]
+    return words if words.endswith(".") else words + "."

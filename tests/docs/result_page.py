@@ -1,0 +1,103 @@
+"""docs/result.md, made from the effects' list of variables, from the list of attributes, and from a run that has them all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import xarray as xr
+from tests.docs.markdown import table
+from tests.effects.examples import EXAMPLES, text_of
+
+from fenics_gears.contact.ladder import RUNGS
+from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, conflicts, effect
+from fenics_gears.effects.effect import ResultVariable
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES, RUNG
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+
+HEADING = """# The result
+
+A run's result is one `xarray.Dataset`, the same in memory (`simulate`) and in `run.nc`, which is NetCDF-4: xarray, ParaView, MATLAB, Panoply and `ncdump` open it
+([in Python](python.md)). Every variable has `units` and `long_name`. A variable that belongs to an effect is there when the scene names the effect. Values that do not
+exist are not a number: places of contact nodes that a pair does not have, shares of rigid pairs that touch together.
+
+Signs: x is along the line of action, from the pinion's tangent point to the wheel's, y off it, towards the pinion's centre. Displacements and rotations are those from the nominal
+motion; rotations are positive in the pinion's sense of rotation, so that a wheel that lags has a positive one. At whole numbers of `mesh_phase` a new pair reaches the theoretical
+start of contact; with bearings and teeth that give way it touches before. Pressures and contact forces are positive in compression; friction on the pinion acts along -y where it is positive.
+
+This page is written by `python -m tests.docs.write`, from `fenics_gears/effects`, `fenics_gears/results/attributes.py` and a run with every effect; a test says when it is out of date.
+"""
+DIMENSIONS = {
+    "time": "the stored steps",
+    "gear": '"pinion", "wheel"',
+    "pair": "tooth pairs, counted through the run: pair n reaches the theoretical start of contact at mesh phase n",
+    "contact_node": "contact nodes of a pair, in the order of their offset",
+    "pinion_tooth": "teeth of the pinion, in the order in which they mesh",
+    "wheel_tooth": "teeth of the wheel, likewise",
+    "fillet_point": "points along both fillets of a tooth, from the root circle to the form circle, the drive side's first",
+    "fillet": '"drive", "coast": the two sides of a tooth',
+}
+ROOT_STRESS = "`[output] root_stress`"
+# Bodies read from meshes exclude other effects and have no variables of their own.
+NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes}
+
+
+def run_with_everything() -> xr.Dataset:
+    """The result of a short, coarse run with every effect that may stand beside the others, and root stress."""
+    sections = [section for section in EXAMPLES if section not in NOT_IN_THE_RUN]
+    assert not conflicts(sections)
+    return simulate(scene_from_text(text_of(*sections) + "\n[output]\nroot_stress = true\n", "everything"))
+
+
+def page(result: xr.Dataset | None = None) -> str:
+    """The whole page; `result`: that of `run_with_everything` where it is at hand."""
+    result = run_with_everything() if result is None else result
+    lines = [HEADING, "## Dimensions and coordinates", "", *_dimensions(result), "", *_coordinates(result), ""]
+    lines += ["## Variables of every run", "", *_variables(result, COMMON_VARIABLES), ""]
+    lines += ["## Variables of effects", ""]
+    for each in EFFECTS:
+        if each.variables:
+            lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
+    lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
+    lines += ["## Attributes", "", *_attributes(), ""]
+    lines += [f"One attribute more for each rung of the solver's [ladder](model.md#the-ladder) that was used, the number of steps that it solved: `{RUNG}newton` and so on"]
+    lines += [f"({', '.join(RUNGS)})."]
+    return "\n".join(lines) + "\n"
+
+
+def _dimensions(result: xr.Dataset) -> list[str]:
+    return table(("dimension", "is"), [(f"`{name}`", DIMENSIONS[name]) for name in sorted(result.sizes, key=list(DIMENSIONS).index)])
+
+
+def _coordinates(result: xr.Dataset) -> list[str]:
+    return table(("coordinate", "dimensions", "units", "is"), [_row(result, name) for name in result.coords])
+
+
+def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[str]:
+    """A table; dimensions are those that the run's variable has, units and words must be the declared ones."""
+    rows = []
+    for each in variables:
+        name, dimensions, units, words = _row(result, each.name)
+        assert (units, words) == (each.units, each.long_name), f"{each.name} is not as declared"
+        beside = f" (beside `[{effect(each.needs).written}]`)" if each.needs else ""
+        rows.append((name, dimensions, units, words + beside))
+    return table(("variable", "dimensions", "units", "is"), rows)
+
+
+def _root_stress(result: xr.Dataset) -> list[str]:
+    return table(("variable", "dimensions", "units", "is"), [_row(result, name) for name in undeclared_variables(result)])
+
+
+def undeclared_variables(result: xr.Dataset) -> list[str]:
+    """Variables that neither every run nor an effect has: those of the output that was asked for."""
+    declared = {each.name for each in COMMON_VARIABLES} | {each.name for found in EFFECTS for each in found.variables}
+    return [name for name in result.data_vars if name not in declared]
+
+
+def _row(result: xr.Dataset, name: str) -> tuple[str, str, str, str]:
+    found = result[name]
+    return f"`{name}`", ", ".join(found.dims), found.attrs.get("units", ""), found.attrs["long_name"]
+
+
+def _attributes() -> list[str]:
+    return table(("attribute", "units", "is", "there when"), [(f"`{each.name}`", each.units, each.meaning, each.when) for each in RESULT_ATTRIBUTES])

@@ -1,0 +1,136 @@
+"""docs/scene.md, made from the schema: every section and field that a scene may have."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import get_args
+
+from pydantic import BaseModel
+from pydantic_core import PydanticUndefined
+from tests.docs.markdown import capital, from_docstring, table
+
+from fenics_gears.effects import EFFECTS, effect
+from fenics_gears.scene import units
+from fenics_gears.scene.fields import Allowed, allowed_in
+from fenics_gears.scene.schema import SceneText
+
+HEADING = """# The scene
+
+A scene is a TOML file. `[gears]`, `[load]` and `[motion]` are always there; `[accuracy]` says how, not what; any other section is an
+[effect](effects.md), simulated where the section is named and not constructed where it is absent. [The demo](../demos/lundvall2004.toml) is a whole scene.
+
+Quantities are texts with a number and a unit, `"4.5 mm"`, `"0.203e9 N mm/rad"`; a bare number stands only where there is no unit. Any unit of the right kind will do; inside, all is N, mm, s
+and rad. Wrong scenes are refused before anything is computed, all mistakes at once, each with its line, its value, what is allowed and the nearest known name;
+`gears check SCENE` does only that.
+
+This page is written by `python -m tests.docs.write` from the scene's schema; a test says when it is out of date.
+"""
+ALWAYS = ("gears", "load", "motion")
+# The names that a section's docstring begins with; the page has them in the heading.
+NAMES = re.compile(r"^`\[[^]]+\]`(?: and (?:`\[[^]]+\]`|the wheel's))?[.:;]\s*")
+
+
+class NoMeaning(ValueError):
+    """A field of the schema that does not say what it is, or may be left out without saying what is taken then."""
+
+
+@dataclass(frozen=True)
+class SectionOfScene:
+    """A section: the names under which a scene has it, what it is, and its fields with their own defaults."""
+
+    names: tuple[str, ...]
+    kind: type[BaseModel]
+
+
+def page() -> str:
+    """The whole page."""
+    lines = [HEADING, *_units(), "## The whole file", "", *fields(SceneText, "the top")]
+    lines += ["## What is always there", ""]
+    for name in ALWAYS:
+        lines += _with_parts(name)
+    lines += ["## How it is computed, and what is put out", ""]
+    for name in ("accuracy", "output"):
+        lines += _with_parts(name)
+    lines += ["## Effects", ""]
+    for each in EFFECTS:
+        if not each.within:
+            lines += _effect(each.section)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _units() -> list[str]:
+    rows = [(kind, ", ".join(f"`{name}`" for name in names)) for kind, names in units.names_by_kind().items()]
+    words = "Names of units, which may be combined by blanks, `*`, `/`, `^` and brackets (`kg m^2`, `N/mm`); no prefix is guessed:"
+    return ["## Units", "", words, "", *table(("for", "units"), rows), ""]
+
+
+def _effect(name: str) -> list[str]:
+    found = effect(name)
+    lines = [f"### `[{found.written}]`", "", capital(f"{found.description}; without it: {found.absent}")]
+    for words, names in (("Needs", found.needs), ("Excludes", found.excludes)):
+        if names:
+            lines.append(f"{words} {', '.join(f'`[{effect(name).written}]`' for name in names)}.")
+    section = SectionOfScene((name,), found.text)
+    return [*lines, "", *_body(section), *_parts(section)]
+
+
+def _with_parts(name: str) -> list[str]:
+    section = SectionOfScene((name,), _section(SceneText, name))
+    return [f"### `[{name}]`", "", *_body(section), *_parts(section)]
+
+
+def _body(section: SectionOfScene) -> list[str]:
+    """What a section says of itself beyond its name, and its own fields."""
+    words = NAMES.sub("", from_docstring(section.kind.__doc__))
+    return [*([capital(words), ""] if words else []), *fields(section.kind, section.names[0])]
+
+
+def _parts(section: SectionOfScene) -> Iterator[str]:
+    """The sections within a section; those of both gears, which are alike, together."""
+    alike: dict[type, list[str]] = {}
+    for name, field in section.kind.model_fields.items():
+        if allowed_in(section.kind, name) is None:
+            alike.setdefault(_section(section.kind, name), []).extend(f"{outer}.{name}" for outer in section.names)
+    for kind, names in alike.items():
+        part = SectionOfScene(tuple(names), kind)
+        yield from [f"#### {', '.join(f'`[{name}]`' for name in names)}", "", *_body(part), *_parts(part)]
+
+
+def _section(kind: type[BaseModel], name: str) -> type[BaseModel]:
+    """The class of a section within a section, which may be optional."""
+    annotation = kind.model_fields[name].annotation
+    return next(each for each in (annotation, *get_args(annotation)) if isinstance(each, type) and issubclass(each, BaseModel))
+
+
+def fields(kind: type[BaseModel], place: str) -> list[str]:
+    """The table of a section's own fields; raises NoMeaning for one that does not say what it is."""
+    rows = []
+    for name, field in kind.model_fields.items():
+        allowed = allowed_in(kind, name)
+        if allowed is not None:
+            rows.append((f"`{name}`", _meaning(allowed, f"{place}.{name}"), _allowed(allowed), _left_out(allowed, field, f"{place}.{name}")))
+    return [*table(("field", "is", "allowed", "left out"), rows), ""] if rows else []
+
+
+def _meaning(allowed: Allowed, path: str) -> str:
+    if not allowed.meaning:
+        raise NoMeaning(f"{path}: the field has no meaning; say what it is, by meaning=, where it is declared")
+    return allowed.meaning
+
+
+def _allowed(allowed: Allowed) -> str:
+    """What is allowed, in the words of the messages, with what is to be typed as code."""
+    words = allowed.description.replace(", with its unit", "").replace(", without unit", "")
+    return re.sub(r'(\[\{.*\}\]|\["[^]]*\]|"[^"]*"|(?<=such as )[^"\[,\s]+)', r"`\1`", words)
+
+
+def _left_out(allowed: Allowed, field, path: str) -> str:
+    if field.default is PydanticUndefined:
+        return "must be there"
+    if allowed.otherwise:
+        return allowed.otherwise
+    if field.default is None:
+        raise NoMeaning(f"{path}: the field may be left out but does not say what is taken then; say it by otherwise=")
+    return f"{field.default:g}"

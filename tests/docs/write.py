@@ -1,0 +1,15 @@
+"""Write the documentation's generated pages anew: `python -m tests.docs.write`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tests.docs import commands_page, result_page, scene_page
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGES = {"scene.md": scene_page.page, "result.md": result_page.page, "commands.md": commands_page.page}
+
+if __name__ == "__main__":
+    for name, page in PAGES.items():
+        (DOCS / name).write_text(page(), encoding="utf-8")
+        print(DOCS / name)
