@@ -1,0 +1,60 @@
+"""How Sphinx makes a site of the repository's Markdown pages; `docs/build` calls it. Works with Sphinx 5.3 to 9 and MyST 0.18 to 5.
+
+The source is the whole checkout, so that links between pages, to pictures and to files are the same here and on a forge.
+"""
+
+from pathlib import Path
+
+project = "fenics_gears"
+project_copyright = "the fenics_gears authors"
+root_doc = "docs/index"
+extensions = ["myst_parser", "sphinx.ext.mathjax"]
+
+include_patterns = ["README.md", "docs/*.md", "demos/*/README.md"]
+# Folders that need not be searched for pages.
+exclude_patterns = [".git", ".venv", ".setup", "results", "docs/_build", "**/__pycache__", "fenics_gears", "tests", "meshes"]
+
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 4
+# A link or an anchor that leads nowhere is a warning, and a warning ends the build (docs/build).
+nitpicky = True
+
+html_theme = "furo"
+html_title = "fenics_gears"
+html_static_path = ["site/style.css"]
+html_css_files = ["style.css"]
+html_extra_path = ["site/index.html"]
+html_copy_source = False
+html_show_sphinx = False
+pygments_style = "tango"
+
+# Equations need no network where Debian's MathJax (libjs-mathjax) is: the parts that it takes to draw them come along with the site.
+MATHJAX = Path("/usr/share/javascript/mathjax")
+PARTS = (
+    "MathJax.js", "config/TeX-AMS_SVG.js", "extensions/MathEvents.js", "extensions/MathMenu.js", "extensions/MathZoom.js", "extensions/TeX",
+    "extensions/a11y", "jax/element/mml", "jax/input/TeX", "jax/output/SVG/autoload", "jax/output/SVG/fonts/TeX", "jax/output/SVG/config.js",
+    "jax/output/SVG/jax.js",
+)  # fmt: skip
+if MATHJAX.is_dir():
+    mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
+
+
+def copy_mathjax(app, failure):
+    """Put MathJax beside the pages."""
+    import shutil
+
+    if failure is not None or app.builder.format != "html" or not MATHJAX.is_dir():
+        return
+    target = Path(app.outdir) / "_static" / "mathjax"
+    for part in PARTS:
+        source = MATHJAX / part
+        if source.is_dir():
+            shutil.copytree(source, target / part, dirs_exist_ok=True)
+        elif source.exists():
+            (target / part).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, target / part)
+
+
+def setup(app):
+    """Called by Sphinx."""
+    app.connect("build-finished", copy_mathjax)
