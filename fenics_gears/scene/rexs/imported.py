@@ -1,0 +1,138 @@
+"""A pair of a REXS file as a scene: what is looked up, and what the call says in the file's place."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+from fenics_gears.errors import SceneError
+from fenics_gears.scene import units
+from fenics_gears.scene.rexs.flanks import ROOT, TIP, ReliefValues, note_what_is_left_out, reliefs, tolerance_class
+from fenics_gears.scene.rexs.gears import GearValues, PairValues, pair_values
+from fenics_gears.scene.rexs.loads import loaded_model, pinion_speed, wheel_torque
+from fenics_gears.scene.rexs.masses import density_of, mass_in_words
+from fenics_gears.scene.rexs.model import Model
+from fenics_gears.scene.rexs.read import read_model
+from fenics_gears.scene.rexs.reading import Reading
+from fenics_gears.scene.rexs.scene_text import Sections, scene_text
+from fenics_gears.scene.rexs.stage import Stage, chosen_stage
+from fenics_gears.scene.rexs.values import Value, ValueProblem, unquoted
+from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD
+
+# Options that stand in for what the file says, with an example each.
+TORQUE, SPEED = ("--wheel-torque", "437 N m"), ("--pinion-speed", "750 rpm")
+
+
+@dataclass(frozen=True)
+class ImportedScene:
+    """The text of a scene; of which stage it is; what had to be assumed, as ``field = value: why``; what of the file it leaves out."""
+
+    text: str
+    stage: Stage
+    assumed: tuple[str, ...]
+    left_out: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Which stage and load case of a file are meant, None for the only one; torque of the driven and speed of the driving gear, as
+    quantities of a scene, that stand before those of the file."""
+
+    stage: int | None = None
+    load_case: str | None = None
+    wheel_torque: str | None = None
+    pinion_speed: str | None = None
+
+
+def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
+    """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong."""
+    told = _told(TORQUE, choice.wheel_torque), _told(SPEED, choice.pinion_speed)
+    model, reading = read_model(path), Reading()
+    try:
+        stage = chosen_stage(model, choice.stage)
+    except ValueProblem as problem:
+        raise SceneError(f"{path}: {problem}\nNothing was written.") from None
+    sections = _pair_sections(reading, stage, pair := pair_values(reading, stage))
+    sections |= _load_sections(reading, model, choice, pair, told)
+    sections |= _error_sections(reading, stage, sections)
+    densities = [reading.attempt(density_of, part) for part in stage.gears]
+    _check_all_found(reading, path)
+    note_what_is_left_out(reading, stage)
+    assumed = [f"{section}.{name} = {unquoted(value)}: {value.origin}" for section, lines in sections.items() for name, value in lines if value.assumed]
+    gears = zip(("pinion", "wheel"), densities, (pair.pinion, pair.wheel))
+    masses = [f"{name}: {mass_in_words(density, gear, pair)}" for name, density, gear in gears if density]
+    notes = {
+        "Assumed, since the file does not say it:": assumed,
+        "Left out, since a scene has no place for it:": reading.left_out,
+        "For [inertia], which has one mass and one moment of inertia for both gears:": masses,
+    }
+    text = scene_text(path.name, model, stage, sections, notes)
+    return ImportedScene(text, stage, tuple(assumed), tuple(reading.left_out))
+
+
+def _check_all_found(reading: Reading, path: Path) -> None:
+    if reading.problems:
+        count = "1 mistake" if len(reading.problems) == 1 else f"{len(reading.problems)} mistakes"
+        raise SceneError("\n".join([*(f"{path}: {each}" for each in reading.problems), f"{count} in {path}. Nothing was written."]))
+
+
+def _pair_sections(reading: Reading, stage: Stage, pair: PairValues) -> Sections:
+    """The gears' sections; values that were not found are None, and the reading's problems tell of them."""
+    sections = {
+        "gears": _lines(pair, "module", "pressure_angle", "centre_distance", "face_width"),
+        "gears.pinion": _lines(pair.pinion),
+        "gears.wheel": _lines(pair.wheel),
+        "gears.material": _lines(pair, "youngs_modulus", "poissons_ratio"),
+    }
+    for kind in (TIP, ROOT):
+        for name, relief in zip(("pinion", "wheel"), reliefs(reading, stage, pair, kind)):
+            if relief is not None:
+                sections[f"{kind}.{name}"] = _relief_lines(relief)
+    return sections
+
+
+def _lines(values: PairValues | GearValues, *names: str) -> list[tuple[str, Value]]:
+    return [(name, getattr(values, name)) for name in names or [field.name for field in fields(values)]]
+
+
+def _relief_lines(relief: ReliefValues) -> list[tuple[str, Value]]:
+    return [("depth", relief.depth), ("start", relief.start), ("shape", relief.shape)]
+
+
+def _load_sections(reading: Reading, model: Model, choice: Choice, pair: PairValues, told: tuple[Value | None, Value | None]) -> Sections:
+    torque, speed = told
+    if torque is None or speed is None or choice.load_case is not None:
+        model = reading.attempt(lambda: loaded_model(model, choice.load_case))
+    teeth = pair.pinion.teeth, pair.wheel.teeth
+    if model is not None and None not in teeth:
+        ratio = teeth[1].number / teeth[0].number
+        stage = chosen_stage(model, choice.stage)
+        torque = torque or reading.attempt(wheel_torque, model, stage, ratio)
+        speed = speed or reading.attempt(pinion_speed, stage, ratio)
+    return {"load": [("wheel_torque", torque)], "motion": [("pinion_speed", speed)]}
+
+
+def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Sections:
+    """The tolerance class, and with it or without it how long the run takes."""
+    tolerance = reading.attempt(tolerance_class, reading, stage)
+    if tolerance is None:
+        cycles = Value(1, "1", "quasi-static, so that all mesh cycles are alike", assumed=True)
+        return {"motion": [*sections["motion"], ("mesh_cycles", cycles)]}
+    cycles = Value(0, f'"{HUNTING_TOOTH_PERIOD}"', "errors differ from tooth to tooth; so long until all have met", assumed=True)
+    return {"motion": [*sections["motion"], ("mesh_cycles", cycles)], "flank_errors": [("tolerance_class", tolerance)]}
+
+
+def _told(option: tuple[str, str], text: str | None) -> Value | None:
+    """What the call says in the place of the file. Raises SceneError where it is no such quantity."""
+    if text is None:
+        return None
+    name, example = option
+    try:
+        number, kind = units.quantity(text)
+    except units.QuantityError as error:
+        raise SceneError(f'{name} "{text}" {error} Allowed: such as "{example}".') from None
+    wanted = units.quantity(example)[1]
+    if kind != wanted:
+        raise SceneError(f'{name} "{text}" is {kind}, not {wanted}. Allowed: such as "{example}".')
+    return Value(number, json.dumps(text, ensure_ascii=False), name)

@@ -1,0 +1,55 @@
+"""A scene's values as TOML, with a comment behind each that says where it is from."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+
+from fenics_gears.scene.rexs.model import Model
+from fenics_gears.scene.rexs.stage import Stage
+from fenics_gears.scene.rexs.values import Value
+
+# The fields of each section, by its name ("gears.pinion").
+Sections = dict[str, list[tuple[str, Value]]]
+# Where the comments begin.
+COLUMN = 44
+
+
+def scene_text(file: str, model: Model, stage: Stage, sections: Mapping[str, list[tuple[str, Value]]], notes: Mapping[str, Iterable[str]]) -> str:
+    """The TOML text of a scene; ``file`` is the name of the REXS file it is made from, ``notes`` are lists under a heading each."""
+    named = stage.stage.name or f"stage {stage.stage.identifier}"
+    text = _head(file, model, stage, notes) + f"\ntitle = {_toml_text(f'{named} of {file}')}\n"
+    for section, lines in sections.items():
+        text += f"\n[{section}]\n" + "".join(_line(name, value) for name, value in lines)
+    return text
+
+
+def _head(file: str, model: Model, stage: Stage, notes: Mapping[str, Iterable[str]]) -> str:
+    lines = [
+        f"Made by gears import from {file} (REXS {model.version}, {model.application or 'by a program not named'}, {model.date or 'without a date'}).",
+        f"The pair is {stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}.",
+        "Behind every value stands where it is from. This is a scene like any other: change what you know better.",
+        *(line for heading, items in notes.items() for line in _listed(heading, items)),
+        "",
+        "Sections that may be added (docs/effects.md): [friction], [shafts], [bearings], [inertia], [damping], [coast_flanks] and more.",
+    ]
+    return "".join(f"# {_one_line(line)}".rstrip() + "\n" for line in lines)
+
+
+def _listed(heading: str, items: Iterable[str]) -> list[str]:
+    items = list(items)
+    return ["", heading, *(f"  {item}" for item in items)] if items else []
+
+
+def _line(name: str, value: Value) -> str:
+    assumed = "assumed: " if value.assumed else ""
+    return f"{f'{name} = {value.written}':<{COLUMN}}# {assumed}{_one_line(value.origin)}\n"
+
+
+def _one_line(text: str) -> str:
+    """A comment may have no control characters, which a file's name might have."""
+    return "".join(each if each.isprintable() else "?" for each in text)
+
+
+def _toml_text(text: str) -> str:
+    return json.dumps(_one_line(text)[:500], ensure_ascii=False)

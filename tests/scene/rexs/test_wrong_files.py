@@ -1,0 +1,194 @@
+"""Files that make no scene: each is refused with the component, the attribute, the value and what is allowed.
+
+Authority: the specification's rules (units, single values, relations), and the limits of the README.
+"""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.scene.rexs import paper_model as rexs
+from tests.scene.rexs.test_lookups import changed, refused, scene_of, with_relief
+from tests.scene.rexs.test_paper_pair import imported
+
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.rexs import read
+from fenics_gears.scene.rexs.imported import Choice
+
+P, W, FLANK, MATERIAL, SHAFT = rexs.PINION, rexs.WHEEL, rexs.PINION_FLANKS[0], rexs.MATERIAL, rexs.SHAFT
+
+WRONG_VALUES = [
+    ((P, "normal_module", None), "component 5 (cylindrical_gear 'pinion'): normal_module is missing"),
+    ((P, "normal_module", "abc", "mm"), "component 5 (cylindrical_gear 'pinion'): normal_module = abc mm does not begin with a number"),
+    ((P, "normal_module", "4,5", "mm"), "the decimal sign is a point"),
+    ((P, "normal_module", 4.5, "furlong"), 'normal_module = 4.5 furlong has the unknown unit "furlong"'),
+    ((P, "normal_module", 4.5, "none"), "normal_module = 4.5 none has no unit. Allowed: a unit of the kind of mm"),
+    ((P, "normal_module", 4.5, "deg"), "normal_module = 4.5 deg is an angle, not a length"),
+    ((P, "normal_module", -4.5, "mm"), "normal_module = -4.5 mm is not positive"),
+    ((P, "normal_module", [4.5, 4.5], "mm"), "normal_module is an array. Allowed: one value"),
+    ((P, "normal_module", float("inf"), "mm"), "normal_module = inf mm is not a finite number"),
+    ((W, "normal_module", 5.0, "mm"), "normal_module of component 5 is 4.5 mm, but normal_module of component 6 is 5.0 mm"),
+    ((P, "number_of_teeth", None), "number_of_teeth is missing"),
+    ((P, "number_of_teeth", 16.5), "number_of_teeth = 16.5 none is not a whole number"),
+    ((P, "number_of_teeth", 0), "number_of_teeth = 0 is not positive"),
+    ((P, "number_of_teeth", -48), "component 5 (cylindrical_gear 'pinion') is an internal gear"),
+    ((P, "helix_angle_reference_diameter", 10.0, "deg"), "helix_angle_reference_diameter = 10.0 deg: a helical gear. Spur gears are computed only"),
+    ((P, "reference_circle_diameter", 73.0, "mm"), "reference_circle_diameter = 73.0 mm contradicts its module and its 16 teeth, which give 72 mm"),
+    ((P, "face_width", None), "face_width is missing"),
+    ((P, "tip_diameter", 0.0, "mm"), "tip_diameter = 0.0 mm is not positive"),
+    ((P, "inner_diameter", -1.0, "mm"), "inner_diameter = -1.0 mm is negative"),
+    ((FLANK, "normal_pressure_angle", 25.0, "deg"), "normal_pressure_angle of component 7 is 25.0 deg, but normal_pressure_angle of component 8 is 20.0 deg"),
+    ((FLANK, "addendum_modification_coefficient", 0.2), "component 5 (cylindrical_gear 'pinion') has contradictory profile shifts"),
+    ((FLANK, "addendum_modification_coefficient", 0.196, "mm"), 'has the unit "mm". Allowed: "none" or "%"'),
+    ((rexs.STAGE, "center_distance", None), "component 4 (cylindrical_stage 'test stage'): center_distance is missing"),
+    ((rexs.STAGE, "sum_of_addendum_modification_coefficients", 0.4), "contradicts the profile shifts of its gears, 0.196 and 0.125"),
+    ((rexs.PINION_TOOL, "normal_module", 4.0, "mm"), "The tool has another module than the gear"),
+    ((MATERIAL, "elastic_modulus", None), "component 11 (material 'steel'): elastic_modulus is missing"),
+    ((MATERIAL, "elastic_modulus", 206.0, "kg"), "elastic_modulus = 206.0 kg is a mass, not a stress"),
+    ((MATERIAL, "density", 7.85, "kg / m"), "density = 7.85 kg / m is"),
+    ((SHAFT, "rotational_speed", 750.0, "m / s"), "rotational_speed = 750.0 m / s is a speed, not an angular speed"),
+    ((rexs.LOAD, "torque_around_u_axis", None), 'no torque. Its gears, 5 and 6, have none in their stage data'),
+    ((rexs.LOAD, "torque_around_u_axis", 437.0, "N"), "torque_around_u_axis = 437.0 N is a force, not a couple"),
+]
+
+
+@pytest.mark.parametrize("change, words", WRONG_VALUES, ids=[f"{change[1]}={change[2]}" for change, _ in WRONG_VALUES])
+def test_wrong_values_are_named(tmp_path, change, words):
+    """Component, attribute, value and what is allowed."""
+    said = refused(tmp_path, changed(change))
+    assert words in said and "Nothing was written." in said
+
+
+def test_different_materials_are_refused(tmp_path):
+    """A scene has one material."""
+    model = rexs.with_component(rexs.paper_model(), 21, "material", ("elastic_modulus", 70000.0, "N / mm^2"), ("poisson_ratio", 0.3))
+    reference = next(each for each in model["model"]["relations"] if each["type"] == "reference" and each["refs"][0]["id"] == W)
+    reference["refs"][1]["id"] = 21
+    assert "different materials, a scene has one for both: elastic_modulus of component 11 is 206000.0 N / mm^2" in refused(tmp_path, model)
+
+
+def test_all_mistakes_are_told_at_once(tmp_path):
+    """Three mistakes, three sentences; what only follows from them is not repeated."""
+    said = refused(tmp_path, changed((P, "normal_module", None), (W, "face_width", 15.0, "kg"), (MATERIAL, "poisson_ratio", None)))
+    assert said.count("file.rexs: ") == 3 and "3 mistakes in " in said
+
+
+@pytest.mark.parametrize(
+    "values, words",
+    [
+        ({"datum_diameter": (79.0, "deg")}, "component 40 (tip_relief): tip_relief_datum_diameter = 79.0 deg is an angle, not a length"),
+        ({"depth": (-5.0, "mum")}, "tip_relief_depth = -5.0 um is not positive"),
+        ({"shape_of_relief": ("circular",)}, "shape_of_relief = circular. Allowed: linear or parabolic"),
+        ({"evaluation_reference": (79.0, "mm")}, "tip_relief_evaluation_reference = 79.0 mm does not lie outside the start of the relief, 79.0 mm"),
+    ],
+)
+def test_wrong_reliefs_are_named(tmp_path, values, words):
+    """As other values are; a length does not stand in for the start's diameter."""
+    assert words in refused(tmp_path, with_relief(**values))
+    model = with_relief()
+    rexs.component(model, 40)["attributes"][1] = rexs.attribute("tip_relief_datum_length", 3.0, "mm")
+    assert "tip_relief_datum_diameter is missing. tip_relief_datum_length does not stand in for it" in refused(tmp_path, model)
+
+
+def test_pairs_that_are_none(tmp_path):
+    """Ring gears and other stages are refused as what they are."""
+    ring = rexs.paper_model()
+    rexs.component(ring, W)["type"] = "ring_gear"
+    assert "component 6 (ring_gear 'wheel') is an internal gear" in refused(tmp_path, ring)
+    worm = rexs.paper_model()
+    rexs.component(worm, rexs.STAGE)["type"] = "worm_stage"
+    assert "has no pair of cylindrical gears" in refused(tmp_path, worm) and "Its stages are: worm_stage" in refused(tmp_path, worm)
+
+
+def test_wrong_calls_are_refused(tmp_path):
+    """What the call says in the file's place is a quantity of its kind."""
+    assert '--wheel-torque "437 N" is a force, not a couple' in refused(tmp_path, rexs.paper_model(), wheel_torque="437 N")
+    assert '--pinion-speed "fast" does not begin with a number' in refused(tmp_path, rexs.paper_model(), pinion_speed="fast")
+
+
+def edited(old, new):
+    """The XML form of the paper's model with one text put in another's place."""
+    content = rexs.as_xml(rexs.paper_model()).decode()
+    assert old in content
+    return content.replace(old, new, 1).encode()
+
+
+BROKEN = {
+    "empty": (b" \n", "is empty"),
+    "no XML": (b"gears", "is not valid XML"),
+    "cut off": (rexs.as_xml(rexs.paper_model())[:2000], "is not valid XML"),
+    "other XML": (b"<svg/>", "its root is <svg>, not <model>"),
+    "unknown encoding": (edited("utf-8", "klingon"), "is not valid XML"),
+    "no JSON": (b'{"model": ', "is not valid JSON"),
+    "other JSON": (b"[1, 2]", 'the file has no "model"'),
+    "JSON of another shape": (b'{"model": {"version": "1.7", "components": {}}}', '"components" in the model that is not a list'),
+    "deep JSON": (b"[" * 100_000, "is not valid JSON"),
+    "not text": (b'{"model": "\xff"}', "is not valid JSON"),
+    "unknown version": (edited('version="1.7"', 'version="9.0"'), '"9.0"; 1.0 to 2.0 are read'),
+    "no version": (edited('version="1.7"', ""), "<model> without version"),
+    "number of a component": (edited('<component id="5"', '<component id="five"'), 'id is "five", not a whole number'),
+    "component twice": (edited('<component id="5"', '<component id="6"'), "two components with the number 6"),
+    "relation to nothing": (edited('<ref id="14"', '<ref id="99"'), "whose part is component 99, which is not there"),
+    "attribute twice": (
+        edited('<attribute id="number_of_teeth"', '<attribute id="normal_module" unit="mm">5</attribute><attribute id="number_of_teeth"'),
+        "has normal_module twice in component 5, with different values: 4.5 mm; 5 mm",
+    ),
+    "two models in one archive": (rexs.as_zip(("a.rexs", b""), ("b.rexsj", b"")), "but holds: a.rexs, b.rexsj"),
+    "archive without a model": (rexs.as_zip(("a.txt", b"")), "but holds: none"),
+    "damaged archive": (rexs.as_zip(("a.rexs", b"x" * 5000)).replace(b"PK\x03\x04", b"PK\x03\x05", 1), "cannot be unpacked"),
+}
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_broken_files_are_named_as_what_they_are(tmp_path, case):
+    """One sentence each, and the file's name."""
+    content, words = BROKEN[case]
+    with pytest.raises(SceneError) as raised:
+        imported(tmp_path, content)
+    assert words in str(raised.value) and str(tmp_path / "file.rexs") in str(raised.value)
+
+
+def test_missing_files_and_directories(tmp_path):
+    """As an operating system says it, in words."""
+    for path, words in ((tmp_path / "none.rexs", "there is no such file"), (tmp_path, "cannot be read")):
+        with pytest.raises(SceneError, match=words):
+            read.read_model(path)
+
+
+def test_entities_are_not_expanded_and_files_not_read(tmp_path):
+    """A document type declaration could make ten lines fill the memory (a test that lets it never ends), or copy a file into a scene."""
+    (tmp_path / "secret").write_text("42")
+    laughs = "".join(f'<!ENTITY e{n} "{f"&e{n - 1};" * 10}">' for n in range(1, 12))
+    for declarations, reference in (('<!ENTITY e0 "ha">' + laughs, "&e11;"), (f'<!ENTITY e SYSTEM "file://{tmp_path}/secret">', "&e;")):
+        content = b"<?xml version='1.0'?><!DOCTYPE model [" + declarations.encode() + b"]>" + edited(">16<", f">{reference}<").split(b"?>", 1)[1]
+        with pytest.raises(SceneError, match="document type declaration"):
+            imported(tmp_path, content)
+
+
+def test_large_files_are_refused(tmp_path, monkeypatch):
+    """Packed as well: an archive of kilobytes can hold gigabytes."""
+    monkeypatch.setattr(read, "LARGEST", 10_000)
+    for content in (b"<" + b" " * 20_000, rexs.as_zip(("a.rexs", b" " * 20_000))):
+        with pytest.raises(SceneError, match="is not read"):
+            imported(tmp_path, content)
+
+
+@given(data=st.data())
+def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
+    """Property: whatever is cut out of a file or put into it, nothing but a SceneError comes of it."""
+    form = data.draw(st.sampled_from([rexs.as_xml, rexs.as_json]))
+    content = form(rexs.paper_model())
+    for _ in range(data.draw(st.integers(1, 4))):
+        start = data.draw(st.integers(0, len(content)))
+        put = data.draw(st.one_of(st.binary(max_size=4), st.sampled_from([b'"', b"<", b"null", b"[]", b"{}", b"-", b"e9", b"true", b"\x00", b"5"])))
+        content = content[:start] + put + content[start + data.draw(st.integers(0, 12)) :]
+    try:
+        imported(tmp_path_factory.mktemp("damaged"), content, choice=Choice(stage=4))
+    except SceneError as error:
+        assert str(error).strip()
+
+
+def test_nothing_but_the_chosen_stage_must_be_whole(paper_scene, tmp_path):
+    """A stage beside the chosen one may lack everything."""
+    model = rexs.with_component(rexs.paper_model(), 31, "cylindrical_gear", ("normal_module", "?", "parsec"))
+    model = rexs.with_component(model, 33, "cylindrical_stage", stage={"stage": 33, "gear_1": 31, "gear_2": 31})
+    assert scene_of(tmp_path, model, stage=4)[0].gears == paper_scene.gears
