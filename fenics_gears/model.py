@@ -11,7 +11,7 @@ import numpy as np
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import check_files, effects_on
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
@@ -97,6 +97,9 @@ class Model:
         """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
         found = [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.material)
+        for effect in effects_on(self.scene):
+            if effect.warnings is not None:
+                found += effect.warnings(getattr(self.scene, effect.section), self)
         if self.corner is not None:
             from fenics_gears.contact.corner import edge_warnings
 
@@ -118,9 +121,10 @@ ROOT_STRESS_VALUES = 100
 def model(scene: Scene) -> Model:
     """Everything about a scene that needs no computing to speak of.
 
-    Raises GeometryError for impossible gears, SceneError for a result too large to be held.
+    Raises GeometryError for impossible gears, SceneError for a result too large to be held, or for files that do not fit the scene.
     """
     pair = gear_pair(scene.gears)
+    check_files(scene, pair)
     shafts = drivetrain(scene, pair)
     built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
     if built.stored_bytes > MOST_STORED_BYTES:

@@ -9,6 +9,7 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import coast_place, drive_place
+from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
 from fenics_gears.elasticity.ring import rotation
@@ -120,6 +121,8 @@ class RunStresses:
                 f'the run has a mesh of springs (accuracy.model = "{self.built.scene.accuracy.model}"): there are no stresses. '
                 'Run the scene with "elastic".'
             )
+        if any(effect.elasticity is not None for effect in effects_on(self.built.scene)):
+            raise ComputationError("stresses are recovered from gears of equal sectors; this run has gears meshed as a whole ([body_meshes]).")
         if self.built.resolution.condensation != ONCE:
             raise ComputationError('stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run the scene with "once".')
 

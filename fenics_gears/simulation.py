@@ -121,6 +121,10 @@ def tooth_reach(built: Model) -> int:
 
 def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) -> FlankCompliance:
     """Flank compliance of the "pinion" or the "wheel" over `reach` pitches, from the cache where it is there."""
+    for effect in effects_on(built.scene):
+        own = effect.elasticity and effect.elasticity(getattr(built.scene, effect.section), built, name, reach, cache)
+        if own is not None:
+            return own
     # Imported here: rigid flanks have none.
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
@@ -140,7 +144,7 @@ def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) ->
 
 def mesh_cycle(built: Model, compliances: Compliances) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
-    cycle = MeshCycle(
+    cycle = _cycle_of(compliances)(
         Flanks(built.pair, compliances, built.removal),
         built.resolution.contact_grid,
         built.resolution.steps_per_mesh_cycle,
@@ -149,6 +153,15 @@ def mesh_cycle(built: Model, compliances: Compliances) -> Cycle:
         corner=built.corner,
     )
     return deviating(built, cycle)
+
+
+def _cycle_of(compliances: Compliances):
+    """One mesh cycle for all where all teeth are alike."""
+    if all(each.alike for each in compliances):
+        return MeshCycle
+    from fenics_gears.contact.whole_body_cycle import WholeBodyCycle
+
+    return WholeBodyCycle
 
 
 def rigid_cycle(built: Model) -> Cycle:

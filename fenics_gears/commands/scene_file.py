@@ -12,6 +12,7 @@ def checked_scene(path: Path):
     from fenics_gears.scene.read import load_scene
 
     scene = load_scene(path)
+    from fenics_gears.effects import check_files
     from fenics_gears.geometry.modification import corner, removals
     from fenics_gears.geometry.pair import gear_pair
 
@@ -21,6 +22,7 @@ def checked_scene(path: Path):
         corner(scene, pair)
     except GeometryError as error:
         raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
+    check_files(scene, pair)
     return scene
 
 

@@ -119,9 +119,12 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     interpolation = tuple(
         view.of_flank(
             # That function measures offsets from the line at the gear's own base radius.
-            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense, flank.roll_angle, flank.element_order,
+            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense,
+            flank.rolls_of(place.ahead(number)), flank.element_order,
         )
-        for gear, own, roll, arm, sense, flank in zip(gears, rolls, place.contact_rolls, line.arms, SENSES, flanks.compliance)
+        for number, (gear, own, roll, arm, sense, flank) in enumerate(
+            zip(gears, rolls, place.contact_rolls, line.arms, SENSES, flanks.compliance)
+        )
     )  # fmt: skip
     return ToothPair(
         place=place,

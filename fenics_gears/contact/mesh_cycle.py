@@ -153,7 +153,7 @@ class MeshCycle(Cycle):
     """Contact nodes that see either gear's one flank compliance through interpolation.
 
     `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts; `corner`: how tips touch off the line of
-    action, along it where None.
+    action, along it where None; `pairing`: of these flanks, one of its own unless given.
     """
 
     divisible = True
@@ -166,10 +166,15 @@ class MeshCycle(Cycle):
         coordinates: list[int],
         tangential: bool,
         corner: CornerContact | None = None,
+        pairing: CompliancePairing | None = None,
     ):
         super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2, corner=corner)
         self.flanks, self._coordinates, self._tangential = flanks, coordinates, tangential
-        self._pairing = CompliancePairing(flanks)
+        self._pairing = pairing or CompliancePairing(flanks)
+
+    def share_pairs(self, other: MeshCycle) -> None:
+        """Have the contact nodes of another cycle's tooth pairs, whose flanks have nodes at the same places."""
+        self._pairs = other._pairs
 
     def _pair(self, place: Place) -> ToothPair | None:
         if self.corner is not None:

@@ -120,26 +120,19 @@ def rigid_rows(
 class CompliancePairing:
     """Compliance between the contact nodes of two sets of tooth pairs, from the flank compliances of both gears."""
 
-    def __init__(self, flanks: Flanks):
-        width = flanks.pair.face_width
-        self._gears = flanks.compliance
-        self._blocks = [
-            {
-                (offset, a, b): np.ascontiguousarray(gear.block(offset)[_flank_dofs(gear, a), _flank_dofs(gear, b)]) / width
-                for offset in range(-gear.offsets, gear.offsets + 1)
-                for a in range(gear.flanks)
-                for b in range(gear.flanks)
-            }
-            for gear in flanks.compliance
-        ]
+    def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None):
+        """`kept`: where blocks of either gear, over the face width, are kept; pairings of the same bodies may share it."""
+        self._width, self._gears = flanks.pair.face_width, flanks.compliance
+        self._blocks = ({}, {}) if kept is None else kept
 
     def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
-        # A later pair index means a tooth ahead on the pinion (counter-clockwise), and behind on the wheel.
-        offset = (responding.place.teeth[gear] - loaded.place.teeth[gear]) * (1 if gear == 0 else -1)
-        key = offset, responding.place.flank, loaded.place.flank
-        if key not in self._blocks[gear]:
-            self._gears[gear].block(offset)  # says which teeth are known
-        return self._blocks[gear][key]
+        body, blocks = self._gears[gear], self._blocks[gear]
+        teeth = responding.place.ahead(gear), loaded.place.ahead(gear)
+        key = body.key(*teeth), responding.place.flank, loaded.place.flank
+        if key not in blocks:
+            rows, columns = _flank_dofs(body, responding, gear), _flank_dofs(body, loaded, gear)
+            blocks[key] = np.ascontiguousarray(body.between(*teeth)[rows, columns]) / self._width
+        return blocks[key]
 
     def product(
         self,
@@ -181,8 +174,9 @@ class CompliancePairing:
         return result.reshape(result.shape[0] * result.shape[1], -1)
 
 
-def _flank_dofs(gear: FlankCompliance, flank: int) -> slice:
-    return slice(2 * gear.nodes * flank, 2 * gear.nodes * (flank + 1))
+def _flank_dofs(body: FlankCompliance, pair: ToothPair, gear: int) -> slice:
+    dofs = 2 * len(body.rolls_of(pair.place.ahead(gear)))
+    return slice(dofs * pair.place.flank, dofs * (pair.place.flank + 1))
 
 
 def _slices(pairs: tuple[ToothPair, ...]) -> list[slice]:

@@ -64,6 +64,11 @@ class Place:
         """Index of the pinion's and of the wheel's tooth, by the drive pairs they belong to."""
         return self.index, self.index - self.flank
 
+    def ahead(self, gear: int) -> int:
+        """Pitches by which the pinion's (0) or the wheel's (1) tooth stands counter-clockwise of that of drive pair 0."""
+        # A later pair index means a tooth ahead on the pinion, and behind on the wheel.
+        return self.teeth[gear] if gear == 0 else -self.teeth[gear]
+
 
 def drive_place(pair: GearPair, index: int, xi: float) -> Place:
     """The drive flanks of tooth pair `index`, with contact at `xi` (mm from T1)."""
@@ -141,10 +146,10 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
     meeting = 0.5 * (view.seen(offsets, x_1 - x_2) + flanks.pair.line_of_action_length)
     interpolation = tuple(
         view.of_flank(
-            offsets, rolls, gear.base_radius, contact_roll, sense, flank.roll_angle, flank.element_order
+            offsets, rolls, gear.base_radius, contact_roll, sense, flank.rolls_of(place.ahead(number)), flank.element_order
         )
-        for gear, rolls, contact_roll, sense, flank in zip(
-            (pinion, wheel), node_rolls, place.contact_rolls, (-1.0, 1.0), flanks.compliance
+        for number, (gear, rolls, contact_roll, sense, flank) in enumerate(
+            zip((pinion, wheel), node_rolls, place.contact_rolls, (-1.0, 1.0), flanks.compliance)
         )
     )
     return ToothPair(

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from fenics_gears.effects import (
     bearings,
+    body_meshes,
     coast_flanks,
     corner_contact,
     damping,
@@ -29,6 +30,7 @@ from fenics_gears.effects.effect import Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
     tooth_elasticity.EFFECT,
+    body_meshes.EFFECT,
     shafts.EFFECT,
     bearings.EFFECT,
     inertia.EFFECT,
@@ -76,6 +78,13 @@ def effect(section: str) -> Effect:
 def effects_on(scene) -> tuple[Effect, ...]:
     """The effects that a scene (``scene.data.Scene``) switches on, in the order of the list."""
     return tuple(each for each in EFFECTS if getattr(scene, each.section) is not None)
+
+
+def check_files(scene, pair) -> None:
+    """Raise SceneError for what is wrong in files that the scene's effects name."""
+    for each in effects_on(scene):
+        if each.check is not None:
+            each.check(getattr(scene, each.section), scene, pair)
 
 
 def result_variables(scene) -> tuple[ResultVariable, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from fenics_gears.scene.fields import Section
@@ -41,6 +42,10 @@ class Effect:
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
+    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over pitches; None to leave it as it is.
+    ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
+    ``check(data, scene, pair)``: raises SceneError for what only shows in those files.
+    ``warnings(data, model)``: sentences that a user should read before the run.
     ``results(data, scene, cycle, records)``: the effect's own variables, name to (dimensions, values).
     """
 
@@ -62,6 +67,10 @@ class Effect:
     gaps: Callable | None = None
     load: Callable | None = None
     clock: Callable | None = None
+    elasticity: Callable | None = None
+    located: Callable | None = None
+    check: Callable | None = None
+    warnings: Callable | None = None
     results: Callable | None = None
 
     @property
@@ -69,11 +78,12 @@ class Effect:
         """The section's name as a scene file has it."""
         return ".".join(self.within) or self.section
 
-    def from_text(self, section: Section | None) -> Any:
-        """The data of a validated section; None for an absent one."""
+    def from_text(self, section: Section | None, directory: Path = Path()) -> Any:
+        """The data of a validated section, its files found from a directory on; None for an absent one."""
         if section is None:
             return None
-        return self.read(section) if self.read is not None else same_names(self.data, section)
+        data = self.read(section) if self.read is not None else same_names(self.data, section)
+        return data if self.located is None else self.located(data, directory)
 
 
 def same_names(kind: type, section: Section) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +21,7 @@ class FlankCompliance:
         displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs are
         interleaved x0, y0, x1, y1, ...; components are those of each tooth's own canonical frame.
         blocks[0] is symmetric positive definite.
+    alike: all teeth are alike, see `whole_body` for others.
     flanks: 1, or 2 where the coast flank is known too: its 2n dofs then follow the drive flank's 2n, in the tooth's frame
         mirrored at its centreline, in which the coast flank has the drive flank's place.
     timings: what the computation cost: time_mesh, time_compile, time_condense (s), unknowns,
@@ -31,6 +33,7 @@ class FlankCompliance:
     blocks: np.ndarray
     timings: dict = field(default_factory=dict, compare=False)
     flanks: int = 1
+    alike: ClassVar[bool] = True
 
     @property
     def nodes(self) -> int:
@@ -54,3 +57,15 @@ class FlankCompliance:
                 f"-{self.offsets} to {self.offsets}; ask flank_compliance for more tooth_offsets"
             )
         return self.blocks[offset] if offset >= 0 else self.blocks[-offset].T
+
+    def rolls_of(self, tooth: int) -> np.ndarray:
+        """Roll angles (n,), rad, of the flank nodes of a tooth: all teeth are alike."""
+        return self.roll_angle
+
+    def between(self, responding: int, loaded: int) -> np.ndarray:
+        """Compliance (2n, 2n) of one tooth's flank under forces on another's; teeth are counted counter-clockwise from any one."""
+        return self.block(responding - loaded)
+
+    def key(self, responding: int, loaded: int) -> int:
+        """What the compliance between two teeth is kept under: their distance."""
+        return responding - loaded

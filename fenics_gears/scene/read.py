@@ -33,11 +33,13 @@ def load_scene(path: str | os.PathLike) -> data.Scene:
         raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a scene is a TOML file") from None
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    return scene_from_text(text, path.stem, source=str(path))
+    return scene_from_text(text, path.stem, source=str(path), directory=path.parent)
 
 
-def scene_from_text(text: str, name: str = "scene", *, source: str | None = None) -> data.Scene:
+def scene_from_text(text: str, name: str = "scene", *, source: str | None = None, directory: Path = Path()) -> data.Scene:
     """The scene that a TOML text describes; ``source`` is what messages call the text (the name, unless given).
+
+    directory: from which on files are found that the text names.
 
     Raises SceneError, naming every mistake at once.
     """
@@ -50,7 +52,7 @@ def scene_from_text(text: str, name: str = "scene", *, source: str | None = None
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
         raise SceneError(_message(problems, text, source))
-    return _scene(checked, text, name)
+    return _scene(checked, text, name, directory)
 
 
 def _why_no_toml(error: Exception) -> str:
@@ -71,7 +73,7 @@ def _nearest_file(path: Path) -> str:
     return "." + did_you_mean(path.name, neighbours)
 
 
-def _scene(checked, text: str, name: str) -> data.Scene:
+def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
     """The dataclasses of a validated scene."""
     return data.Scene(
         title=checked.title or name,
@@ -82,7 +84,7 @@ def _scene(checked, text: str, name: str) -> data.Scene:
         output=same_names(data.Output, checked.output),
         text=text,
         name=name,
-        **{effect.section: effect.from_text(getattr(checked, effect.section)) for effect in top_level()},
+        **{effect.section: effect.from_text(getattr(checked, effect.section), directory) for effect in top_level()},
     )
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.errors import SceneError
 from fenics_gears.model import model
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.lines import line_numbers
@@ -95,7 +95,7 @@ def load_study(path: str | Path) -> Study:
     scene_tree = tomllib.loads(base.text, parse_float=WrittenFloat)
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
-    cases = _cases(path, changes, scene_tree, mistakes)
+    cases = _cases(path, scene_file.parent, changes, scene_tree, mistakes)
     mistakes.check()
     return Study(
         name=path.stem,
@@ -246,15 +246,15 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
             mistakes.add(place, f'"{fields.PRESENT}"', f"means the section as {scene_file} has it, but that has none. Write its fields as a table.")
 
 
-def _cases(path: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[Case, ...]:
-    """Every case, validated; the same mistake of many cases is said once."""
+def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[Case, ...]:
+    """Every case, validated; the same mistake of many cases is said once. `directory`: of the base scene."""
     cases: list[Case] = []
     by_key: dict[str, Case] = {}
     wrong: dict[tuple, list[str]] = {}
     points = list(changes.points())
     for index, point in enumerate(points):
         values = {axis.dotted: label(value) for axis, value in zip(changes.axes, point)}
-        scene, problems = _case_scene(f"{path.stem}-{index:04d}", changes.apply(scene_tree, point))
+        scene, problems = _case_scene(f"{path.stem}-{index:04d}", changes.apply(scene_tree, point), directory)
         for problem in problems:
             wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
         if scene is None:
@@ -269,15 +269,15 @@ def _cases(path: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes
     return tuple(cases)
 
 
-def _case_scene(name: str, tree: Mapping[str, Any]) -> tuple[Scene | None, list[Problem]]:
+def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Scene | None, list[Problem]]:
     """The validated scene of a case, or what is wrong with it."""
     problems = without_echoes(problems_of_schema(tree)[1] + broken_rules(tree))
     if problems:
         return None, problems
-    scene = scene_from_text(fields.as_toml(tree), name)
+    scene = scene_from_text(fields.as_toml(tree), name, directory=directory)
     try:
         model(scene)
-    except GeometryError as error:
+    except SceneError as error:
         return None, [Problem((), None, str(error))]
     return scene, []
 

@@ -72,7 +72,8 @@ def gear_key(built: Model, name: str, reach: int) -> tuple:
     resolution = built.resolution
     coast = built.scene.coast_flanks is not None
     sizes = resolution.flank_element_size, resolution.body_element_size
-    return getattr(built.pair, name), built.scene.gears.material, resolution.element, sizes, reach, resolution.elastic_teeth, coast
+    own = tuple(getattr(getattr(built.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
+    return getattr(built.pair, name), built.scene.gears.material, resolution.element, sizes, reach, resolution.elastic_teeth, coast, own
 
 
 def cycle_key(built: Model) -> tuple:
@@ -87,6 +88,6 @@ def cycle_key(built: Model) -> tuple:
         resolution.contact_grid,
         resolution.steps_per_mesh_cycle,
     )
-    in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.corner)
+    in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.corner or effect.elasticity)
     model = scene.accuracy.model, None if scene.resolves_contact else scene.load
     return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, model), tuple(built.drivetrain.indices), scene.friction is not None

@@ -1,8 +1,12 @@
 """One example of every effect's section, on the paper's pair at a coarse mesh; whoever adds an effect adds its example here."""
 
+from pathlib import Path
+
 from fenics_gears.effects import EFFECTS, effect
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
+
+MESHES = Path(__file__).parents[2] / "meshes"
 
 BASE = """
 title = "Example"
@@ -47,6 +51,10 @@ EXAMPLES = {
 [gears.material]
 youngs_modulus = "206 GPa"
 poissons_ratio = 0.3
+""",
+    "body_meshes": """
+[body_meshes]
+pinion = "meshes/cracked_pinion.msh"
 """,
     "shafts": """
 [shafts]
@@ -115,8 +123,8 @@ def with_needs(*sections: str) -> tuple[str, ...]:
 
 
 def text_of(*sections: str) -> str:
-    """The text of a scene with those effects and no others."""
-    return BASE + "".join(EXAMPLES[section] for section in sections)
+    """The text of a scene with those effects and no others; its meshes are found wherever the text is read."""
+    return BASE + "".join(EXAMPLES[section] for section in sections).replace('"meshes/', f'"{MESHES}/')
 
 
 def scene_of(*sections: str) -> Scene:

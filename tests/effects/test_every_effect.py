@@ -27,6 +27,7 @@ METHODS = {
     "inertia": {"fenics_gears.dynamics.frequencies", "fenics_gears.dynamics.guidance"},
     "friction": {"fenics_gears.contact.uniqueness"},
     "corner_contact": {"fenics_gears.contact.corner", "fenics_gears.geometry.tip_edge"},
+    "body_meshes": {"fenics_gears.elasticity.whole_body.condensed", "fenics_gears.contact.whole_body_cycle"},
     TEETH: {"fenics_gears.elasticity.gear_compliance"},
 }
 # What only hard cases of them load: the start of a fast mesh, the stepping of unsampled vibrations, the ladder's last rung.

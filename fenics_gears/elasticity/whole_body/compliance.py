@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -23,6 +24,7 @@ class WholeBodyCompliance:
     blocks: tuple[tuple[np.ndarray, ...], ...]
     timings: dict = field(default_factory=dict, compare=False)
     flanks: int = 1
+    alike: ClassVar[bool] = False
 
     @property
     def teeth(self) -> int:
@@ -48,3 +50,7 @@ class WholeBodyCompliance:
             f"flank compliance: teeth {responding % self.teeth} and {loaded % self.teeth} are further apart than the {self.offsets} pitches "
             "that were computed; ask whole_body_compliance for more tooth_offsets"
         )
+
+    def rolls_of(self, tooth: int) -> np.ndarray:
+        """Roll angles (n,), rad, of the flank nodes of a tooth; any whole number."""
+        return self.roll_angles[tooth % self.teeth]

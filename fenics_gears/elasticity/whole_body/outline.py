@@ -24,6 +24,8 @@ from fenics_gears.geometry.outline import centreline_angle
 OUTLINE_TOLERANCE = 2e-3
 # A flank's first element may begin so far above the form circle, in parts of its length; the displacement is continued below it.
 UNCOVERED = 0.5
+# Boundary points this near to an involute, in modules, are told of where they were meant to be on it.
+NEARLY = 0.1
 # Factors by which a mesh is too small or too large, and the unit it then is likely to be in.
 UNITS = {1e-3: "metres", 1.0 / 25.4: "inches", 1e3: "micrometres"}
 
@@ -54,6 +56,7 @@ def whole_body(mesh: BodyMesh, gear: Gear, name: str) -> WholeBody:
     _check_bore(mesh.points, hub, outer, gear, name)
     turned = mesh.points @ rotation(_standing_angle(mesh.points[np.unique(sides)], gear, name))
     flanks = _flanks(turned, sides, gear, tolerance, name)
+    _check_thickness(turned[np.unique(sides)], gear, tolerance, name)
     longest = max(np.linalg.norm(turned[flank[:, 0]] - turned[flank[:, 1]], axis=1).max() for flank in flanks)
     edges = {"hub": hub, **{f"flank {tooth}": flank for tooth, flank in enumerate(flanks)}}
     return WholeBody(BodyMesh(turned, mesh.cells, edges), float(longest))
@@ -150,52 +153,73 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float,
     """Sides (k, 2) of each drive flank, from the form circle to the tip."""
     boundary = np.unique(sides)
     radius = np.linalg.norm(points[boundary], axis=1)
-    angle = np.arctan2(points[boundary, 1], points[boundary, 0])
-    # From the centreline of each tooth to the middle of the space on its counter-clockwise side.
+    tooth, on_drive_side, off = _off_involute(points[boundary], gear)
+    off = np.abs(off)
+    known, found = {tuple(side) for side in sides.tolist()}, []
+    for each in range(gear.teeth):
+        own = on_drive_side & (tooth == each)
+        chain, problem = _chain(points, known, boundary[own & (off <= tolerance)], gear, tolerance)
+        if problem:
+            on_flank = own & (radius > gear.form_radius + tolerance) & (radius < gear.tip_radius - tolerance)
+            worst = float(np.max(off[on_flank & (off <= NEARLY * gear.module)], initial=0.0))
+            raise SceneError(f"{name}: the drive flank of tooth {each}, counted counter-clockwise, {problem}{_deviation(worst, tolerance)}")
+        found.append(chain)
+    return found
+
+
+def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far off its drive flank, mm.
+
+    The distance is counter-clockwise along the involute's normal: an involute turned by an angle stands off by that of its base circle.
+    """
+    angle = np.arctan2(points[:, 1], points[:, 0])
     ahead = np.mod(angle - centreline_angle(gear), 2.0 * np.pi) / gear.angular_pitch
-    tooth, on_drive_side = np.floor(ahead + 0.5).astype(int) % gear.teeth, np.mod(ahead, 1.0) < 0.5
-    off = angle - drive_flank_angle(gear, radius) - gear.angular_pitch * tooth
-    # An involute turned by an angle stands off by the base radius times that angle along its normal.
-    off = gear.base_radius * np.abs((off + np.pi) % (2.0 * np.pi) - np.pi)
-    below_tip = radius < gear.tip_radius - tolerance
-    _check_involute(tooth, off, on_drive_side & below_tip & (radius > gear.form_radius + tolerance), tolerance, name)
-    return [
-        _flank(points, sides, boundary[on_drive_side & (tooth == each) & (off <= tolerance)], gear, tolerance, f"{name}: flank of tooth {each}")
-        for each in range(gear.teeth)
-    ]
+    tooth = np.floor(ahead + 0.5).astype(int) % gear.teeth
+    off = angle - drive_flank_angle(gear, np.linalg.norm(points, axis=1)) - gear.angular_pitch * tooth
+    return tooth, np.mod(ahead, 1.0) < 0.5, gear.base_radius * ((off + np.pi) % (2.0 * np.pi) - np.pi)
 
 
-def _check_involute(tooth: np.ndarray, off: np.ndarray, flank: np.ndarray, tolerance: float, name: str) -> None:
-    worst = int(np.argmax(np.where(flank, off, 0.0))) if flank.any() else 0
-    if flank.any() and off[worst] > tolerance:
+def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str) -> None:
+    """Raise SceneError where the other flanks do not stand where they should: drive flanks alone do not tell how thick teeth are."""
+    radius = np.linalg.norm(points, axis=1)
+    between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_radius - tolerance)]
+    axis = 2.0 * centreline_angle(gear)
+    mirrored = between @ np.array([[np.cos(axis), np.sin(axis)], [np.sin(axis), -np.cos(axis)]])
+    _, on_drive_side, off = _off_involute(mirrored, gear)
+    stands_off = float(np.median(off[on_drive_side])) if on_drive_side.any() else 0.0
+    if abs(stands_off) > tolerance:
         raise SceneError(
-            f"{name}: points of the drive flank of tooth {tooth[worst]} (counted counter-clockwise) lie up to {1e3 * off[worst]:.4g} um off "
-            f"the gear's involute. Allowed: up to {1e3 * tolerance:.3g} um. Contact goes by the gear data; deviations of a flank "
-            "belong into [flank_errors], and chamfers of tips are not known"
+            f"{name}: the teeth are {'thicker' if stands_off > 0.0 else 'thinner'} than those of the scene (profile_shift): the flanks opposite the "
+            f"drive flanks stand {1e3 * abs(stands_off):.4g} um off their involutes; allowed are {1e3 * tolerance:.3g} um"
         )
 
 
-def _flank(points, sides, candidates: np.ndarray, gear: Gear, tolerance: float, name: str) -> np.ndarray:
-    """Sides of one flank from points that lie on its involute."""
+def _deviation(worst: float, tolerance: float) -> str:
+    if worst <= tolerance:
+        return ""
+    return (
+        f". Points of the boundary there lie up to {1e3 * worst:.4g} um off the gear's involute; allowed are {1e3 * tolerance:.3g} um. Contact goes "
+        "by the gear data: wear and other deviations of a flank belong into [flank_errors], chamfers of tips are not known"
+    )
+
+
+def _chain(points: np.ndarray, known: set, candidates: np.ndarray, gear: Gear, tolerance: float) -> tuple[np.ndarray, str]:
+    """Sides of one flank from points that lie on its involute, and what is wrong with them, nothing where all is well."""
     radius = np.linalg.norm(points[candidates], axis=1)
     order = np.argsort(radius)
     candidates, radius = candidates[order], radius[order]
     # Of the points at and below the form circle the highest begins the flank; below it there is fillet.
     first = max(int(np.searchsorted(radius, gear.form_radius + tolerance, side="right")) - 1, 0)
     chain = np.sort(np.stack([candidates[first:-1], candidates[first + 1 :]], axis=-1), axis=1)
-    known = {tuple(side) for side in sides.tolist()}
     broken = [place for place, side in enumerate(chain.tolist()) if tuple(side) not in known]
     if broken or len(chain) < 2:
-        where = radius[first + broken[0]] if broken else radius[-1] if len(radius) else 0.0
-        raise SceneError(
-            f"{name}: is not one line of elements from form circle to tip: it is broken near radius {where:.5g} mm. Every flank needs elements "
-            "of its own along the whole involute, and no crack may open on it"
-        )
+        where = f"is broken near radius {radius[first + broken[0]]:.5g} mm" if broken else f"has {len(chain)} elements"
+        return chain, f"is not one line of elements from form circle to tip: it {where}. No crack may open on it"
     length = arc_length(gear.base_radius, gear.roll_angle(np.maximum(radius[first:], gear.base_radius)))
     form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     if length[0] - form > UNCOVERED * (length[1] - length[0]) + tolerance or tip - length[-1] > 2.0 * tolerance:
-        raise SceneError(
-            f"{name}: its points on the involute reach from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm, but the flank goes from the form "
-            f"circle, radius {gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
+        return chain, (
+            f"has points on the involute from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm only; it goes from the form circle, radius "
+            f"{gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
         )
-    return chain
+    return chain, ""

@@ -1,0 +1,141 @@
+"""``[body_meshes]``: gears meshed as a whole by the user, whose teeth need not be alike (``elasticity.whole_body``)."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Optional
+
+from fenics_gears.effects.effect import Effect
+from fenics_gears.scene.fields import Section, text
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, table
+from fenics_gears.scene.written import as_written
+
+GEARS = ("pinion", "wheel")
+# A flank of elements this much longer than those the contact asks for does not resolve it.
+COARSE = 1.5
+
+
+@dataclass(frozen=True)
+class MeshFile:
+    """A mesh file, and a hash of what it held when the scene was read; empty where it could not be read."""
+
+    path: str
+    digest: str = ""
+
+
+@dataclass(frozen=True)
+class BodyMeshes:
+    """The mesh of either gear; None for a gear that is made of equal sectors."""
+
+    pinion: MeshFile | None
+    wheel: MeshFile | None
+
+
+class BodyMeshesText(Section):
+    """``[body_meshes]``: files of gmsh, from the scene file's folder on; lengths in mm."""
+
+    pinion: Optional[str] = text(4000, meaning="mesh file of the whole pinion, from the scene file's folder on", otherwise="a ring of equal sectors")
+    wheel: Optional[str] = text(4000, meaning="mesh file of the whole wheel, from the scene file's folder on", otherwise="a ring of equal sectors")
+
+
+def read(written: BodyMeshesText) -> BodyMeshes:
+    """The data of a validated section."""
+    return BodyMeshes(*(name and MeshFile(name) for name in (written.pinion, written.wheel)))
+
+
+def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
+    """The meshes with their files found from a directory on, and hashed."""
+    return BodyMeshes(*(each and _located(each, directory) for each in (meshes.pinion, meshes.wheel)))
+
+
+def _located(file: MeshFile, directory: Path) -> MeshFile:
+    path = (directory / file.path).resolve()
+    try:
+        return replace(file, path=str(path), digest=hashlib.sha256(path.read_bytes()).hexdigest())
+    except OSError:
+        # That it is missing is said by `check`; a scene that only is looked at needs no mesh.
+        return replace(file, path=str(path))
+
+
+def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
+    """A section without a file says nothing; only the elastic model, condensed once, sees teeth that are not alike."""
+    section = table(tree, "body_meshes")
+    if section is None:
+        return
+    if not section:
+        yield Problem(("body_meshes",), "", 'names no file. Add pinion = "gear.msh" or wheel = "gear.msh", or leave the section out.')
+    accuracy = table(tree, "accuracy") or {}
+    for name, allowed in (("model", "elastic"), ("condensation", "once")):
+        written = accuracy.get(name, allowed)
+        if written != allowed and isinstance(written, str):
+            yield Problem(("accuracy", name), as_written(written), f'cannot stand beside [body_meshes]. Take "{allowed}", or leave one of the two out.')
+    if "elastic_teeth" in accuracy:
+        message = "cannot stand beside [body_meshes], where all teeth feel each other. Leave one of the two out."
+        yield Problem(("accuracy", "elastic_teeth"), as_written(accuracy["elastic_teeth"]), message)
+    if (table(tree, "output") or {}).get("root_stress") is True:
+        message = "knows equal teeth only and cannot stand beside [body_meshes]. Leave one of the two out."
+        yield Problem(("output", "root_stress"), "true", message)
+
+
+def check(meshes: BodyMeshes, scene, pair) -> None:
+    """Raise SceneError where a mesh is not that of its gear."""
+    for name in GEARS:
+        if getattr(meshes, name) is not None:
+            _body(meshes, name, pair, scene.accuracy.element or "P2")
+
+
+def warnings(meshes: BodyMeshes, model) -> list[str]:
+    """Sentences on meshes that are too coarse for the contact."""
+    wanted, found = model.resolution.flank_element_size, []
+    for name in GEARS:
+        if getattr(meshes, name) is None:
+            continue
+        size = _body(meshes, name, model.pair, model.resolution.element).coarsest_flank
+        if size > COARSE * wanted:
+            found.append(
+                f"body_meshes.{name}: elements along its flanks are up to {size:.3g} mm long, the contact asks for {wanted:.3g} mm "
+                "(accuracy.flank_element_size): pressures and deflections of the contact are not resolved"
+            )
+    return found
+
+
+def elasticity(meshes: BodyMeshes, model, name: str, reach: int, cache):
+    """Flank compliance of a gear with a mesh of its own, over `reach` pitches; None for the other."""
+    if getattr(meshes, name) is None:
+        return None
+    from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
+
+    gear, resolution = getattr(model.pair, name), model.resolution
+    body = _body(meshes, name, model.pair, resolution.element)
+    return whole_body_compliance(
+        body.mesh, gear, model.scene.gears.material, element=resolution.element, tooth_offsets=reach, cache=cache
+    )
+
+
+def _body(meshes: BodyMeshes, name: str, pair, element: str):
+    from fenics_gears.elasticity.whole_body.given import given_body
+
+    file = getattr(meshes, name)
+    return given_body(file.path, file.digest, getattr(pair, name), element, f"body_meshes.{name} = {as_written(file.path)}")
+
+
+EFFECT = Effect(
+    section="body_meshes",
+    description="gears meshed as a whole, teeth not all alike",
+    absent="each gear is a ring of equal sectors",
+    text=BodyMeshesText,
+    data=BodyMeshes,
+    terms=("flank compliance of each tooth of its own", "contact equations that change with the teeth in mesh"),
+    needs=("tooth_elasticity",),
+    excludes=("coast_flanks",),
+    read=read,
+    located=located,
+    rules=meshes_are_given_and_used,
+    check=check,
+    warnings=warnings,
+    elasticity=elasticity,
+)

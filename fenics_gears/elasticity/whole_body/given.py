@@ -1,0 +1,42 @@
+"""The gear body in a mesh file that a scene names, read and understood once."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+from fenics_gears.elasticity.body_mesh_file import read_body_mesh
+from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.whole_body.outline import WholeBody, whole_body
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear import Gear
+
+
+@lru_cache(maxsize=8)
+def given_body(path: str, digest: str, gear: Gear, element: str, field: str) -> WholeBody:
+    """The body of a gear in a file; `digest`: of the file's content, empty where it cannot be read; `field`: what messages call it.
+
+    Raises SceneError where the file is not there, is no mesh, not of this gear, or of other cells than the element has.
+    """
+    if not digest:
+        there = Path(path).parent
+        near = sorted(each.name for each in there.glob("*.msh")) if there.is_dir() else []
+        listed = f" Meshes beside it: {', '.join(near)}." if near else ""
+        raise SceneError(f"{field}: there is no such file, or it cannot be read.{listed} Nothing was computed or written.")
+    try:
+        mesh = read_body_mesh(path)
+        _check_cells(mesh.cells.shape[1], element)
+        return whole_body(mesh, gear, "the mesh")
+    except SceneError as error:
+        raise SceneError(f"{field}: {_without_path(str(error), path)}\nNothing was computed or written.") from None
+
+
+def _check_cells(corners: int, element: str) -> None:
+    chosen = element_named(element)
+    if corners != chosen.corners:
+        kind, fitting = {3: ("triangles", '"P1" or "P2"'), 4: ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')}[corners]
+        raise SceneError(f"the mesh has {kind}, accuracy.element is {chosen.name}. Take {fitting}, for both gears")
+
+
+def _without_path(words: str, path: str) -> str:
+    return words.replace(f"body mesh {path}: ", "")

@@ -1,0 +1,123 @@
+"""A crack is a slit that gives way as fracture mechanics says, and a cracked tooth's sector still fits its neighbours."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse_sector import COARSE, PINION, coarse_sector_mesh
+
+from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.element_sizes import SizeField, SizeSource, along, divided
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.mesh_data import BodyMesh, corner_areas, oriented
+from fenics_gears.elasticity.sector_mesh import filled
+from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, crack_line, cracked_gear_mesh, cracked_sector_mesh, opened
+from fenics_gears.elasticity.whole_body.outline import boundary_sides, joined_cells
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.outline import tooth_outline
+
+LENGTH, HEIGHT = 6.0, 1.0
+
+
+def strip(depth: float) -> BodyMesh:
+    """A strip along x, between y = 0 and HEIGHT, with a crack of some depth (none for zero) down from the middle of its upper side."""
+    step = 0.125
+    right, left = np.arange(0.0, LENGTH, step), np.arange(LENGTH, 0.0, -step)
+    up = np.arange(0.0, HEIGHT, step)
+    corners = [
+        np.column_stack([right, 0.0 * right]),
+        np.column_stack([0.0 * up + LENGTH, up]),
+        np.column_stack([left, 0.0 * left + HEIGHT]),
+        np.column_stack([0.0 * up, HEIGHT - up]),
+    ]
+    boundary = np.vstack(corners)
+    sources = [SizeSource(boundary, step, 0.0, 0.3)]
+    if depth == 0.0:
+        points, (cells,) = filled(boundary, SizeField(tuple(sources), step), 1.0, recombine=False)
+        return BodyMesh(points, oriented(points, cells), {})
+    mouth = int(np.argmin(np.linalg.norm(boundary - [0.5 * LENGTH, HEIGHT], axis=1)))
+    line = boundary[mouth] - np.linspace(0.0, depth, 200)[:, None] * [0.0, 1.0]
+    sources.append(SizeSource(line[-1:], depth / 40.0, depth / 20.0, 0.35))
+    field = SizeField(tuple(sources), step)
+    slit = along(line, divided(line, field.at(line), 4))[1:]
+    points, (cells,) = filled(boundary, field, 1.0, recombine=False, slit=slit, mouth=mouth)
+    return BodyMesh(*opened(points, oriented(points, cells), np.append(mouth, len(boundary) + np.arange(len(slit)))), {})
+
+
+def rotation_under_couple(mesh: BodyMesh) -> float:
+    """Rotation of a strip's right end, its left end held, per couple there, E = 1, nu = 0.3, plane strain: from the couple's work."""
+    ends = [np.array([[x, y] for y in np.arange(0.0, HEIGHT + 0.01, 0.125)]) for x in (0.0, LENGTH)]
+    body = condense(mesh, ELEMENTS["P2"], 0.3, {"held": ends[0], "loaded": ends[1]})
+    arms = ends[1][:, 1] - 0.5 * HEIGHT
+    forces = np.column_stack([arms / (arms @ arms), 0.0 * arms]).ravel()
+    return float(forces @ np.linalg.solve(body.between("loaded", "loaded"), forces))
+
+
+@pytest.mark.parametrize("depth", [0.3, 0.6])
+def test_a_crack_lets_a_bent_strip_turn_as_fracture_mechanics_says(depth):
+    """Authority: K_I = sigma sqrt(pi a) F(a/W) of an edge crack in pure bending, F by Brown and Srawley (ASTM STP 410, 1966) to 0.2 % up to
+    a/W = 0.6; by energy release (Irwin) the additional rotation is 12 pi sigma/(E' W^2) times the integral of a F^2."""
+    shape = np.polynomial.Polynomial([1.122, -1.40, 7.33, -13.08, 14.0])
+    integral = (np.polynomial.Polynomial([0.0, 1.0]) * shape**2).integ()(depth / HEIGHT)
+    expected = 12.0 * np.pi * integral * (6.0 / HEIGHT**2) * (1.0 - 0.3**2)
+    found = rotation_under_couple(strip(depth)) - rotation_under_couple(strip(0.0))
+    assert found == pytest.approx(expected, rel=0.005)
+
+
+def test_a_cracked_sector_has_two_faces_and_the_cuts_of_a_whole_one():
+    """Exact: cuts, bore and flank are the whole tooth's; the boundary is longer by both faces of the crack; the area is the same."""
+    crack = RootCrack(3.0)
+    whole, cracked = coarse_sector_mesh("P2"), cracked_sector_mesh(PINION, COARSE, crack)
+    for part in ("flank", "hub", "lower cut", "upper cut"):
+        assert np.array_equal(cracked.points[cracked.edges[part]], whole.points[whole.edges[part]])
+    length = {}
+    for name, mesh in (("whole", whole), ("cracked", cracked)):
+        ends = mesh.points[boundary_sides(mesh.cells)]
+        length[name] = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
+        assert corner_areas(mesh.points, mesh.cells).min() > 0.0
+    # One vertex of the fillet has moved along it to the mouth.
+    assert length["cracked"] - length["whole"] == pytest.approx(2.0 * crack.depth, abs=1e-3)
+    area = [0.5 * corner_areas(mesh.points, mesh.cells)[:, 0].sum() for mesh in (whole, cracked)]
+    assert area[0] == pytest.approx(area[1], rel=1e-4)
+    assert joined_cells(cracked.cells).max() == 0
+
+
+def test_a_crack_begins_where_the_fillet_has_the_angle_and_goes_into_the_tooth():
+    """Authority: the definition; at 30 degrees of the fillet to the centreline, and 45 degrees between centreline and crack."""
+    mouth, direction = crack_line(PINION, RootCrack(3.0))
+    outline = tooth_outline(PINION, 4001)
+    axis = np.array([np.cos(outline.centreline_angle), np.sin(outline.centreline_angle)])
+    nearest = int(np.argmin(np.linalg.norm(outline.fillet - mouth, axis=1)))
+    tangent = outline.fillet[nearest + 1] - outline.fillet[nearest - 1]
+    assert abs(tangent @ axis) / np.linalg.norm(tangent) == pytest.approx(np.cos(np.radians(30.0)), abs=1e-3)
+    assert direction @ axis == pytest.approx(-np.cos(np.radians(45.0))) and np.linalg.norm(direction) == pytest.approx(1.0)
+    across = abs(mouth[0] * axis[1] - mouth[1] * axis[0])
+    ahead = mouth + 1e-3 * direction
+    assert abs(ahead[0] * axis[1] - ahead[1] * axis[0]) < across
+
+
+@pytest.mark.parametrize(
+    ("crack", "message"),
+    [
+        (RootCrack(30.0), "30 mm at 45 degrees .* leaves less than 0.675 mm of the tooth's sector whole from about 12 mm on"),
+        (RootCrack(9.0, np.radians(100.0)), "leaves less than"),
+        (RootCrack(-1.0), "deeper than nothing"),
+        (RootCrack(3.0, mouth=np.radians(85.0)), "no place where it stands at 85 degrees .* between .* and 79.2 degrees"),
+    ],
+)
+def test_a_crack_that_leaves_no_tooth_is_refused(crack, message):
+    """The message says where, and what is allowed."""
+    with pytest.raises(SceneError, match=message):
+        cracked_sector_mesh(PINION, COARSE, crack)
+
+
+def test_a_tooth_that_is_not_there_is_refused():
+    """Teeth are counted from 0."""
+    with pytest.raises(SceneError, match="tooth 16: the gear has teeth 0 to 15"):
+        cracked_gear_mesh(PINION, COARSE, {16: RootCrack(3.0)})
+
+
+def test_both_flanks_make_no_difference_to_the_mesh():
+    """The drive flanks carry; a sector that is asked to have two working flanks is meshed as the others are."""
+    mesh = cracked_gear_mesh(PINION, replace(COARSE, both_flanks=True), {3: RootCrack(3.0)})
+    assert np.array_equal(mesh.points, cracked_gear_mesh(PINION, COARSE, {3: RootCrack(3.0)}).points)
