@@ -9,6 +9,11 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.geometry.gear import Gear
 
+# An edge across this angle (rad) cuts less than 0.05 % of its radius off the bore.
+HUB_ANGLE = 0.06
+# Elements that grow faster than this inwards become slivers.
+FASTEST_GROWTH = 0.35
+
 
 @dataclass(frozen=True)
 class ElementSizes:
@@ -18,6 +23,7 @@ class ElementSizes:
     and fillets. coast: along the coast flank and the tip. body: largest size in the tooth and the rim
     below it; further inside elements go on growing. growth: increase of size per distance.
     both_flanks: the coast flank is a working flank too, meshed as the drive flank's mirror image.
+    hub_angle: largest angle (rad) of an edge along the bore.
     """
 
     flank: float
@@ -27,6 +33,17 @@ class ElementSizes:
     depth: float = 2.5
     growth: float = 0.35
     both_flanks: bool = False
+    hub_angle: float = HUB_ANGLE
+
+    def refined(self, factor: float) -> ElementSizes:
+        """All but the flank `factor` times as large, so that the meshes of several factors are one family, whose error falls with an order.
+
+        Growth inwards stays within what elements bear, and the bore keeps its edges where the others are made larger.
+        """
+        return replace(
+            self, fillet=factor * self.fillet, coast=factor * self.coast, body=factor * self.body,
+            growth=min(factor * self.growth, max(self.growth, FASTEST_GROWTH)), hub_angle=min(factor, 1.0) * self.hub_angle,
+        )  # fmt: skip
 
     def in_modules_of(self, gear: Gear) -> ElementSizes:
         """The sizes as multiples of a gear's module."""

@@ -16,7 +16,7 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.scene.data import Material
 
 # To be raised by one whenever the same inputs give other numbers.
-ALGORITHM_VERSION = 4
+ALGORITHM_VERSION = 5
 
 # By element order, in modules (the flank's size is always given). Against a mesh several times finer everywhere, the mean compliance
 # under 1 mm of uniform pressure at tip, middle and form circle is then within 0.05 % (P2, Q2) and 0.3 % (P1, Q1) with 0.06 mm on the flank.
@@ -44,7 +44,7 @@ def flank_compliance(
     In plane strain similar gears have the same displacement per line force: the gear of module one stands for all of them, and
     they share an entry of the cache.
 
-    flank_element_size, body_element_size: mm, along the working flank and the largest anywhere (None: from the module).
+    flank_element_size, body_element_size: mm, along the working flank and the largest in tooth and rim (None: from the module).
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. elastic_teeth: teeth this many pitches apart and
     further do not feel each other (1: each feels itself alone), all do when None. coast_flank: know the coast flank too.
     comm: communicator of one rank, COMM_SELF when None. Raises SceneError for an unknown element or an impossible size, ComputationError when a stage fails.
@@ -104,21 +104,15 @@ def with_unfelt_teeth(blocks: np.ndarray, offsets: int) -> np.ndarray:
 def element_sizes(gear: Gear, element: Element, flank: float, body: float | None = None) -> ElementSizes:
     """Element sizes (mm) of a gear's sector mesh for a wanted size on the flank and, if not None, in the body.
 
-    Raises SceneError for a size that is not positive and finite.
+    With the body's size all others but the flank's are made larger or smaller than by default, as much as it is. Raises SceneError for a size that is not positive and finite.
     """
     for name, size in (("flank_element_size", flank), ("body_element_size", body)):
         if size is not None and not (np.isfinite(size) and size > 0.0):
             raise SceneError(f"{name} is {size} mm, must be positive and finite")
     default = DEFAULT_SIZES[element.order]
-    largest = gear.module * default.body if body is None else body
-    return ElementSizes(
-        flank=flank,
-        fillet=min(gear.module * default.fillet, largest),
-        coast=min(gear.module * default.coast, largest),
-        body=largest,
-        depth=default.depth,
-        growth=default.growth,
-    )
+    fillet, coast, largest = (gear.module * size for size in (default.fillet, default.coast, default.body))
+    sizes = replace(default, flank=flank, fillet=fillet, coast=coast, body=largest)
+    return sizes if body is None else sizes.refined(body / largest)
 
 
 def _check(gear: Gear, material: Material, tooth_offsets: int) -> None:

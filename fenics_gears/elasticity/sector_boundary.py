@@ -15,8 +15,6 @@ FILLET_SAMPLES = 201
 CURVE_SAMPLES = 400
 # Elements have at most the body's size to this depth (modules) below the tooth's surface, and grow beyond it.
 BODY_REACH = 2.0
-# An edge across this angle (rad) cuts less than 0.05 % of its radius off the bore.
-HUB_EDGE_ANGLE = 0.06
 # A prescribed vertex this near to an end of the flank (in element sizes) is that end.
 SNAP = 1e-6
 
@@ -104,7 +102,7 @@ def sector_boundary(
 
 def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
     growth = sizes.growth
-    hub_size = gear.bore_radius * min(gear.angular_pitch, HUB_EDGE_ANGLE)
+    hub_size = gear.bore_radius * min(gear.angular_pitch, sizes.hub_angle)
     largest = 0.5 * (gear.root_radius - gear.bore_radius)
     body, fillet, coast_size = (min(size, largest) for size in (sizes.body, sizes.fillet, sizes.coast))
     roots = np.vstack([root, outline.coast(root)])

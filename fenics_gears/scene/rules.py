@@ -17,7 +17,7 @@ from fenics_gears.scene.tree import Tree, quantity_in, table, teeth_in
 from fenics_gears.scene.written import as_written
 
 # In modules: the dense compliance of a flank of such elements has gigabytes.
-FINEST_ELEMENT, FINEST_BODY = 1e-3, 5e-3
+FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2
 EVERY_STEP = "every step"
 
 

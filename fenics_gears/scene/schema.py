@@ -94,7 +94,11 @@ class Accuracy(Section):
         otherwise="a quarter of the Hertz half-width at the whole load on one pair and the smallest relative radius; 1/200 to 1/25 of the module",
     )
     body_element_size: Optional[float] = quantity(
-        "1e-6 mm", "10 m", "1.3 mm", meaning="largest element in tooth and rim", otherwise="a part of the module, by the element's order"
+        "1e-6 mm",
+        "10 m",
+        "1.3 mm",
+        meaning="largest element in tooth and rim; those of fillets, coast flank and bore are finer or coarser by as much as it is",
+        otherwise="a part of the module, by the element's order",
     )
     contact_length: Optional[float] = quantity(
         "1e-6 mm",

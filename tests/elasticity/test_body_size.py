@@ -1,0 +1,48 @@
+"""The body's element size: a family of meshes whose error falls with an order, the flank's elements left as they are."""
+
+import numpy as np
+import pytest
+
+from fenics_gears.elasticity.element_sizes import HUB_ANGLE
+from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES, element_sizes, flank_compliance
+
+FLANK = 0.3
+
+
+def stretched(gear, steel, element, factor):
+    """Mean displacement along x under a force along x that is spread over the whole flank, mm per N/mm."""
+    order = element_named(element).order
+    body = gear.module * DEFAULT_SIZES[order].body * factor
+    found = flank_compliance(
+        gear, steel, element=element, flank_element_size=FLANK, tooth_offsets=0, body_element_size=body,
+    )  # fmt: skip
+    elements = (found.nodes - 1) // order
+    shares = np.zeros(found.nodes)
+    for first in range(elements):
+        shares[order * first: order * (first + 1) + 1] += (np.array([1.0, 4.0, 1.0]) / 6.0 if order == 2 else 0.5) / elements
+    return shares @ found.blocks[0][::2, ::2] @ shares
+
+
+@pytest.mark.parametrize("element, factors", [("P2", (2.0, 1.0, 0.5, 0.25)), ("Q2", (2.0, 1.0, 0.5))])
+def test_the_error_falls_with_the_square_of_the_size(pinion, steel, element, factors):
+    """Theory (Strang and Berger 1973): straight sides along a curved outline leave h^2, though elements of second order could do better."""
+    changes = np.diff([stretched(pinion, steel, element, factor) for factor in factors])
+    assert (changes > 0.0).all()
+    orders = np.log2(changes[:-1] / changes[1:])
+    assert np.abs(orders - 2.0).max() < 0.5
+
+
+@pytest.mark.parametrize("element", ["P1", "P2"])
+def test_the_default_is_one_of_the_family(pinion, element):
+    """Exact: the default's own size changes nothing; another one all but the flank's, in proportion."""
+    chosen = element_named(element)
+    default = element_sizes(pinion, chosen, FLANK)
+    assert element_sizes(pinion, chosen, FLANK, default.body) == default
+    half = element_sizes(pinion, chosen, FLANK, 0.5 * default.body)
+    for name in ("fillet", "coast", "body", "growth", "hub_angle"):
+        assert getattr(half, name) == pytest.approx(0.5 * getattr(default, name))
+    twice = element_sizes(pinion, chosen, FLANK, 2.0 * default.body)
+    assert (twice.fillet, twice.hub_angle) == (pytest.approx(2.0 * default.fillet), HUB_ANGLE)
+    assert twice.growth == pytest.approx(0.35 if element == "P2" else 2.0 * default.growth)
+    assert half.flank == twice.flank == FLANK and half.depth == twice.depth == default.depth
