@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -286,7 +287,7 @@ def _heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     figure.text(0.015, 0.917, words if complete else f"{words}  ·  INCOMPLETE RUN", fontsize=13, color=DARK if complete else WARNING, parse_math=False)
 
 
-def save_picture(figure: Figure, path: Path) -> None:
+def save_picture(figure: Figure, path: Path | BinaryIO) -> None:
     """Save the picture as PNG, in the pixels it was drawn in."""
     FigureCanvasAgg(figure)
     figure.savefig(path, dpi=figure.dpi, metadata={"Software": None})

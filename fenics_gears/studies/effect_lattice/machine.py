@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.metadata
 import os
 import platform
+from collections.abc import Sequence
 from pathlib import Path
 
 import fenics_gears
@@ -44,10 +45,10 @@ def threads() -> str:
     return str(max(counts, default=1))
 
 
-def versions() -> str:
-    """Versions of this program, Python and the packages that compute."""
+def versions(packages: Sequence[str] = PACKAGES) -> str:
+    """Versions of this program, Python and packages, those that compute unless others are named; one that is not installed is left out."""
     found = [f"fenics_gears {fenics_gears.__version__}", f"Python {platform.python_version()}"]
-    for package in PACKAGES:
+    for package in packages:
         try:
             found.append(f"{package.removeprefix('fenics-')} {importlib.metadata.version(package)}")
         except importlib.metadata.PackageNotFoundError:

@@ -1,0 +1,135 @@
+"""``gears report RUN``: one HTML page on a run or a study, complete in itself."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from fenics_gears.commands.run import RUN_FILE
+from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.errors import ComputationError, SceneError
+
+REPORT_FILE = "report.html"
+ENDINGS = (".html", ".htm")
+STUDY_FILE, CASES = "study.nc", "cases"
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("report", parents=[shared], help="write one HTML page on a run or a study that needs no network")
+    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc, a study's directory, or the file of one of its cases")
+    command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help=f"what to write (default: {REPORT_FILE} beside {RUN_FILE})")
+    command.add_argument("--at", type=float, metavar="PHASE", help="the stress picture's mesh cycles after the first stored step (default: where the force is largest)")
+    command.add_argument("--no-stress", action="store_true", help="leave the stress picture out: seconds less")
+    command.add_argument("--effects", action="store_true", help="measure first what each effect costs and changes, as `gears effects` does")
+    command.set_defaults(command=report)
+
+
+def report(options: argparse.Namespace) -> int:
+    """Write the page of a run or a study."""
+    file, is_study = found_file(options.run)
+    output = output_file(options.output, file, is_study)
+    _check(options, output, is_study)
+    progress = told_progress(options.quiet)
+    try:
+        written = (_study if is_study else _run)(options, file, output, progress)
+    finally:
+        progress.close()
+    if not options.quiet:
+        for path in written:
+            print(path)
+    return 0
+
+
+def found_file(path: Path) -> tuple[Path, bool]:
+    """The result's file that is meant, and whether it is a study's. Raises SceneError where there is none."""
+    if path.is_dir():
+        for name in (RUN_FILE, STUDY_FILE):
+            if (path / name).is_file():
+                return path / name, name == STUDY_FILE
+        if (path / CASES).is_dir():
+            raise SceneError(f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again, it writes the file from what there is.")
+        raise SceneError(f"{path}: there is neither {RUN_FILE} nor {STUDY_FILE} in it. A report is on a directory that `gears run` or `gears study` wrote.")
+    if not path.is_file():
+        raise SceneError(f"{path}: there is no such file or directory. A report is on what `gears run` or `gears study` wrote.")
+    return path, path.name == STUDY_FILE
+
+
+def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
+    """The page's file: as asked for, in the directory asked for, or beside the result; a study's case has its own name."""
+    own = file.name in (RUN_FILE, STUDY_FILE)
+    name = REPORT_FILE if own else f"{file.stem}.html"
+    if asked is None:
+        return file.parent / name
+    if asked.is_dir() or not asked.suffix:
+        return asked / name
+    if asked.suffix.lower() not in ENDINGS:
+        raise SceneError(f"{asked}: the report is an .html file; give --output such a name, or a directory")
+    return asked
+
+
+def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
+    from fenics_gears.output import check_writable
+
+    check_writable(output.parent)
+    if output.is_dir():
+        raise SceneError(f"{output} is a directory; the report is a file. Choose another one with --output FILE.")
+    if is_study and (options.effects or options.at is not None):
+        raise SceneError("--effects and --at are for the report on a run; this is a study. Leave them out, or name one of its cases.")
+
+
+def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
+    from fenics_gears import results
+    from fenics_gears.show.report.run import Run
+    from fenics_gears.show.report.run_page import run_page
+
+    run = Run(_read(results.load, file), file, at=options.at, stress=not options.no_stress)
+    written = []
+    if options.at is not None and run.steps:
+        from fenics_gears.results.stored_forces import stored_index
+
+        stored_index(run.dataset, options.at)
+    if options.effects:
+        written = _measure_effects(run, progress)
+    return [*written, *_write(run_page(run, progress), output)]
+
+
+def _study(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
+    from fenics_gears.show.report.study_page import study_page
+    from fenics_gears.studies.combine import load_combined
+
+    return _write(study_page(_read(load_combined, file), file, output, progress), output)
+
+
+def _read(load, file: Path):
+    try:
+        return load(file)
+    except ComputationError as error:
+        # Nothing was computed: the call is wrong.
+        raise SceneError(str(error)) from error
+
+
+def _measure_effects(run, progress) -> list[Path]:
+    """Measure the effects of the run's scene, and write what `gears effects` writes beside it."""
+    from fenics_gears.commands.measuring import write_report
+    from fenics_gears.job import communicator
+    from fenics_gears.show.effect_costs import effect_costs
+    from fenics_gears.studies.effect_lattice.measured import measure
+    from fenics_gears.studies.effect_lattice.table import write_csv
+
+    if run.scene is None:
+        raise SceneError(f"{run.file}: the scene in it is none of this version, so that its effects cannot be measured. Run the scene again.")
+    if communicator() is not None:
+        raise SceneError("--effects measures times, which mean nothing while processes share the machine. Start gears without mpirun.")
+    return write_report(measure(run.scene, progress), run.file.parent, "effects", write_csv, effect_costs)
+
+
+def _write(page, output: Path) -> list[Path]:
+    from fenics_gears.output import written_aside
+    from fenics_gears.show.report.rendering import rendered
+
+    text = rendered(page)
+    written: list[Path] = []
+    with written_aside(output.parent, written) as aside:
+        (aside / output.name).write_text(text, encoding="utf-8")
+    return written

@@ -1,0 +1,83 @@
+"""The effects of a run, on and off, and what each costs and changes where `gears effects` has measured it."""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+
+from fenics_gears.description import effect_states
+from fenics_gears.effects import effects_on
+from fenics_gears.show.report.page import Block, Picture, Section, Table, Words
+from fenics_gears.show.report.run import NO_SCENE, Run
+from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS, MICRO, MILLI, in_percent
+
+MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"
+# Relative; the same scene gives the same transmission error, on another processor to round-off.
+SAME_ANSWER = 1e-3
+
+
+def effects(run: Run) -> Section:
+    """Each effect with what the model has by it or without it; below, what was measured."""
+    if run.scene is None:
+        return Section("effects", "Effects", [Words(NO_SCENE, warns=True)])
+    states = sorted(effect_states(run.scene), key=lambda state: not state.on)
+    rows = [("● on" if state.on else "○ off", f"[{state.effect.written}]", state.words, state.adds) for state in states]
+    table = Table(("", "Section", "The model has", "which adds"), rows, numbers=9)
+    return Section("effects", "Effects on and off", [table, *_measured(run)])
+
+
+def _measured(run: Run) -> list[Block]:
+    """What `gears effects` wrote into the run's directory, where it is of this scene."""
+    file = run.file.parent / MEASURED_TABLE
+    if not file.is_file():
+        return [Words("What each effect costs and changes was not measured; the report's option `--effects` does it (it runs the scene with and without each).")]
+    lines = _lines(file)
+    if lines is None:
+        return [Words(f"{MEASURED_TABLE} beside the run is no table of this version's `gears effects`, and is left out.", warns=True)]
+    if not _same_scene(run, lines):
+        return [Words(f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; the report's option `--effects` measures anew.", warns=True)]
+    blocks: list[Block] = [_table(lines)]
+    picture = file.with_name(MEASURED_PICTURE)
+    if picture.is_file():
+        blocks.append(Picture("What the effects cost and change", picture.read_bytes()))
+    first = lines[0]
+    blocks.append(Words(f"Measured on {first['processor']}, load {first['load']}; threads: {first['threads']}; {first['versions']}."))
+    return blocks
+
+
+def _lines(file: Path) -> list[dict[str, str]] | None:
+    try:
+        with open(file, encoding="utf-8", newline="") as opened:
+            reader = csv.DictReader(opened)
+            return list(reader) if tuple(reader.fieldnames or ()) == CSV_COLUMNS else None
+    except (OSError, UnicodeDecodeError, csv.Error):
+        return None
+
+
+def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
+    """Whether the scene as a whole is there, with this run's transmission error."""
+    whole = {each.section for each in effects_on(run.scene)}
+    found = next((line for line in lines if line["step_time_s"] and set(line["sections"].split()) == whole), None)
+    if found is None:
+        return False
+    answer = run.dataset.attrs.get("peak_to_peak_transmission_error", math.nan) * run.micrometres
+    measured = float(found["transmission_error_peak_to_peak_mm"]) * MILLI
+    return not run.complete or math.isclose(measured, answer, rel_tol=SAME_ANSWER, abs_tol=1e-4)
+
+
+def _table(lines: list[dict[str, str]]) -> Table:
+    headings = ("Effects", "Unknowns", "Newton a step", "Time a step (µs)", "Condensing (s)", "T_EPP (µm)", "Change", "Peak force (N)", "Change", "Compared with")
+    rows, skipped = [], []
+    for line in lines:
+        if not line["step_time_s"]:
+            skipped.append((line["effects"], *[""] * 8, line["remarks"]))
+            continue
+        number = {name: float(line[name]) for name in CSV_COLUMNS[2:15]}
+        changes = [in_percent(float(line[name])) if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")]
+        rows.append((
+            line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}", f"{number['newton_iterations_per_step']:.2f}",
+            f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}", f"{number['transmission_error_peak_to_peak_mm'] * MILLI:.3f}", changes[0],
+            f"{number['peak_force_N']:,.0f}", changes[1], line["compared_with"],
+        ))  # fmt: skip
+    return Table(headings, rows + skipped, caption="What each effect costs and changes")

@@ -1,0 +1,58 @@
+"""The energy account: what the pair holds, what comes in, what goes where, and what is left unexplained."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.show.panels import DARK, PALETTE
+from fenics_gears.show.report.forces import least
+from fenics_gears.show.report.page import Facts, Section, Words
+from fenics_gears.show.report.plotting import over_time
+from fenics_gears.show.report.run import TOO_FEW, Run
+from fenics_gears.show.units import in_unit
+
+PARTS = {"energy_teeth": "teeth", "energy_shafts": "shafts", "energy_bearings": "bearings", "energy_kinetic": "motion (kinetic)"}
+TAKEN = {"work_friction": "friction", "work_damping": "damping"}
+HEADING = "Energy account"
+# N m and J are the same; the results' unit is N mm.
+UNIT = "N m"
+
+
+def energy(run: Run) -> Section:
+    """The account over the stored cycles as numbers and curves."""
+    if "energy" not in run.dataset or not run.has_curves:
+        return Section("energy", HEADING, [Words(TOO_FEW if "energy" in run.dataset else "The result has no energies.", warns=True)])
+    return Section("energy", HEADING, [Facts(_rows(run), "Over the stored mesh cycles (1 N m = 1 J)"), *_curves(run)])
+
+
+def _rows(run: Run) -> list[tuple[str, str, str]]:
+    last = {name: in_unit(run.dataset[name], UNIT)[-1] for name in ("work_input", "work_output", *TAKEN, "work_contact_changes", "energy_defect") if name in run.dataset}
+    held = in_unit(run.dataset["energy"], UNIT)
+    drive = abs(last["work_input"])
+
+    def row(label: str, value: float) -> tuple[str, str, str]:
+        share = f" ({abs(value) / drive:.3%} of the drive's work)" if drive and label != "work of the drive" else ""
+        # What rounding leaves of two equal numbers is none.
+        return label, f"{value if abs(value) > 1e-9 * drive else 0.0:.6g}", UNIT + share
+
+    rows = [row("work of the drive", last["work_input"]), row("work done on the load", last["work_output"])]
+    rows += [row(f"taken by {words}", last[name]) for name, words in TAKEN.items() if name in last]
+    rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
+    rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
+    rows.append(("not explained by any of these", f"{float(np.abs(in_unit(run.dataset['energy_defect'], UNIT)).max()):.2g}", f"{UNIT} at most, at any stored step"))
+    return rows
+
+
+def _curves(run: Run) -> list:
+    dataset = run.dataset
+    held = [(words, in_unit(dataset[name], UNIT), colour) for (name, words), colour in zip(PARTS.items(), PALETTE) if name in dataset]
+    held.append(("all", in_unit(dataset["energy"], UNIT), DARK))
+    taken = [(words, in_unit(dataset[name], UNIT), colour) for (name, words), colour in zip(TAKEN.items(), PALETTE) if name in dataset]
+    taken.append(("contact changes, by the time stepping", -in_unit(dataset["work_contact_changes"], UNIT), PALETTE[3]))
+    defect = in_unit(dataset["energy_defect"], UNIT)
+    spans = [least(np.concatenate([each for _, each, _ in curves])) * 1e-6 for curves in (held, taken)]
+    return [
+        over_time(dataset, "Energy held", "Energy (N m)", held, least=spans[0]),
+        over_time(dataset, "Work taken since the first stored step", "Work (N m)", taken, least=spans[1]),
+        over_time(dataset, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
+    ]

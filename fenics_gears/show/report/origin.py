@@ -1,0 +1,39 @@
+"""Where a report comes from: versions, the file, the scene's text."""
+
+from __future__ import annotations
+
+import datetime
+from pathlib import Path
+
+import fenics_gears
+from fenics_gears.show.report.page import Facts, Listing, Section, Words
+from fenics_gears.studies.effect_lattice.machine import versions
+
+# What draws and writes a report, besides what computes.
+PAGE_PACKAGES = ("numpy", "fenics-dolfinx", "petsc4py", "plotly", "matplotlib", "pyvista", "jinja2")
+
+
+def version_section(attributes: dict, file: Path) -> Section:
+    """Versions of what computed and of what made the page."""
+    computed = str(attributes.get("fenics_gears_version", "unknown"))
+    written = datetime.datetime.fromtimestamp(file.stat().st_mtime).astimezone()
+    rows = [
+        ("computed by", f"fenics_gears {computed}", ""),
+        ("result", f"{file.name}, {file.stat().st_size / 1e6:.2f} MB, written {written:%Y-%m-%d %H:%M}", ""),
+        ("this page by", versions(PAGE_PACKAGES), ""),
+    ]
+    blocks = [Facts(rows)]
+    if computed != fenics_gears.__version__:
+        blocks.append(Words(f"The result was computed by version {computed}, this page is made by {fenics_gears.__version__}.", warns=True))
+    return Section("versions", "Versions", blocks)
+
+
+def scene_section(text: str, heading: str = "Scene", name: str = "scene") -> Section:
+    """A file's text as it was read."""
+    return Section(name, heading, [Listing(text) if text.strip() else Words("The result has no scene's text.", warns=True)])
+
+
+def made_by() -> str:
+    """The page's last line."""
+    now = datetime.datetime.now().astimezone()
+    return f"Made by fenics_gears {fenics_gears.__version__} (gears report) on {now:%Y-%m-%d %H:%M}. One file, complete in itself; it loads nothing from a network."

@@ -1,0 +1,78 @@
+"""What is read first: the numbers that a pair is judged by, the summary, the warnings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.show.report.page import Facts, Section, Tile, Tiles, Words
+from fenics_gears.show.report.run import Run
+from fenics_gears.show.units import factor
+
+
+def summary(run: Run) -> Section:
+    """The numbers of the run, the largest first and the rest below."""
+    if not run.steps:
+        return Section("summary", "Summary", [Words("No step is stored: the run ended before its recorded mesh cycles began.", warns=True)])
+    return Section("summary", "Summary", [Tiles(list(_tiles(run))), Facts(_rows(run))])
+
+
+def warnings(run: Run) -> Section:
+    """What the run says against itself."""
+    said = str(run.dataset.attrs.get("warnings", "")).splitlines()
+    blocks = [Words(_sentence(each), warns=True) for each in said]
+    return Section("warnings", "Warnings", blocks or [Words("None: the run stayed within what the model assumes.")])
+
+
+def _sentence(words: str) -> str:
+    return words[:1].upper() + words[1:] + ("" if words.endswith(".") else ".")
+
+
+def _tiles(run: Run) -> Iterator[Tile]:
+    attributes, dataset = run.dataset.attrs, run.dataset
+    part = "" if run.complete else " of what is stored"
+    for name, label in (("peak_to_peak_transmission_error", "Transmission error, peak to peak"), ("mean_transmission_error", "Transmission error, mean")):
+        angle = attributes.get(name, math.nan)
+        if math.isfinite(angle) and math.isfinite(run.micrometres):
+            yield Tile(label + part, _digits(angle * run.micrometres), "µm", f"{_digits(angle * factor('rad', 'µrad'))} µrad of the wheel")
+    if "normal_force" in dataset:
+        largest, note = largest_normal_force(dataset), ""
+        nominal = 0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius
+        if nominal:
+            note = f"{largest / nominal:.3g} × nominal {_digits(nominal)} N"
+        yield Tile("Largest mesh force", _digits(largest), "N", note)
+    if "peak_contact_pressure" in attributes:
+        yield Tile("Peak contact pressure", _digits(attributes["peak_contact_pressure"]), "MPa", "over five contact nodes")
+    if "root_stress_maximum" in dataset:
+        largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
+        yield Tile("Largest root stress", _digits(float(largest.max())), "MPa", f"pinion {_digits(largest[0])}, wheel {_digits(largest[1])}")
+    if "dynamic_factor_by_force" in attributes:
+        yield Tile("Dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f}", "", f"by force; {attributes['dynamic_factor_by_stress']:.3f} by root stress")
+    if "friction_loss" in attributes:
+        yield Tile("Friction takes", f"{100.0 * attributes['friction_loss']:.3g}", "%", "of the work of the drive")
+    if run.pair is not None:
+        yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}")
+    if attributes.get("contact_loss_count"):
+        share = 100.0 * attributes["contact_loss_share"]
+        yield Tile("Contact lost", f"{attributes['contact_loss_count']}", "times", f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm")
+
+
+def _rows(run: Run) -> list[tuple[str, object, str]]:
+    dataset, attributes, rows = run.dataset, run.dataset.attrs, []
+    times, phase = dataset["time"].values, dataset["mesh_phase"].values
+    if run.scene is not None:
+        low, high = run.scene.mesh_frequencies
+        speed = low / run.scene.gears.pinion.teeth * factor("1/s", "1/min") if low == high else None
+        rows.append(("couple on the wheel", run.scene.load.wheel_torque * factor("N mm", "N m"), "N m"))
+        rows.append(("mesh frequency", f"{low:g} Hz, the pinion at {speed:.5g} rpm" if speed is not None else f"{low:g} to {high:g} Hz", ""))
+    rows.append(("stored", f"mesh cycles {phase[0]:g} to {phase[-1]:g}, {times[0]:.6g} s to {times[-1]:.6g} s, {run.steps:,} steps", ""))
+    if "contact_loss_count" in attributes:
+        count = attributes["contact_loss_count"]
+        rows.append(("contact of the drive flanks", f"lost {count} times, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost", ""))
+    return rows
+
+
+def _digits(value: float) -> str:
+    """Four digits, as measurements have them."""
+    return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:.4g}"

@@ -1,0 +1,149 @@
+"""What a report's page consists of: sections of words, tables, curves and pictures. How it looks is the template's business."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+
+@dataclass(frozen=True)
+class Words:
+    """A paragraph; `warns`: set off as a warning."""
+
+    text: str
+    warns: bool = False
+    kind: ClassVar[str] = "words"
+
+
+@dataclass(frozen=True)
+class Tile:
+    """One number that is seen first: what it is, the number, its unit, a word on it."""
+
+    label: str
+    value: str
+    unit: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Tiles:
+    """The numbers that are seen first."""
+
+    tiles: Sequence[Tile]
+    kind: ClassVar[str] = "tiles"
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A table's cell: its text, a number to sort by, a page beside this one that it leads to, and whether it is a word of warning."""
+
+    text: str
+    value: float | None = None
+    link: str = ""
+    warns: bool = False
+    number: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of cells in columns; plain texts are cells. `numbers`: columns from this one on are aligned as numbers."""
+
+    headings: Sequence[str]
+    rows: Sequence[Sequence[Cell | str]]
+    caption: str = ""
+    sortable: bool = False
+    numbers: int = 1
+    kind: ClassVar[str] = "table"
+
+    @property
+    def cells(self) -> list[list[Cell]]:
+        """All cells as such."""
+        return [[self._cell(each, column) for column, each in enumerate(row)] for row in self.rows]
+
+    def _cell(self, each: Cell | str, column: int) -> Cell:
+        number = column >= self.numbers
+        return Cell(each, number=number) if isinstance(each, str) else Cell(each.text, each.value, each.link, each.warns, number)
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Rows of label, value and unit, as `gears check` and the summary of a run have them."""
+
+    rows: Sequence[tuple[str, Any, str]]
+    caption: str = ""
+    kind: ClassVar[str] = "facts"
+
+
+@dataclass(frozen=True)
+class Plot:
+    """Curves that can be zoomed: a plotly figure, with a caption above and a note below.
+
+    `linked`: the plots of a page with the same word here are zoomed together along their first axis.
+    """
+
+    caption: str
+    figure: Any
+    note: str = ""
+    height: int = 300
+    linked: str = ""
+    kind: ClassVar[str] = "plot"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A PNG picture (bytes), and what it shows in words."""
+
+    caption: str
+    png: bytes
+    note: str = ""
+    kind: ClassVar[str] = "picture"
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Text as it stands in a file."""
+
+    text: str
+    kind: ClassVar[str] = "listing"
+
+
+@dataclass(frozen=True)
+class Fold:
+    """Blocks under a line that opens them."""
+
+    heading: str
+    blocks: Sequence[Any]
+    kind: ClassVar[str] = "fold"
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Blocks next to each other where the page is wide enough."""
+
+    blocks: Sequence[Any]
+    kind: ClassVar[str] = "beside"
+
+
+Block = Words | Tiles | Table | Facts | Plot | Picture | Listing | Fold | Beside
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading, its name in links, and the blocks under it."""
+
+    name: str
+    heading: str
+    blocks: Sequence[Block]
+
+
+@dataclass(frozen=True)
+class Page:
+    """A whole report; `subject`: of what ("Run", "Study"); `subtitle`: its conditions; `alarm`: what must be known before anything."""
+
+    subject: str
+    title: str
+    subtitle: str
+    sections: Sequence[Section]
+    origin: str = ""
+    alarm: str = ""

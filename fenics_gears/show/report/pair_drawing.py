@@ -1,0 +1,134 @@
+"""The gear pair as a drawing that can be zoomed: teeth, circles, the line of action and the points on it."""
+
+from __future__ import annotations
+
+from math import degrees
+
+import numpy as np
+
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.run_stresses import standing
+from fenics_gears.show.panels import DARK, GREY, PALETTE
+from fenics_gears.show.report.page import Plot
+from fenics_gears.show.report.plotting import layout, numbers
+
+FILLET_POINTS, INVOLUTE_POINTS, CIRCLE_POINTS = 9, 14, 181
+FILLS = ("#DCE9F3", "#F3E6DA")
+
+
+def drawings(pair: GearPair) -> list[Plot]:
+    """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point."""
+    phase = (pair.pitch_point - pair.path_start) / pair.base_pitch
+    teeth = [gear_outline(pair, gear, phase) for gear in (0, 1)]
+    whole = _figure(pair, teeth, labels=False)
+    close = _figure(pair, teeth, labels=True)
+    _look_at(whole, *_whole(pair), height=620)
+    _look_at(close, *_teeth(pair), height=560)
+    note = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres. Drag to zoom, double click to come back."
+    return [Plot("The pair", whole, note, 620), Plot("Teeth along the path of contact", close, _points_in_words(pair), 560)]
+
+
+def gear_outline(pair: GearPair, gear: int, phase: float) -> np.ndarray:
+    """Outline (n, 2), mm, of a gear where it stands at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright."""
+    centre, angles = standing(pair, gear, phase)
+    tooth = _tooth((pair.pinion, pair.wheel)[gear])
+    # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
+    points = np.vstack([centre + tooth @ rotation(angle).T for angle in np.sort(angles)[::-1]])
+    return _upright(pair, np.vstack([points, points[:1]]))
+
+
+def _tooth(gear: Gear) -> np.ndarray:
+    """One tooth (n, 2) from the middle of the space beside its drive flank to the middle of the other."""
+    outline = tooth_outline(gear, FILLET_POINTS)
+    involute = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, INVOLUTE_POINTS))[1:]
+    foot = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
+    space = outline.centreline_angle + np.remainder(outline.space_angle - outline.centreline_angle + np.pi, 2 * np.pi) - np.pi
+    land = _arc(gear.root_radius, space, space + np.remainder(foot - space + np.pi, 2 * np.pi) - np.pi)
+    half = np.vstack([land[:-1], outline.fillet, involute])
+    return np.vstack([half, outline.coast(half)[::-1]])
+
+
+def _arc(radius: float, start: float, end: float, points: int = 4) -> np.ndarray:
+    angles = np.linspace(start, end, points)
+    return radius * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def _upright(pair: GearPair, points: np.ndarray) -> np.ndarray:
+    return points @ rotation(-pair.operating_pressure_angle).T
+
+
+def _figure(pair: GearPair, teeth: list[np.ndarray], labels: bool):
+    import plotly.graph_objects as go
+
+    gears, traces = (("pinion", pair.pinion), ("wheel", pair.wheel)), []
+
+    def line(name: str, points: np.ndarray, **style) -> None:
+        options = {"hoverinfo": "skip"} | style.pop("trace", {})
+        traces.append(go.Scatter(x=numbers(points[:, 0]), y=numbers(points[:, 1]), name=name, mode="lines", line=style, **options))
+
+    for (name, gear), points, fill, centre in zip(gears, teeth, FILLS, _centres(pair)):
+        line(name, points, color=DARK, width=1.2, trace={"fill": "toself", "fillcolor": fill})
+        line("bore", centre + _circle(gear.bore_radius), color=DARK, width=1.2, trace={"fill": "toself", "fillcolor": "white", "showlegend": False})
+    circles = {"base circles": ("base_radius", "dash", GREY), "reference circles": ("reference_radius", "dot", GREY)}
+    for name, (radius, dash, colour) in circles.items():
+        parts = [centre + _circle(getattr(gear, radius)) for (_, gear), centre in zip(gears, _centres(pair))]
+        line(name, np.vstack([parts[0], [[np.nan, np.nan]], parts[1]]), color=colour, dash=dash, width=1)
+    line("line of action", _on_line(pair, [0.0, pair.line_of_action_length]), color=PALETTE[1], width=1.2)
+    line("path of contact", _on_line(pair, [pair.path_start, pair.path_end]), color=PALETTE[1], width=4)
+    places = {name: place for name, place in _points(pair).items() if labels or name == "pitch point"}
+    at = _on_line(pair, list(places.values()))
+    marks = {"mode": "markers+text", "text": list(places) if labels else None, "textposition": "middle right", "hoverinfo": "text", "hovertext": list(places)}
+    # Three traces of one kind keep the text readable whatever lies under it.
+    traces.append(go.Scatter(
+        x=numbers(at[:, 0]), y=numbers(at[:, 1]), name="points", showlegend=False, textfont={"size": 12, "color": DARK},
+        marker={"size": 9, "color": "white", "line": {"color": DARK, "width": 1.6}}, **marks,
+    ))  # fmt: skip
+    return go.Figure(traces, layout("x (mm)", "y (mm)", legend=True))
+
+
+def _centres(pair: GearPair) -> tuple[np.ndarray, np.ndarray]:
+    return np.zeros(2), np.array([0.0, -pair.centre_distance])
+
+
+def _circle(radius: float) -> np.ndarray:
+    return _arc(radius, 0.0, 2.0 * np.pi, CIRCLE_POINTS)
+
+
+def _on_line(pair: GearPair, positions: list[float]) -> np.ndarray:
+    """Points (n, 2) of the picture at positions (mm from T1) on the line of action."""
+    return _upright(pair, np.column_stack([positions, np.full(len(positions), -pair.pinion.base_radius)]))
+
+
+def _points(pair: GearPair) -> dict[str, float]:
+    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever alone."""
+    alone = pair.fewest_pairs == 1
+    names = ("start of contact", "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", "end of contact")
+    places = (pair.path_start, pair.start_of_fewest_pairs, pair.pitch_point, pair.end_of_fewest_pairs, pair.path_end)
+    return {name: place for name, place in zip(names, places) if name}
+
+
+def _points_in_words(pair: GearPair) -> str:
+    words = "; ".join(f"{name} {place:.3f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in _points(pair).items())
+    return f"From T1 on the line of action, with the pinion's roll angle: {words}. LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
+
+
+def _whole(pair: GearPair) -> tuple[np.ndarray, float]:
+    """Middle and half height of a view of both gears."""
+    low, high = -pair.centre_distance - pair.wheel.tip_radius, pair.pinion.tip_radius
+    return np.array([0.0, 0.5 * (low + high)]), 0.53 * (high - low)
+
+
+def _teeth(pair: GearPair) -> tuple[np.ndarray, float]:
+    """Middle and half height of a view of the path of contact, with the teeth's roots."""
+    middle = _on_line(pair, [0.5 * (pair.path_start + pair.path_end)])[0]
+    depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 3.0 * pair.pinion.module
+    return middle, 0.5 * depth
+
+
+def _look_at(figure, middle: np.ndarray, half: float, height: int) -> None:
+    figure.update_xaxes(range=[middle[0] - half, middle[0] + half], showgrid=False, zeroline=False)
+    figure.update_yaxes(range=[middle[1] - half, middle[1] + half], showgrid=False, zeroline=False, scaleanchor="x", scaleratio=1)
+    figure.update_layout(hovermode="closest", height=height)

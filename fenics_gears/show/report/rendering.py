@@ -1,0 +1,63 @@
+"""A page as HTML: the template filled, plotly's library and all pictures inside, nothing to be fetched from anywhere."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import re
+from functools import cache
+from importlib import resources
+
+from fenics_gears.console import number_text
+from fenics_gears.show.report.page import Beside, Block, Fold, Page
+
+TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
+
+
+def rendered(page: Page) -> str:
+    """The page as one HTML document."""
+    from jinja2 import Environment, StrictUndefined
+    from markupsafe import Markup
+
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    environment.filters |= {"figure": _figure, "base64": _base64, "number": number_text, "code": _with_code}
+    drawn = any(_has_plot(block) for section in page.sections for block in section.blocks)
+    return environment.from_string(_own_file(TEMPLATE)).render(
+        page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)), library=Markup(plotly_library()) if drawn else "",
+    )  # fmt: skip
+
+
+@cache
+def plotly_library() -> str:
+    """Plotly's browser library, gzip in base64: Debian ships it without white space removed, 9 MB, which a page should not have."""
+    from plotly.offline import get_plotlyjs
+
+    # No time stamp, so that the same run gives the same page.
+    return base64.b64encode(gzip.compress(get_plotlyjs().encode(), mtime=0)).decode()
+
+
+def _has_plot(block: Block) -> bool:
+    return any(map(_has_plot, block.blocks)) if isinstance(block, Fold | Beside) else block.kind == "plot"
+
+
+def _own_file(name: str) -> str:
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def _figure(figure):
+    """A figure as JSON that may stand in a script element."""
+    from jinja2.utils import htmlsafe_json_dumps
+
+    return htmlsafe_json_dumps(figure, dumps=lambda each, **_: each.to_json())
+
+
+def _with_code(text: str):
+    """A sentence in which what stands between backticks is set as code."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+
+
+def _base64(content: bytes) -> str:
+    return base64.b64encode(content).decode()
+

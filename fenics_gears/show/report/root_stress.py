@@ -1,0 +1,86 @@
+"""Root stress, where the run recorded it: over time, and along the fillets where it is largest."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.show.panels import PALETTE
+from fenics_gears.show.report.forces import least, shared_curves
+from fenics_gears.show.report.page import Block, Facts, Plot, Section, Words
+from fenics_gears.show.report.plotting import Curve, over_time, plot
+from fenics_gears.show.report.run import TOO_FEW, Run
+from fenics_gears.show.units import factor, in_unit
+
+HEADING = "Root stress"
+
+
+def root_stress(run: Run) -> Section:
+    """Curves and numbers of the fillets' stress; a line on how to have it where it is not there."""
+    if "root_stress_maximum" not in run.dataset:
+        return Section("root-stress", HEADING, [Words("It was not recorded; `[output] root_stress = true` in the scene records it.")])
+    if not run.has_curves:
+        return Section("root-stress", HEADING, [Words(TOO_FEW, warns=True)])
+    return Section("root-stress", HEADING, [*_factors(run), *_over_time(run), *_along_fillets(run)])
+
+
+def _factors(run: Run) -> list[Block]:
+    attributes = run.dataset.attrs
+    names = {
+        "dynamic_factor_by_force": ("dynamic factor by force of a tooth pair", ""),
+        "dynamic_factor_by_stress": ("dynamic factor by root stress", ""),
+        "quasi_static_pair_normal_force": ("largest force of a tooth pair without inertia", "N"),
+        "quasi_static_root_stress": ("largest root stress without inertia", "MPa"),
+        "dynamic_factor_unknown": ("dynamic factor", ""),
+    }
+    rows = [(words, attributes[name], unit) for name, (words, unit) in names.items() if name in attributes]
+    return [Facts(rows)] if rows else []
+
+
+def _over_time(run: Run) -> list[Plot]:
+    largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "pair")
+    values, gears = in_unit(largest, "MPa"), [str(gear) for gear in run.dataset["gear"].values]
+    envelope = [(gear, _largest(values[:, place]), PALETTE[place]) for place, gear in enumerate(gears)]
+    together = np.concatenate([each for _, each, _ in envelope])
+    plots = [over_time(run.dataset, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
+    for place, gear in enumerate(gears):
+        curves = shared_curves(run.dataset["pair"].values, values[:, place])
+        plots.append(over_time(run.dataset, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)))
+    section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "pair")
+    at_section = in_unit(section, "MPa")
+    curves = [
+        (f"{gear}, {side} side", _largest(at_section[:, i, j]), PALETTE[2 * i + j])
+        for i, gear in enumerate(gears) for j, side in enumerate(run.dataset["fillet"].values.tolist())
+        if np.isfinite(at_section[:, i, j]).any()
+    ]  # fmt: skip
+    if curves:
+        note = "The largest of the loaded teeth, where the fillet's tangent stands at 30° to the tooth's centreline; tension positive."
+        plots.append(over_time(run.dataset, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least(together), note=note))
+    return plots
+
+
+def _largest(values: np.ndarray) -> np.ndarray:
+    """Largest over the pairs (time, pair), not a number where no pair has one."""
+    known = np.isfinite(values).any(axis=1)
+    return np.where(known, np.where(np.isfinite(values), values, -np.inf).max(axis=1), np.nan)
+
+
+def _along_fillets(run: Run) -> list[Plot]:
+    """Stress along the fillet of the tooth that has the largest tension, at the time it has it."""
+    plots = []
+    for gear in run.dataset["gear"].values.tolist():
+        own = run.dataset.sel(gear=gear)
+        stress = own["root_stress_maximum"].transpose("time", "pair").values
+        if not np.isfinite(stress).any():
+            continue
+        time, pair = np.unravel_index(np.nanargmax(stress), stress.shape)
+        along = in_unit(own["root_stress"].transpose("time", "pair", "fillet_point")[time, pair], "MPa")
+        angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
+        curves = [
+            Curve(f"{name} side", angle[side == name], along[side == name], colour, mode="lines+markers")
+            for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)
+        ]
+        phase = float(own["mesh_phase"].values[time])
+        caption = f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair'].values[pair])}, mesh cycle {phase:.3f}"
+        note = "From the root circle (tangent across the tooth) to the form circle."
+        plots.append(plot(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
+    return plots

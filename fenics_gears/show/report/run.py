@@ -1,0 +1,78 @@
+"""The run that a report is on, as its sections see it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import xarray as xr
+
+from fenics_gears.errors import GearsError
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.model import Model, model
+from fenics_gears.scene.data import Scene
+from fenics_gears.show.run_scene import scene_of
+from fenics_gears.show.units import factor
+
+NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
+TOO_FEW = "Fewer than two steps are stored; a curve needs two."
+
+
+@dataclass(frozen=True)
+class Run:
+    """A result, the file it was read from, and the settings of its report.
+
+    at: mesh cycles after the first stored step at which the stress picture is drawn, None for where the largest force is; stress: whether
+    it is drawn at all.
+    """
+
+    dataset: xr.Dataset
+    file: Path
+    at: float | None = None
+    stress: bool = True
+
+    @cached_property
+    def scene(self) -> Scene | None:
+        """The scene that was run; None where its text is no scene of this version."""
+        return scene_of(self.dataset)
+
+    @cached_property
+    def model(self) -> Model | None:
+        """What follows from the scene; None as for the scene."""
+        try:
+            return None if self.scene is None else model(self.scene)
+        except GearsError:
+            return None
+
+    @property
+    def pair(self) -> GearPair | None:
+        """The gear pair; None as for the scene."""
+        return None if self.model is None else self.model.pair
+
+    @property
+    def steps(self) -> int:
+        """Stored steps."""
+        return self.dataset.sizes.get("time", 0)
+
+    @property
+    def has_curves(self) -> bool:
+        """Whether there is more than a point of a curve."""
+        return self.steps >= 2
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run came to its end."""
+        return bool(self.dataset.attrs.get("complete", 1))
+
+    @property
+    def cycles(self) -> float:
+        """Mesh cycles from the first to the last stored step."""
+        phase = self.dataset["mesh_phase"].values
+        return float(phase[-1] - phase[0])
+
+    @property
+    def micrometres(self) -> float:
+        """What a transmission error in rad is multiplied with to be micrometres on the wheel's base circle."""
+        radius = self.dataset.attrs.get("base_radius_wheel")
+        return float(radius) * factor("mm", "µm") if radius else float("nan")

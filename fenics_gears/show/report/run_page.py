@@ -1,0 +1,45 @@
+"""The report on a run: its sections in order."""
+
+from __future__ import annotations
+
+from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.show.report.effects import effects
+from fenics_gears.show.report.energy import energy
+from fenics_gears.show.report.forces import forces
+from fenics_gears.show.report.geometry import geometry
+from fenics_gears.show.report.motion import motion
+from fenics_gears.show.report.origin import made_by, scene_section, version_section
+from fenics_gears.show.report.overview import summary, warnings
+from fenics_gears.show.report.page import Page
+from fenics_gears.show.report.pressure import pressure
+from fenics_gears.show.report.root_stress import root_stress
+from fenics_gears.show.report.run import Run
+from fenics_gears.show.report.solver import solver
+from fenics_gears.show.report.spectra import spectra
+from fenics_gears.show.report.stress import stress
+from fenics_gears.show.run_scene import conditions
+
+SECTIONS = (summary, warnings, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)
+
+
+def run_page(run: Run, progress: Progress | None = None) -> Page:
+    """The page of a run. Raises SceneError where a time is asked for that the run has not stored."""
+    progress = progress or SilentProgress()
+    progress.stage("sections")
+    sections = []
+    for done, make in enumerate(SECTIONS):
+        progress.update(done, len(SECTIONS), make.__name__.replace("_", " "))
+        sections.append(make(run))
+    attributes = run.dataset.attrs
+    sections += [version_section(attributes, run.file), scene_section(str(attributes.get("scene", "")))]
+    progress.update(len(SECTIONS), len(SECTIONS))
+    title = " ".join(str(attributes.get("title", "")).split()) or run.file.stem
+    subtitle = conditions(run.scene) if run.scene is not None else ""
+    return Page("Gear pair: report on a run", title, subtitle, sections, made_by(), _alarm(run))
+
+
+def _alarm(run: Run) -> str:
+    if run.complete:
+        return ""
+    stopped = f" It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}; numbers are of the {run.steps} steps that are stored." if run.steps else " No step is stored."
+    return f"INCOMPLETE RUN.{stopped}"

@@ -1,0 +1,43 @@
+"""How the run was computed: model, accuracy, natural frequencies, solver statistics, times."""
+
+from __future__ import annotations
+
+from fenics_gears.description import describe
+from fenics_gears.errors import GearsError
+from fenics_gears.show.panels import PALETTE
+from fenics_gears.show.report.page import Beside, Block, Facts, Section, Table
+from fenics_gears.show.report.plotting import over_time
+from fenics_gears.show.report.run import Run
+from fenics_gears.summary import solver_rows, stage_rows
+
+# What `gears check` says of a scene that is not said elsewhere on the page.
+DESCRIBED = ("Model", "Accuracy", "Natural frequencies")
+RUNG = "steps_by_rung: "
+
+
+def solver(run: Run) -> Section:
+    """Settings and statistics."""
+    blocks: list[Block] = [Beside([Facts(rows, heading) for heading, rows in _described(run)])]
+    attributes = run.dataset.attrs
+    rungs = [(name.removeprefix(RUNG), int(count)) for name, count in attributes.items() if name.startswith(RUNG)]
+    of_run = {"steps": "steps of the whole run", "newton_iterations_total": "Newton iterations of the whole run"}
+    rows = solver_rows(run.dataset) + [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
+    statistics: list[Block] = [Facts(rows, "Newton iterations"), Facts(stage_rows(run.dataset), "Wall time by stage")]
+    if rungs:
+        every = sum(count for _, count in rungs)
+        cells = [(name, f"{count:,}", f"{100.0 * count / every:.4g}") for name, count in rungs]
+        statistics.append(Table(("Rung of the solver", "Steps", "Share (%)"), cells, "Steps by rung"))
+    blocks.append(Beside(statistics))
+    if run.has_curves:
+        counts = {"newton_iterations": ("Newton iterations of each step", "Iterations"), "closed_nodes": ("Closed contact nodes", "Nodes")}
+        for (name, (caption, y_title)), colour in zip(counts.items(), (PALETTE[0], PALETTE[2])):
+            blocks.append(over_time(run.dataset, caption, y_title, [(y_title, run.dataset[name].values.astype(float), colour)], least=2.0, height=240))
+    return Section("solver", "Model and solver", blocks)
+
+
+def _described(run: Run) -> list[tuple[str, list]]:
+    try:
+        sections = () if run.scene is None else describe(run.scene).sections
+    except GearsError:
+        return []
+    return [(heading, rows) for heading, rows in sections if heading.startswith(DESCRIBED)]

@@ -1,0 +1,127 @@
+"""Spectra by mesh order: transmission error and mesh force, with a turn of the pinion and of the wheel where the record is long enough."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.show.panels import GREY, PALETTE
+from fenics_gears.show.report.page import Block, Plot, Section, Table, Words
+from fenics_gears.show.report.plotting import Curve, bars, layout, plot
+from fenics_gears.show.report.run import Run
+from fenics_gears.show.spectrum import COLOURS, OrderLines, order_lines, origin
+from fenics_gears.show.units import in_unit
+
+MESH_ORDERS, LISTED_ORDERS, FOLLOWED_ORDERS = 10.5, 8, 4
+CYCLES_TO_FOLLOW = 8
+# Lines below this part of the largest are the solver's tolerance.
+LEAST_PART = 1e-5
+BETWEEN = "between mesh orders"
+
+
+def spectra(run: Run) -> Section:
+    """Amplitudes over mesh orders, their table, and how they change from cycle to cycle in long records."""
+    heading = "Spectra by mesh order"
+    if not run.has_curves or run.cycles < 1.0 - 1e-9:
+        return Section("spectra", heading, [Words("Less than one mesh cycle is stored; its harmonics are not to be told from one another.", warns=not run.complete)])
+    signals = _signals(run)
+    lines = {name: order_lines(values, run.cycles, (1, 1)) for name, (values, _) in signals.items()}
+    blocks: list[Block] = []
+    if run.scene is not None and run.scene.speed_ramp is not None:
+        blocks.append(Words("The mesh frequency changes through the record: orders stay in place, resonances pass through them. See the orders cycle by cycle."))
+    for name, (_, unit) in signals.items():
+        blocks.append(_plot(run, name, unit, lines[name]))
+    blocks.append(_table(signals, lines))
+    blocks += _cycle_by_cycle(run, signals)
+    return Section("spectra", heading, blocks)
+
+
+def _signals(run: Run) -> dict[str, tuple[np.ndarray, str]]:
+    """Values (time,) and unit of what is analysed."""
+    error = in_unit(run.dataset["transmission_error"], "rad")
+    if np.isfinite(run.micrometres):
+        signals = {"Transmission error": (error * run.micrometres, "µm")}
+    else:
+        signals = {"Transmission error": (error * 1e6, "µrad")}
+    if "normal_force" in run.dataset and largest_normal_force(run.dataset):
+        force = in_unit(run.dataset["normal_force"], "N")
+        coast = in_unit(run.dataset["coast_normal_force"], "N") if "coast_normal_force" in run.dataset else 0.0
+        signals["Mesh force"] = (force - coast, "N")
+    return signals
+
+
+def _plot(run: Run, name: str, unit: str, lines: OrderLines) -> Plot:
+    import plotly.graph_objects as go
+
+    shown = (lines.orders <= MESH_ORDERS) & (lines.amplitudes > LEAST_PART * lines.amplitudes.max(initial=0.0))
+    kinds = _origins(run, lines.orders)
+    spacing = lines.orders[0] if len(lines.orders) else 1.0
+    width = min(0.12, 0.8 * spacing)
+    traces = [
+        bars(go, kind, lines.orders[own], lines.amplitudes[own], {**COLOURS, BETWEEN: GREY}[kind], width)
+        for kind in dict.fromkeys([*COLOURS, BETWEEN])
+        if (own := shown & (kinds == kind)).any()
+    ]
+    figure = go.Figure(traces, layout("Mesh order (events a mesh cycle)", f"Amplitude ({unit})", legend=len(traces) > 1))
+    figure.update_layout(barmode="overlay", margin_t=66, updatemenus=[_scales()])
+    figure.update_xaxes(range=[0, MESH_ORDERS], dtick=1, showgrid=False)
+    figure.update_yaxes(rangemode="tozero")
+    return Plot(name, figure, _note(run, name, lines), 320)
+
+
+def _scales() -> dict:
+    """Buttons for a linear and a logarithmic scale."""
+    choices = {"linear": "linear", "logarithmic": "log"}
+    buttons = [{"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()]
+    return {
+        "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03, "yanchor": "bottom", "showactive": True,
+        "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12}, "bgcolor": "white", "bordercolor": "#C4C9CE",
+    }  # fmt: skip
+
+
+def _origins(run: Run, orders: np.ndarray) -> np.ndarray:
+    """What each mesh order comes back with; parts of the mesh order cannot be told in a record shorter than a turn of the pinion."""
+    if run.scene is not None and run.cycles >= run.scene.gears.pinion.teeth * (1.0 - 1e-9):
+        teeth = run.scene.gears.pinion.teeth, run.scene.gears.wheel.teeth
+        return np.array([origin(order * teeth[0], teeth) for order in orders])
+    whole = np.abs(orders - np.round(orders)) < 1e-6
+    return np.where(whole, "mesh", BETWEEN)
+
+
+def _note(run: Run, name: str, lines: OrderLines) -> str:
+    what = "Amplitudes of the harmonics, without the mean" + (", drive flanks positive, coast flanks negative" if "coast_normal_force" in run.dataset and name == "Mesh force" else "")
+    if lines.exact:
+        return f"{what}; of {int(run.cycles * (1 + 1e-9))} whole mesh cycles."
+    return f"{what}; {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours."
+
+
+def _table(signals: dict, lines: dict[str, OrderLines]) -> Table:
+    headings = ["Mesh order", *(f"{name} ({unit})" for name, (_, unit) in signals.items())]
+    highest = int(min(LISTED_ORDERS, max(each.orders[-1] for each in lines.values())))
+    rows = [[str(order), *(f"{_amplitude(each, order):.4g}" for each in lines.values())] for order in range(1, highest + 1)]
+    return Table(headings, rows, "Amplitudes of the mesh orders")
+
+
+def _amplitude(lines: OrderLines, order: float) -> float:
+    return float(lines.amplitudes[np.argmin(np.abs(lines.orders - order))])
+
+
+def _cycle_by_cycle(run: Run, signals: dict) -> list[Plot]:
+    """Amplitudes of the first mesh orders in each mesh cycle of a long record, over its mesh frequency where that changes."""
+    count = int(run.cycles * (1 + 1e-9))
+    if count < CYCLES_TO_FOLLOW:
+        return []
+    steps = (run.steps - 1) / run.cycles
+    ends = np.round(steps * np.arange(count + 1)).astype(int)
+    if abs(steps - round(steps)) > 1e-6 or steps < 2 * FOLLOWED_ORDERS:
+        return []
+    ramp = "mesh_frequency" in run.dataset
+    axis = in_unit(run.dataset["mesh_frequency"], "Hz") if ramp else run.dataset["mesh_phase"].values
+    middle = np.array([axis[first : last + 1].mean() for first, last in zip(ends, ends[1:])])
+    title = "Mesh frequency (Hz)" if ramp else "Middle of the mesh cycle (mesh cycles since the start)"
+    plots = []
+    for name, (values, unit) in signals.items():
+        each = [order_lines(values[first : last + 1], 1.0, (1, 1)).amplitudes[:FOLLOWED_ORDERS] for first, last in zip(ends, ends[1:])]
+        curves = [Curve(f"order {order}", middle, part, PALETTE[order - 1]) for order, part in enumerate(np.array(each).T, 1)]
+        plots.append(plot(f"{name}: mesh orders cycle by cycle", curves, title, f"Amplitude ({unit})"))
+    return plots

@@ -1,0 +1,51 @@
+"""The gears in mesh with their stresses, drawn as `gears picture` draws them."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+
+from fenics_gears.errors import GearsError
+from fenics_gears.results.stored_forces import stored_index
+from fenics_gears.show.report.page import Picture, Section, Words
+from fenics_gears.show.report.run import NO_SCENE, Run
+
+HEADING = "Stress in the gears"
+
+
+def stress(run: Run) -> Section:
+    """The stress picture where the mesh force is largest, or at the time asked for; or why there is none."""
+    if not run.stress:
+        return Section("stress", HEADING, [Words("Left out by the option `--no-stress`.")])
+    if run.scene is None or not run.steps:
+        return Section("stress", HEADING, [Words(NO_SCENE if run.steps else "No step is stored.", warns=True)])
+    if not run.scene.resolves_contact:
+        return Section("stress", HEADING, [Words("There is none: this run's flanks are rigid or its mesh is one of springs.")])
+    index = _most_loaded(run) if run.at is None else stored_index(run.dataset, run.at)
+    try:
+        content = _drawn(run, index)
+    except GearsError as error:
+        return Section("stress", HEADING, [Words(f"It could not be drawn: {error}", warns=True)])
+    when = "where the force of the mesh is largest" if run.at is None else "as asked for"
+    since = float(run.dataset["mesh_phase"].values[index] - run.dataset["mesh_phase"].values[0])
+    note = f"{since:.4g} mesh cycles after the first stored step, {when}; `gears picture RUN --at PHASE` draws other times, `--animate` a turn."
+    return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note)])
+
+
+def _most_loaded(run: Run) -> int:
+    forces = [run.dataset[name].values for name in ("normal_force", "coast_normal_force") if name in run.dataset]
+    return int(np.argmax(np.max(forces, axis=0)))
+
+
+def _drawn(run: Run, index: int) -> bytes:
+    from fenics_gears.run_stresses import RunStresses
+    from fenics_gears.show.drawn_scale import automatic_scale
+    from fenics_gears.show.stress_picture import colour_limit, save_picture, stress_picture
+
+    with RunStresses(run.dataset, run.scene) as stresses:
+        mesh = stresses.at(index)
+    figure = stress_picture(mesh, run.dataset, scale=automatic_scale([mesh]), limit=colour_limit([mesh]))
+    content = io.BytesIO()
+    save_picture(figure, content)
+    return content.getvalue()
