@@ -37,6 +37,9 @@ PARTS = (
 )  # fmt: skip
 if MATHJAX.is_dir():
     mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
+    # Debian's is version 2. MyST marks pages as not to be searched for dollars; what it found itself has the class "math".
+    mathjax2_config = {"tex2jax": {"processClass": "tex2jax_process|math"}, "messageStyle": "none", "SVG": {"linebreaks": {"automatic": True}}}
+    myst_update_mathjax = False
 
 
 def copy_mathjax(app, failure):
