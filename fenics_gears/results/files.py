@@ -49,11 +49,16 @@ def netcdf(dataset: xr.Dataset) -> memoryview:
 
 def load(path: str | Path) -> xr.Dataset:
     """Read a saved result into memory. Raises ComputationError when the file is no result of this program, or damaged."""
-    try:
-        with xr.open_dataset(unsealed(Path(path)), engine="h5netcdf") as opened:
-            result = opened.load()
-    except (OSError, ValueError) as failure:
-        raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure
+    result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
     return result
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """Read a saved dataset, whatever it holds, into memory. Raises ComputationError when it is damaged or not written by `save`."""
+    try:
+        with xr.open_dataset(unsealed(Path(path)), engine="h5netcdf") as opened:
+            return opened.load()
+    except (OSError, ValueError) as failure:
+        raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
+from fenics_gears.errors import ComputationError
 from fenics_gears.output import written_aside
-from fenics_gears.results.files import netcdf
+from fenics_gears.results.files import read, save
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.record import CURVES, Record
 from fenics_gears.studies.study import Study
@@ -69,11 +70,18 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
 
 
 def save_study(dataset: xr.Dataset, directory: Path) -> Path:
-    """Write the combined dataset, aside first. Raises ComputationError where it cannot be written."""
-    content = netcdf(dataset)
+    """Write the combined dataset, aside first and with a digest at its end. Raises ComputationError where it cannot be written."""
     with written_aside(directory, written := []) as aside:
-        (aside / STUDY_FILE).write_bytes(content)
+        save(dataset, aside / STUDY_FILE)
     return written[0]
+
+
+def load_combined(path: Path) -> xr.Dataset:
+    """Read a study's dataset into memory. Raises ComputationError when the file is none of this program, or damaged."""
+    result = read(path)
+    if "peak_to_peak_transmission_error" not in result or "study" not in result.attrs:
+        raise ComputationError(f"{path}: holds no study of this program (no peak_to_peak_transmission_error, no study text)")
+    return result
 
 
 def _indices(study: Study) -> range:

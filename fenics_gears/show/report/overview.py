@@ -35,18 +35,18 @@ def _tiles(run: Run) -> Iterator[Tile]:
     for name, label in (("peak_to_peak_transmission_error", "Transmission error, peak to peak"), ("mean_transmission_error", "Transmission error, mean")):
         angle = attributes.get(name, math.nan)
         if math.isfinite(angle) and math.isfinite(run.micrometres):
-            yield Tile(label + part, _digits(angle * run.micrometres), "µm", f"{_digits(angle * factor('rad', 'µrad'))} µrad of the wheel")
+            yield Tile(label + part, digits(angle * run.micrometres), "µm", f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel")
     if "normal_force" in dataset:
         largest, note = largest_normal_force(dataset), ""
         nominal = 0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius
         if nominal:
-            note = f"{largest / nominal:.3g} × nominal {_digits(nominal)} N"
-        yield Tile("Largest mesh force", _digits(largest), "N", note)
+            note = f"{largest / nominal:.3g} × nominal {digits(nominal)} N"
+        yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
-        yield Tile("Peak contact pressure", _digits(attributes["peak_contact_pressure"]), "MPa", "over five contact nodes")
+        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", "over five contact nodes")
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
-        yield Tile("Largest root stress", _digits(float(largest.max())), "MPa", f"pinion {_digits(largest[0])}, wheel {_digits(largest[1])}")
+        yield Tile("Largest root stress", digits(float(largest.max())), "MPa", f"pinion {digits(largest[0])}, wheel {digits(largest[1])}")
     if "dynamic_factor_by_force" in attributes:
         yield Tile("Dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f}", "", f"by force; {attributes['dynamic_factor_by_stress']:.3f} by root stress")
     if "friction_loss" in attributes:
@@ -73,6 +73,6 @@ def _rows(run: Run) -> list[tuple[str, object, str]]:
     return rows
 
 
-def _digits(value: float) -> str:
+def digits(value: float) -> str:
     """Four digits, as measurements have them."""
     return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:.4g}"

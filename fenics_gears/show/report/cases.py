@@ -1,0 +1,137 @@
+"""The cases of a study as rows: what was swept, what came out, which file holds it."""
+
+from __future__ import annotations
+
+import os
+import urllib.parse
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears import results
+from fenics_gears.errors import ComputationError
+from fenics_gears.show.units import factor
+
+ABSENT = "absent"
+STATES = ("done", "warnings", "failed", "missing")
+
+
+@dataclass(frozen=True)
+class Field:
+    """A swept field: its path in the scene, its unit, its value in each case (n,), numbers (not a number where it is absent) or words."""
+
+    name: str
+    path: str
+    unit: str
+    values: np.ndarray
+
+    @property
+    def numeric(self) -> bool:
+        """Whether its values are numbers."""
+        return self.values.dtype.kind in "fiu"
+
+    @property
+    def title(self) -> str:
+        """Its name with its unit, for an axis or a column."""
+        name = self.name.replace("_", " ")
+        return f"{name} ({self.unit})" if self.unit else name
+
+    def words(self, case: int) -> str:
+        """The value in a case."""
+        value = self.values[case]
+        if not self.numeric:
+            return str(value)
+        return f"{value:.6g}" if np.isfinite(value) else ABSENT
+
+    def setting(self, case: int) -> str:
+        """Name and value in a case: "friction = present"."""
+        unit = f" {self.unit}" if self.unit and self.words(case) != ABSENT else ""
+        return f"{self.name.replace('_', ' ')} = {self.words(case)}{unit}"
+
+
+@dataclass(frozen=True)
+class Cases:
+    """All cases of a study's dataset, and where it was read from and its page goes to."""
+
+    dataset: xr.Dataset
+    file: Path
+    output: Path
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return int(self.dataset["failed"].size)
+
+    @cached_property
+    def fields(self) -> list[Field]:
+        """The swept fields, the last one turning fastest."""
+        shape, found = self.dataset["failed"], []
+        for name, coordinate in self.dataset.coords.items():
+            if name in ("case", "mesh_phase", "gear") or not set(coordinate.dims) <= set(shape.dims):
+                continue
+            spread = coordinate.broadcast_like(shape).transpose(*shape.dims)
+            unit = str(coordinate.attrs.get("units", ""))
+            found.append(Field(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit, spread.values.ravel()))
+        order = {dimension: place for place, dimension in enumerate(shape.dims)}
+        return sorted(found, key=lambda field: order.get(field.name, 0))
+
+    def numbers(self, name: str) -> np.ndarray:
+        """A number of each case (n,), not a number where there is none."""
+        return self.dataset[name].values.ravel().astype(float)
+
+    def texts(self, name: str) -> list[str]:
+        """A text of each case, empty where there is none."""
+        return [str(each) for each in self.dataset[name].values.ravel()]
+
+    @cached_property
+    def states(self) -> list[str]:
+        """How each case stands."""
+        done, failed, warned = np.isfinite(self.numbers("peak_to_peak_transmission_error")), self.dataset["failed"].values.ravel(), self.texts("warnings")
+        return [
+            STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3] for ready, wrong, said in zip(done, failed, warned)
+        ]
+
+    def words(self, case: int) -> str:
+        """A case by its swept values."""
+        return ", ".join(field.setting(case) for field in self.fields)
+
+    def run(self, case: int) -> xr.Dataset | None:
+        """The run of a case; None where its file is not there or damaged."""
+        name = self.texts("case_file")[case]
+        try:
+            return results.load(self.file.parent / name) if name else None
+        except ComputationError:
+            return None
+
+    def link(self, case: int) -> str:
+        """Where a case's report, or else its file, is from the page on; empty where there is none."""
+        name = self.texts("case_file")[case]
+        if not name:
+            return ""
+        file = self.file.parent / name
+        page = file.with_suffix(".html")
+        found = next((each for each in (page, file) if each.is_file()), None)
+        return "" if found is None else urllib.parse.quote(os.path.relpath(found.resolve(), self.output.parent.resolve()))
+
+    @cached_property
+    def error_scale(self) -> tuple[float, str]:
+        """What a transmission error in rad is multiplied with, and the unit it then has: lengths where all cases have the same gears."""
+        if not any(field.path.startswith("gears") for field in self.fields):
+            done = next((case for case, state in enumerate(self.states) if state in STATES[:2]), None)
+            run = None if done is None else self.run(done)
+            if run is not None and "base_radius_wheel" in run.attrs:
+                return float(run.attrs["base_radius_wheel"]) * factor("mm", "µm"), "µm"
+        return factor("rad", "µrad"), "µrad"
+
+    @cached_property
+    def measures(self) -> dict[str, tuple[np.ndarray, str, str]]:
+        """What is compared between cases: values (n,), unit, name."""
+        scale, unit = self.error_scale
+        return {
+            "peak_to_peak_transmission_error": (self.numbers("peak_to_peak_transmission_error") * scale, unit, "Transmission error, peak to peak"),
+            "mean_transmission_error": (self.numbers("mean_transmission_error") * scale, unit, "Transmission error, mean"),
+            "max_normal_force": (self.numbers("max_normal_force"), "N", "Largest mesh force"),
+        }

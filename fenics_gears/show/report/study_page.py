@@ -1,0 +1,158 @@
+"""The report on a study: its cases as a table and as curves, what failed, and the cases that stand out in detail."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.show.panels import PALETTE
+from fenics_gears.show.report.cases import STATES, Cases
+from fenics_gears.show.report.origin import made_by, scene_section, version_section
+from fenics_gears.show.report.overview import digits
+from fenics_gears.show.report.page import Block, Cell, Facts, Fold, Page, Section, Table, Tile, Tiles, Words
+from fenics_gears.show.report.plotting import Curve, plot
+from fenics_gears.show.report.study_curves import effort_plots, result_plots
+from fenics_gears.summary import summary_rows
+
+# A browser sorts and lays out this many rows at once.
+MOST_ROWS = 2000
+MOST_FAILURES = 200
+STATE_WORDS = dict(zip(STATES, ("done without warnings", "done with warnings", "failed", "not computed yet")))
+LISTED_CASES = 12
+
+
+def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress | None = None) -> Page:
+    """The page of a study's dataset, read from `file`; links are from `output` on."""
+    progress = progress or SilentProgress()
+    progress.stage("sections")
+    cases, attributes = Cases(dataset, file, output), dataset.attrs
+    sections = [make(cases) for make in (_summary, _failures, _warnings, _results, _standing_out, _table, _effort)]
+    sections += [
+        version_section(attributes, file), scene_section(str(attributes.get("study", "")), "Study", "study"),
+        scene_section(str(attributes.get("scene", "")), "Base scene"),
+    ]  # fmt: skip
+    title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
+    swept = ", ".join(f"{field.path} ({len(set(map(str, field.values.tolist())))} values)" for field in cases.fields)
+    return Page("Gear pair: report on a study", title, f"{cases.count:,} cases over {swept}", sections, made_by(), _alarm(cases))
+
+
+def _alarm(cases: Cases) -> str:
+    counts = Counter(cases.states)
+    parts = [f"{counts[state]} {STATE_WORDS[state]}" for state in STATES[2:] if counts[state]]
+    return f"INCOMPLETE STUDY: of {cases.count} cases {', '.join(parts)}. Run the study again for these." if parts else ""
+
+
+def _summary(cases: Cases) -> Section:
+    counts = Counter(cases.states)
+    tiles = [Tile("Cases", f"{cases.count:,}", "", ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state]))]
+    for values, unit, name in cases.measures.values():
+        known = values[np.isfinite(values)]
+        if len(known):
+            tiles.append(Tile(name, f"{digits(known.min())} – {digits(known.max())}", unit, f"median {digits(np.median(known))} {unit}"))
+    rows = []
+    for field in cases.fields:
+        values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
+        shown = ", ".join(values) if len(values) <= 8 else f"{', '.join(values[:3])}, … {values[-1]}"
+        rows.append((field.path, f"{shown} {field.unit}".strip(), ""))
+    return Section("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields")])
+
+
+def _failures(cases: Cases) -> Section:
+    failed = [case for case, state in enumerate(cases.states) if state == STATES[2]]
+    if not failed:
+        return Section("failures", "Failures", [Words("None.")])
+    reasons = cases.texts("failure")
+    rows = [(str(case), cases.words(case), Cell(reasons[case], warns=True)) for case in failed[:MOST_FAILURES]]
+    blocks: list[Block] = [Table(("Case", "Values", "Why"), rows, numbers=9)]
+    more = f" The first {MOST_FAILURES} of {len(failed)} are listed." if len(failed) > MOST_FAILURES else ""
+    blocks.append(Words(f"The files `cases/*.failed.txt` have the scenes of these cases; `gears study` tries them again.{more}"))
+    return Section("failures", "Failures", blocks)
+
+
+def _warnings(cases: Cases) -> Section:
+    """Each kind of warning once, with the cases it is said of; numbers in it are those of the first."""
+    said: dict[str, list[tuple[int, str]]] = {}
+    for case, text in enumerate(cases.texts("warnings")):
+        for line in text.splitlines():
+            said.setdefault("".join(each for each in line if not each.isdigit() and each not in ".+-e"), []).append((case, line))
+    blocks = []
+    for found in sorted(said.values(), key=len, reverse=True):
+        listed = ", ".join([str(case) for case, _ in found[:LISTED_CASES]] + (["…"] if len(found) > LISTED_CASES else []))
+        of = f"In all {cases.count} cases" if len(found) == cases.count else f"In {len(found)} of {cases.count} cases ({listed})"
+        others = " (numbers of the first)" if len({line for _, line in found}) > 1 else ""
+        blocks.append(Words(f"{of}: {found[0][1]}{others}", warns=True))
+    return Section("warnings", "Warnings", blocks or [Words("None: every run stayed within what the model assumes.")])
+
+
+def _results(cases: Cases) -> Section:
+    return Section("results", "Results over the parameters", result_plots(cases) or [Words("No case has a result yet.", warns=True)])
+
+
+def _standing_out(cases: Cases) -> Section:
+    """Transmission error of the cases with the least, the middle and the largest values, and the summary of each."""
+    heading, scale, unit = "Cases that stand out", *cases.error_scale
+    chosen = [(case, why, run) for case, why in standing_out(cases).items() if (run := cases.run(case)) is not None and run.sizes.get("time", 0)]
+    if not chosen:
+        return Section("outstanding", heading, [Words("There is no file of a case to show one from.")])
+    curves, folds = [], []
+    for (case, why, run), colour in zip(chosen, PALETTE):
+        phase = run["mesh_phase"].values
+        curves.append(Curve(f"case {case}", phase - np.floor(phase[0]), run["transmission_error"].values * scale, colour))
+        file, link = cases.texts("case_file")[case], cases.link(case)
+        rows = Facts([(label.replace("WARNING", "warning"), value, each) for label, value, each in summary_rows(run)])
+        folds.append(Fold(f"Case {case}: {cases.words(case)} ({' and '.join(why)})", [rows, Table(("File",), [(Cell(file, link=link),)])]))
+    drawn = plot("Transmission error", curves, "Time (mesh cycles since the first recorded one)", f"Transmission error ({unit})", height=360)
+    said = Table(("Case", "Values", "Has the"), [(str(case), cases.words(case), ", ".join(why)) for case, why, _ in chosen], numbers=9)
+    command = Words("`gears report DIR/cases/FILE.nc` makes a whole report on a case; the table of cases then leads to it.")
+    return Section("outstanding", heading, [said, drawn, *folds, command])
+
+
+def standing_out(cases: Cases) -> dict[int, list[str]]:
+    """Cases that are worth a look, each with what it is distinguished by."""
+    errors, _, _ = cases.measures["peak_to_peak_transmission_error"]
+    forces, _, _ = cases.measures["max_normal_force"]
+    known = np.flatnonzero(np.isfinite(errors))
+    if not len(known):
+        return {}
+    by_error = known[np.argsort(errors[known], kind="stable")]
+    marks = [
+        (by_error[0], "least transmission error"), (by_error[len(by_error) // 2], "median transmission error"),
+        (by_error[-1], "largest transmission error"), (known[np.argmax(forces[known])], "largest mesh force"),
+    ]  # fmt: skip
+    found: dict[int, list[str]] = {}
+    for case, why in marks:
+        found.setdefault(int(case), []).append(why)
+    return found
+
+
+def _table(cases: Cases) -> Section:
+    measures = {**{name: (values, unit) for name, (values, unit, _) in cases.measures.items()}, "newton_iterations": (cases.numbers("newton_iterations"), ""), "wall_time": (cases.numbers("wall_time"), "s")}
+    names = ("T_EPP", "Mean error", "Largest force", "Newton iterations", "Wall time")
+    headings = ["Case", *(field.title for field in cases.fields), "State", *(f"{name} ({unit})" if unit else name for name, (_, unit) in zip(names, measures.values()))]
+    rows, states = [], cases.states
+    for case in range(min(cases.count, MOST_ROWS)):
+        swept = [Cell(field.words(case), float(field.values[case]) if field.numeric else None) for field in cases.fields]
+        state = Cell(states[case], warns=states[case] in STATES[1:3])
+        numbers = [Cell(f"{values[case]:.5g}" if np.isfinite(values[case]) else "", float(values[case])) for values, _ in measures.values()]
+        rows.append([Cell(str(case), float(case), cases.link(case)), *swept, state, *numbers])
+    blocks: list[Block] = [Words("A click on a heading sorts by it. T_EPP: transmission error, peak to peak. Case numbers lead to the case's report where there is one, else to its file, beside this page.")]
+    if cases.count > MOST_ROWS:
+        blocks.append(Words(f"The first {MOST_ROWS:,} of {cases.count:,} cases; the file {cases.file.name} has all.", warns=True))
+    return Section("cases", "Table of cases", [*blocks, Table(headings, rows, sortable=True, numbers=len(cases.fields) + 2)])
+
+
+def _effort(cases: Cases) -> Section:
+    times, iterations = cases.numbers("wall_time"), cases.numbers("newton_iterations")
+    if not np.isfinite(times).any():
+        return Section("effort", "Solver and effort", [Words("No case has a result yet.", warns=True)])
+    steps = cases.numbers("steps_per_mesh_cycle")
+    known = steps[np.isfinite(steps)]
+    rows = [
+        ("wall time of all cases, one after the other", f"{np.nansum(times):.4g}", "s"), ("of a case", f"{np.nanmedian(times):.3g} (median), {np.nanmax(times):.3g} at most", "s"),
+        ("Newton iterations of all cases", f"{np.nansum(iterations):,.0f}", ""), ("steps per mesh cycle", f"{known.min():.0f}" + (f" to {known.max():.0f}" if np.ptp(known) else ""), ""),
+    ]  # fmt: skip
+    return Section("effort", "Solver and effort", [Facts(rows), *effort_plots(cases)])
