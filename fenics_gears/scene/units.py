@@ -103,8 +103,8 @@ def quantity(text: str) -> tuple[float, str]:
 
     The number may be infinite or NaN; raises QuantityError where there is no number or the unit is unknown.
 
-    >>> quantity("4.9 kg")
-    (0.0049, 'a mass')
+    >>> quantity("437 N m")
+    (437000.0, 'a couple')
     >>> quantity("750 rpm")[1]
     'an angular speed'
     >>> quantity("4.5 Mm")

@@ -1,0 +1,148 @@
+"""What the pages tell a reader to type works: Python runs, scenes and studies are valid, commands are the program's."""
+
+import contextlib
+import doctest
+import importlib.util
+import io
+import os
+import re
+import shlex
+import tomllib
+
+import matplotlib
+import pytest
+from tests.docs.blocks import PAGES, ROOT, blocks, in_text, name_of
+from tests.docs.commands_page import commands, parser
+
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.studies.fields import as_toml
+from fenics_gears.studies.study_file import load_study
+
+matplotlib.use("Agg")
+# Pages whose code is a module in pieces; these tests put them together and run them.
+RUN_ELSEWHERE = {"docs/adding_an_effect.md": "tests/effects/test_pages.py"}
+PROMPT = ">>> "
+DEMO = (ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+# What stands for a number or a word in the pages' commands.
+STAND_FOR = {"N": "2", "PHASE": "0.25", "TORQUE": "437 N m", "SPEED": "750 rpm"}
+STARTERS = ("mpirun", "srun")
+
+
+def holding(language):
+    """The pages that hold blocks of a language and do not have them run elsewhere."""
+    pages = [page for page in PAGES if any(block.language == language for block in blocks(page))]
+    return [pytest.param(page, id=name_of(page)) for page in pages if name_of(page) not in RUN_ELSEWHERE]
+
+
+def run_python(page):
+    """Run a page's Python, sessions in one namespace, other blocks each in its own; what differs from the page, in words."""
+    shared, runner, differences = {}, doctest.DocTestRunner(), io.StringIO()
+    for block in blocks(page):
+        if block.language == "python" and PROMPT in block.code:
+            session = doctest.DocTestParser().get_doctest(block.code, shared, page.name, str(page), block.line - 1)
+            # The parser copies the names that it is given.
+            session.globs = shared
+            runner.run(session, out=differences.write, clear_globs=False)
+        elif block.language == "python":
+            exec(compile("\n" * (block.line - 1) + block.code, str(page), "exec"), {})
+    return differences.getvalue()
+
+
+@pytest.mark.parametrize("page", holding("python"))
+def test_python_runs_and_gives_what_the_page_says(page, readers_folder, monkeypatch):
+    """Authority: the page."""
+    monkeypatch.chdir(readers_folder)
+    assert run_python(page) == ""
+
+
+def test_a_wrong_answer_on_a_page_is_noticed(tmp_path):
+    """Authority: a page that says what is not so, and one whose code does not run."""
+    page = tmp_path / "wrong.md"
+    page.write_text("```python\n>>> one = 1\n\n```\n\n```python\n>>> one + 1\n3\n\n```\n", encoding="utf-8")
+    assert "Expected:\n    3\nGot:\n    2" in run_python(page)
+    page.write_text("```python\nunknown\n```\n", encoding="utf-8")
+    with pytest.raises(NameError):
+        run_python(page)
+
+
+@pytest.mark.parametrize("page, test", RUN_ELSEWHERE.items())
+def test_pages_that_are_run_elsewhere_are(page, test):
+    """Authority: the named test reads the page."""
+    assert page.split("/")[-1] in (ROOT / test).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("page", holding("toml"))
+def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
+    """Authority: the program's own reading; a piece of a scene is put into the demo, and what it needs with it."""
+    for block in blocks(page):
+        if block.language != "toml":
+            continue
+        tree = tomllib.loads(block.code)
+        if "sweep" in tree:
+            # A study's scene stands beside it; what it leaves out must be there.
+            relieved = DEMO + '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n'
+            (tmp_path / tree["scene"]).write_text(relieved, encoding="utf-8")
+            (tmp_path / "study.toml").write_text(block.code, encoding="utf-8")
+            assert load_study(tmp_path / "study.toml").cases
+        else:
+            scene_from_text(as_toml(merged(tomllib.loads(DEMO), tree)), f"{name_of(page)}:{block.line}")
+
+
+def merged(scene, piece):
+    """The scene with a piece's sections and fields in the place of its own."""
+    both = dict(scene)
+    for name, value in piece.items():
+        both[name] = merged(scene[name], value) if isinstance(value, dict) and isinstance(scene.get(name), dict) else value
+    return both
+
+
+def calls_of_gears(text):
+    """Arguments of each call of the program in lines of a shell, or in code in a sentence."""
+    for line in text.splitlines():
+        words = shlex.split(line.replace("`", ""), comments=True)
+        places = [i for i, word in enumerate(words) if word in ("gears", "./gears")]
+        if places and (places[0] == 0 or words[0] in STARTERS):
+            yield [STAND_FOR.get(word, word) for word in (word.strip("[]") for word in words[places[0] + 1 :]) if word != "..."]
+
+
+def calls(page):
+    """All calls of the program on a page; the page of commands has forms of them."""
+    shell = "\n".join(block.code.replace("\\\n", " ") for block in blocks(page) if block.language in ("", "bash", "sh", "console"))
+    text = "\n".join(code for code in in_text(page) if code.startswith(("gears ", "./gears ")))
+    return [call for call in (*calls_of_gears(shell), *calls_of_gears(text)) if call and call[0] not in ("test", "--set-up-only")]
+
+
+WITH_CALLS = [pytest.param(page, id=name_of(page)) for page in PAGES if name_of(page) != "docs/commands.md" and calls(page)]
+
+
+@pytest.mark.parametrize("page", WITH_CALLS)
+def test_commands_are_the_programs(page):
+    """Authority: the program's own argument parser."""
+    wrong = []
+    for call in calls(page):
+        if len(call) == 1 and call[0] in commands():
+            continue  # a command's name, not a call
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            try:
+                parser().parse_args(call)
+            except SystemExit:
+                wrong.append(f"{' '.join(call)}: {said.getvalue()}")
+    assert not wrong
+
+
+def test_commands_are_found_in_blocks_in_sentences_and_behind_mpirun():
+    """Authority: by hand."""
+    assert list(calls_of_gears("./gears run a.toml # why\nmpirun -n 8 gears study b.toml\nls gears")) == [["run", "a.toml"], ["study", "b.toml"]]
+    assert list(calls_of_gears("gears study [-n N] STUDY")) == [["study", "-n", "2", "STUDY"]]
+
+
+@pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES])
+def test_modules_and_scripts_that_a_page_names_are_there(page):
+    """Authority: the checkout."""
+    everything = "\n".join([*(block.code for block in blocks(page)), *in_text(page)])
+    for module in re.findall(r"python3? -m ([\w.]+)", everything):
+        assert importlib.util.find_spec(module), module
+    for script in re.findall(r"^(?:\./)?((?:demos|docs|setup)/[\w/]+)(?=\s|$)", everything, re.M):
+        path = ROOT / script
+        assert path.is_dir() or os.access(path, os.X_OK), script

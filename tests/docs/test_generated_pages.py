@@ -1,0 +1,102 @@
+"""Pages made from the program are up to date, and nothing in them goes without a word."""
+
+from dataclasses import replace
+
+import pytest
+from pydantic import Field, create_model
+from tests.coarse import coarse_scene
+from tests.docs import commands_page, result_page, scene_page, write
+from tests.docs.markdown import table
+
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES, undeclared
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.fields import Allowed, Section, allowed_in, quantity
+from fenics_gears.scene.schema import SceneText
+from fenics_gears.simulation import simulate
+
+
+@pytest.fixture(scope="module")
+def everything():
+    """The result of a run with every effect and root stress."""
+    return result_page.run_with_everything()
+
+
+def kept(name):
+    """A page as it stands in the checkout."""
+    return (write.DOCS / name).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name, page", [("scene.md", scene_page.page), ("commands.md", commands_page.page)])
+def test_the_page_is_up_to_date(name, page):
+    """Authority: identity; `python -m tests.docs.write` writes it anew."""
+    assert kept(name) == page()
+
+
+def test_the_page_of_the_result_is_up_to_date(everything):
+    """Authority: identity; `python -m tests.docs.write` writes it anew."""
+    assert kept("result.md") == result_page.page(everything)
+
+
+def test_every_field_has_its_line():
+    """Authority: the schema, walked through by itself; as many lines as fields."""
+
+    def count(kind):
+        found, seen = 0, set()
+        for name in kind.model_fields:
+            if allowed_in(kind, name) is not None:
+                found += 1
+                continue
+            part = scene_page._section(kind, name)
+            # Sections of both gears, which are alike, share their table.
+            found += 0 if part in seen else count(part)
+            seen.add(part)
+        return found
+
+    lines = [line for line in kept("scene.md").splitlines() if line.startswith("| `")]
+    assert len(lines) == count(SceneText) > 50
+
+
+def test_a_field_without_meaning_is_refused():
+    """Authority: the pages' own rule; a field cannot be declared without one, and one that is declared otherwise is named."""
+    with pytest.raises(TypeError, match="meaning"):
+        quantity("1 mm", "2 mm", "1 mm")
+    silent = create_model("Silent", __base__=Section, depth=(float, Field(..., json_schema_extra={"allowed": Allowed("a length")})))
+    with pytest.raises(scene_page.NoMeaning, match="tip_relief.depth: the field has no meaning"):
+        scene_page.fields(silent, "tip_relief")
+
+
+def test_a_field_that_may_be_left_out_says_what_is_taken_then():
+    """Authority: the pages' own rule."""
+    allowed = Allowed("a length", meaning="depth")
+    silent = create_model("Silent", __base__=Section, depth=(float, Field(None, json_schema_extra={"allowed": allowed})))
+    with pytest.raises(scene_page.NoMeaning, match="otherwise="):
+        scene_page.fields(silent, "tip_relief")
+
+
+def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_scene):
+    """Authority: the list, which the page of the result is made from; a run with all effects, and one that loses contact."""
+    assert not undeclared(everything.attrs)
+    undamped = coarse_scene(replace(paper_scene, damping=None, friction=None))
+    # The first torsional mode of the paper's pair is at 213 Hz.
+    lost = simulate(replace(undamped, motion=Motion(213.0, 20, 1)))
+    assert lost.attrs["contact_loss_count"] > 0
+    assert not undeclared(lost.attrs)
+    always = {each.name for each in RESULT_ATTRIBUTES if not each.when}
+    when_lost = {each.name for each in RESULT_ATTRIBUTES if each.when == "contact was lost"}
+    assert always <= set(everything.attrs) and always | when_lost <= set(lost.attrs)
+
+
+def test_attributes_that_a_list_does_not_know_are_found():
+    """Authority: by hand."""
+    assert undeclared({"title": "", "steps_by_rung: newton": 1, "mood": "good"}) == {"mood"}
+
+
+def test_every_variable_of_the_run_is_on_the_page(everything):
+    """Authority: the run."""
+    words = kept("result.md")
+    assert all(f"| `{name}` |" in words for name in everything.variables)
+
+
+def test_bars_in_a_table_are_escaped():
+    """Authority: Markdown; a bar would end the cell."""
+    assert table(("a",), [("x|y",)])[-1] == "| x\\|y |"

@@ -1,0 +1,48 @@
+"""Files and messages that the pages name are there."""
+
+import re
+
+import pytest
+from tests.docs.blocks import PAGES, ROOT, in_text, name_of
+
+PLACES = ("fenics_gears/", "tests/", "docs/", "demos/", "meshes/", "setup/")
+SUFFIXES = (".py", ".md", ".toml", ".png", ".gif", ".apt", "/")
+
+
+# Files that a page tells the reader to write.
+TO_BE_WRITTEN = {"docs/adding_an_effect.md": {"fenics_gears/effects/brake.py", "tests/effects/test_brake.py"}}
+
+
+@pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES])
+def test_files_that_a_page_names_are_there(page):
+    """Authority: the checkout."""
+    named = {code for code in in_text(page) if code.startswith(PLACES) and code.endswith(SUFFIXES) and not set(code) & set(" *<")}
+    assert {name for name in named if not (ROOT / name).exists()} == TO_BE_WRITTEN.get(name_of(page), set())
+
+
+def test_the_tour_names_files_of_every_folder():
+    """Authority: the checkout; each folder of the package has its place on the page."""
+    named = set(in_text(ROOT / "docs" / "reading_the_code.md"))
+    folders = [path for path in (ROOT / "fenics_gears").iterdir() if (path / "__init__.py").exists()]
+    assert folders and all(f"fenics_gears/{folder.name}" in named for folder in folders)
+    assert len([name for name in named if name.endswith(".py") and (ROOT / name).exists()]) > 40
+
+
+def sources():
+    """The package's and the set-up's text with strings that are written in pieces put together."""
+    files = [*(ROOT / "fenics_gears").rglob("*.py"), *(ROOT / "setup").glob("*")]
+    text = "\n".join(file.read_text(encoding="utf-8") for file in files if file.is_file())
+    return re.sub(r'"\s*\n\s*f?"', "", text)
+
+
+def messages():
+    """The messages that the page on troubleshooting explains: the first cells of its tables."""
+    text = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
+    return re.findall(r"^\| `([^`]+)` \|", text, re.M)
+
+
+def test_messages_that_are_explained_are_the_programs():
+    """Authority: the sources."""
+    said = sources()
+    assert len(messages()) > 25
+    assert not [message for message in messages() if message not in said]

@@ -1,0 +1,100 @@
+"""The site that `docs/build` makes: strict, whole, and self-contained."""
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from tests.docs.blocks import PAGES, ROOT, name_of
+
+BUILD = ROOT / "docs" / "build"
+pytestmark = pytest.mark.skipif(shutil.which("sphinx-build") is None, reason="Sphinx is not installed")
+
+
+def built(checkout, site):
+    """docs/build of a checkout into a folder."""
+    return subprocess.run([checkout / "docs" / "build", site], capture_output=True, text=True)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The site of this checkout."""
+    folder = tmp_path_factory.mktemp("site") / "html"
+    done = built(ROOT, folder)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def test_every_page_is_in_the_site(site):
+    """Authority: the Markdown files of the checkout; the site's first page leads to the index."""
+    missing = [name_of(page) for page in PAGES if not (site / Path(name_of(page)).with_suffix(".html")).exists()]
+    assert not missing
+    assert (site / re.search(r"url=([\w./]+)", (site / "index.html").read_text())[1]).exists()
+
+
+def test_pictures_are_there(site):
+    """Authority: the pages; as many pictures as in the Markdown, and each one's file."""
+    for page in PAGES:
+        written = re.findall(r"!\[[^]]*\]\(([^)]+)\)", page.read_text(encoding="utf-8"))
+        shown = site / Path(name_of(page)).with_suffix(".html")
+        sources = re.findall(r'<img [^>]*src="([^"]+)"', shown.read_text(encoding="utf-8"))
+        assert sorted(Path(source).name for source in written) == sorted(Path(source).name for source in sources)
+        assert all((shown.parent / source).exists() for source in sources)
+
+
+def test_equations_are_drawn_without_a_network(site):
+    """Authority: the files; what MathJax loads for the model's page lies in the site."""
+    if not Path("/usr/share/javascript/mathjax").is_dir():
+        pytest.skip("Debian's MathJax is not installed")
+    page = (site / "docs" / "model.html").read_text(encoding="utf-8")
+    scripts = re.findall(r'<script [^>]*src="([^"]+)"', page)
+    assert any("mathjax/MathJax.js" in script for script in scripts)
+    assert page.count('class="math notranslate') > 100
+    for script in scripts:
+        assert not script.startswith(("http:", "https:", "//"))
+        assert (site / "docs" / script.split("?")[0]).exists()
+    config = (site / "_static/mathjax/config/TeX-AMS_SVG.js").read_text(encoding="utf-8")
+    assert "TeX" in config and (site / "_static/mathjax/jax/output/SVG/fonts/TeX").is_dir()
+
+
+def test_pages_load_nothing_from_elsewhere(site):
+    """Authority: the files; scripts, styles and pictures are the site's own. Links lead where they lead."""
+    for page in site.rglob("*.html"):
+        sources = re.findall(r'<(?:script|img|link rel="stylesheet")[^>]*(?:src|href)="([^"]+)"', page.read_text(encoding="utf-8"))
+        assert not [source for source in sources if source.startswith(("http:", "https:", "//")) and "mathjax" not in source], page
+
+
+WRONG = {
+    "[a link](missing.md)": "missing.md",
+    "[an anchor of another page](other.md#nowhere)": "nowhere",
+    "[an anchor of this page](#no-such-place)": "no-such-place",
+    "![a picture](pictures/missing.png)": "missing.png",
+    "[a file](../fenics_gears/missing.py)": "missing.py",
+    "#### a heading two levels down": "level",
+}
+
+
+@pytest.fixture(scope="module")
+def small_checkout(tmp_path_factory):
+    """A checkout with the site's own files and two pages."""
+    root = tmp_path_factory.mktemp("small")
+    shutil.copytree(ROOT / "docs", root / "docs", ignore=shutil.ignore_patterns("_build", "pictures", "*.md"))
+    (root / "docs" / "index.md").write_text("# One\n\n```{toctree}\nother\n```\n", encoding="utf-8")
+    return root
+
+
+def test_a_page_without_mistakes_is_built(small_checkout, tmp_path):
+    """Authority: what the next test spoils is whole."""
+    (small_checkout / "docs" / "other.md").write_text("# Two\n\n## Three\n\n[here](#three), [self](other.md#three) and $x^2$\n", encoding="utf-8")
+    done = built(small_checkout, tmp_path / "html")
+    assert done.returncode == 0, done.stderr
+
+
+def test_mistakes_end_the_build_and_all_are_named(small_checkout, tmp_path):
+    """Authority: by hand; what leads nowhere, what stands too deep, and a page that no list names."""
+    (small_checkout / "docs" / "other.md").write_text("# Two\n\n" + "\n\n".join(WRONG), encoding="utf-8")
+    (small_checkout / "docs" / "lost.md").write_text("# Lost\n", encoding="utf-8")
+    done = built(small_checkout, tmp_path / "html")
+    assert done.returncode != 0
+    assert not [words for words in (*WRONG.values(), "lost.md") if words not in done.stderr], done.stderr
