@@ -21,16 +21,17 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"what to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)")
     command.add_argument("--animate", action="store_true", help="a turn through the stored mesh cycles (.gif, or .mp4 where ffmpeg is installed)")
     command.add_argument("--vtu", type=Path, metavar="FILE", help="write displacement and stress of both gears for ParaView, too")
+    command.add_argument("--pvd", type=Path, metavar="FILE", help="write a turn through the stored mesh cycles for ParaView, too: FILE and a .vtu for each step")
     command.set_defaults(command=picture)
 
 
 def picture(options: argparse.Namespace) -> int:
-    """Draw and export what is asked for; without --output and --animate, --vtu alone writes no picture."""
+    """Draw and export what is asked for; without --output and --animate, --vtu or --pvd alone writes no picture."""
     file = options.run / RUN_FILE if options.run.is_dir() else options.run
     if not file.is_file():
         raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
     output = options.output or file.parent / (ANIMATION_FILE if options.animate else PICTURE_FILE)
-    drawn = options.animate or options.output is not None or options.vtu is None
+    drawn = options.animate or options.output is not None or options.vtu is None and options.pvd is None
     _check_outputs(options, output if drawn else None)
     dataset, scene = _loaded(file)
     from fenics_gears.results.stored_forces import stored_index
@@ -59,11 +60,23 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
 
             with written_aside(options.vtu.parent, written) as aside:
                 save_vtu(runs.at(index), aside / options.vtu.name)
+        if options.pvd is not None:
+            written.append(_series(runs, dataset, options.pvd, progress))
         if output is not None:
             progress.stage("draw")
             with written_aside(output.parent, written) as aside:
                 _draw(options, runs, dataset, index, aside / output.name, progress)
     return written
+
+
+def _series(runs, dataset, collection: Path, progress) -> Path:
+    from fenics_gears.output import written_aside
+    from fenics_gears.show.stress_series import save_series
+
+    progress.stage("recover stresses")
+    with written_aside(collection.parent, []) as aside:
+        save_series(runs, dataset, aside / collection.name, progress.update)
+    return collection
 
 
 def _draw(options, runs, dataset, index: int, path: Path, progress) -> None:
@@ -101,11 +114,12 @@ def _loaded(file: Path):
 def _check_outputs(options, output: Path | None) -> None:
     from fenics_gears.output import check_writable
 
-    for path in (output, options.vtu):
+    for path in (output, options.vtu, options.pvd):
         if path is not None:
             check_writable(path.parent)
-    if options.vtu is not None and options.vtu.suffix != ".vtu":
-        raise SceneError(f"{options.vtu}: --vtu writes a .vtu file; give it such a name")
+    for path, suffix in ((options.vtu, ".vtu"), (options.pvd, ".pvd")):
+        if path is not None and path.suffix != suffix:
+            raise SceneError(f"{path}: --{suffix[1:]} writes a {suffix} file; give it such a name")
     if output is None:
         return
     if options.animate:

@@ -5,7 +5,7 @@ Pictures have the line of centres upright, the pinion above; files have the fram
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,8 @@ from fenics_gears.run_stresses import GearInSpace, GearsInMesh
 
 # VTK's numbers of cell types, by corners.
 VTK_CELL = {3: 5, 4: 9}
+# Mesh cycles: whole ones may be written a little less.
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -71,13 +73,18 @@ def outline(points: np.ndarray, sides: np.ndarray):
     return pyvista.PolyData(np.column_stack([points, np.ones(len(points))]), lines=lines)
 
 
-def save_vtu(mesh: GearsInMesh, path: Path) -> None:
+def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> None:
     """Both gears' displacement (mm) and stress (MPa) as a .vtu file, in the frame of the line of action.
 
-    Raises ComputationError where neither pyvista nor meshio is there.
+    Its points are the same material points at every stored time; ``precision`` is that of what is written. Raises ComputationError where
+    neither pyvista nor meshio is there.
     """
-    points, cells, data = _merged(mesh.gears)
-    points = np.column_stack([points, np.zeros(len(points))])
+    points, cells, data = _merged(tuple(in_tooth_order(mesh, gear) for gear in (0, 1)))
+    teeth = [np.repeat(np.arange(gear.teeth), len(body.points) // gear.teeth) for gear, body in zip((mesh.pair.pinion, mesh.pair.wheel), mesh.gears)]
+    data = {name: values.astype(precision) for name, values in data.items()}
+    data["gear"] = np.repeat([1, 2], [len(body.points) for body in mesh.gears]).astype(np.int32)
+    data["tooth"] = np.concatenate(teeth).astype(np.int32)
+    points = np.column_stack([points, np.zeros(len(points))]).astype(precision)
     try:
         import pyvista
     except ImportError:
@@ -89,6 +96,22 @@ def save_vtu(mesh: GearsInMesh, path: Path) -> None:
     for name, values in data.items():
         grid.point_data[name] = values
     grid.save(str(path))
+
+
+def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
+    """A gear whose sectors stand in the order of its teeth, which turn with it: tooth j is the one that tooth pair j loads.
+
+    The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
+    """
+    teeth, cycles = (mesh.pair.pinion, mesh.pair.wheel)[gear].teeth, int(np.floor(mesh.mesh_phase + ROUNDING))
+    # Sectors are counted counterclockwise; so turns the pinion.
+    sectors = (cycles - np.arange(teeth)) * (1 if gear == 0 else -1) % teeth
+    body = mesh.gears[gear]
+
+    def ordered(values: np.ndarray) -> np.ndarray:
+        return values.reshape(teeth, -1, values.shape[1])[sectors].reshape(values.shape)
+
+    return replace(body, **{name: ordered(getattr(body, name)) for name in ("points", "elastic", "displacement", "stress")})
 
 
 def _save_by_meshio(points, cells, data, path: Path) -> None:
@@ -118,5 +141,4 @@ def _merged(gears: tuple[GearInSpace, ...]) -> tuple[np.ndarray, np.ndarray, dic
         "stress_xy": stress[:, 2],
         "stress_zz": stress[:, 3],
         "von_mises_stress": np.concatenate([body.von_mises for body in gears]),
-        "gear": np.repeat(np.arange(1, len(gears) + 1), [len(body.points) for body in gears]),
     }
