@@ -1,0 +1,167 @@
+"""``[body_meshes]``: a mesh of the user's own is the gear it is, and what it cannot be is said before anything is computed."""
+
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.effects.examples import MESHES, text_of
+
+from fenics_gears.cli import main
+from fenics_gears.elasticity.body_mesh_file import write_body_mesh
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.gear_compliance import element_sizes
+from fenics_gears.elasticity.whole_body.cracked_gear import cracked_gear_mesh
+from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.model import model
+from fenics_gears.run_stresses import RunStresses
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.read import load_scene, scene_from_text
+from fenics_gears.simulation import simulate
+from fenics_gears.studies.study_file import load_study
+from fenics_gears.studies.workshop import Workshop
+
+TEETH = "tooth_elasticity"
+COARSE = {"element": "P1", "flank_element_size": 0.4, "body_element_size": 3.0}
+
+
+def text_with(meshes: str, *sections: str) -> str:
+    """A scene on coarse teeth with a section [body_meshes] as written."""
+    accuracy = 'element = "P1"\nflank_element_size = "0.4 mm"\nbody_element_size = "3 mm"'
+    text = text_of(TEETH, *sections).replace('element = "P1"\nflank_element_size = "0.12 mm"', accuracy)
+    return text + f"\n[body_meshes]\n{meshes}\n"
+
+
+@pytest.fixture(scope="module")
+def healthy(tmp_path_factory):
+    """Mesh files of both gears, all teeth whole, as the coarse scene's sectors are meshed."""
+    directory = tmp_path_factory.mktemp("meshes")
+    pair = model(scene_from_text(text_of(TEETH))).pair
+    for name in ("pinion", "wheel"):
+        gear = getattr(pair, name)
+        sizes = element_sizes(gear, ELEMENTS["P1"], COARSE["flank_element_size"], COARSE["body_element_size"])
+        write_body_mesh(cracked_gear_mesh(gear, sizes, {}), directory / f"{name}.msh")
+    return directory
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    return Cache(tmp_path_factory.mktemp("cache"))
+
+
+@pytest.mark.parametrize("sections", [(), ("shafts", "inertia", "damping", "friction", "tip_relief", "flank_errors")])
+def test_whole_meshes_of_healthy_gears_change_nothing(sections, healthy, cache):
+    """Exact identity: both gears from files, every result variable that of the rings of sectors but for the digits of a mesh file."""
+    files = "\n".join(f'{name} = "{healthy / name}.msh"' for name in ("pinion", "wheel"))
+    meshed = scene_from_text(text_with(files, *sections))
+    results = [simulate(replace(each, motion=Motion(200.0, 2, 2)), cache=cache) for each in (meshed, replace(meshed, body_meshes=None))]
+    assert set(results[0]) == set(results[1])
+    for name in ("transmission_error", "pair_normal_force", "contact_pressure", "rotation"):
+        found, expected = (result[name].values for result in results)
+        assert np.nanmax(np.abs(found - expected)) <= 1e-8 * np.nanmax(np.abs(expected))
+
+
+@pytest.fixture(scope="module")
+def turn(cache):
+    """A turn of the pinion with the cracked tooth of the example mesh, and the same with whole teeth, on that mesh's element sizes."""
+    scene = scene_from_text(text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"').replace('body_element_size = "3 mm"\n', ""))
+    scene = replace(scene, motion=Motion(200.0, 16, 16), accuracy=replace(scene.accuracy, element="P2"))
+    return [simulate(each, cache=cache) for each in (scene, replace(scene, body_meshes=None))]
+
+
+def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(turn):
+    """Authority: tooth 8 of the file reaches the start of contact with cycle 8 and the end 1.47 cycles later; its crack deflects it more.
+
+    Neighbours feel it through the body: three teeth away it is below 0.5 % of what it is on the tooth."""
+    cracked, whole = (each.transmission_error.values for each in turn)
+    phase, softer = turn[0].mesh_phase.values, np.abs(cracked) - np.abs(whole)
+    carrying = (phase > 8.1) & (phase < 9.4)
+    assert softer[carrying].min() > 0.02 * softer.max() > 0.0
+    assert 8.5 < phase[np.argmax(softer)] < 9.1
+    assert np.abs(softer[np.abs(phase - 8.75) > 3.75]).max() < 5e-3 * softer.max()
+
+
+def test_the_load_goes_to_the_neighbours_of_a_cracked_tooth(turn):
+    """Where two pairs share the load the softer one has less than the whole tooth had, the other more, and their sum is the load."""
+    forces = [result.pair_normal_force for result in turn]
+    phase = turn[0].mesh_phase.values
+    for at, other in ((8.3, 7), (9.2, 9)):
+        step = int(np.argmin(np.abs(phase - at)))
+        own, beside = ([float(each.sel(pair=pair)[step]) for each in forces] for pair in (8, other))
+        assert own[0] < 0.98 * own[1] and beside[0] > 1.01 * beside[1]
+        assert own[0] + beside[0] == pytest.approx(own[1] + beside[1], rel=1e-9)
+
+
+def test_files_are_found_from_the_scene_file_on(tmp_path, monkeypatch):
+    """Wherever the program is called from; a study's cases from its base scene's folder on, and a swept file is a case of its own."""
+    (tmp_path / "scenes").mkdir()
+    shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "own.msh")
+    shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "other.msh")
+    (tmp_path / "scenes" / "scene.toml").write_text(text_with('pinion = "own.msh"'))
+    study = tmp_path / "study.toml"
+    study.write_text('scene = "scenes/scene.toml"\n[sweep]\nbody_meshes.pinion = ["own.msh", "other.msh"]\n')
+    monkeypatch.chdir(tmp_path)
+    mesh = load_scene("scenes/scene.toml").body_meshes.pinion
+    assert mesh.path == str(tmp_path / "scenes" / "own.msh") and len(mesh.digest) == 64
+    found = [case.scene.body_meshes.pinion for case in load_study(study).cases]
+    assert [each.path for each in found] == [str(tmp_path / "scenes" / name) for name in ("own.msh", "other.msh")]
+    assert found[0] == mesh and found[0].digest == found[1].digest
+
+
+def test_a_workshop_tells_meshes_apart_by_their_content(tmp_path, healthy, cache):
+    """A file that is written anew is another gear, and the same file is not read twice."""
+    file = tmp_path / "pinion.msh"
+    shutil.copy(healthy / "pinion.msh", file)
+    workshop, made = Workshop(), []
+    for content in (None, None, MESHES / "cracked_pinion.msh"):
+        if content is not None:
+            shutil.copy(content, file)
+        built = model(scene_from_text(text_with(f'pinion = "{file}"')))
+        made.append(simulate(built.scene, preparation=workshop.prepared, cache=cache).transmission_error.values)
+    assert np.array_equal(made[0], made[1]) and np.abs(made[2] - made[0]).max() > 1e-3 * np.abs(made[0]).max()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda text: text.replace('pinion = "own.msh"', ""), r"\[body_meshes\]\n +names no file. Add pinion ="),
+        (lambda text: text + "\n[coast_flanks]\n", r"\[body_meshes\]\n +cannot stand beside \[coast_flanks\]"),
+        (lambda text: text.replace('element = "P1"', 'element = "P1"\nelastic_teeth = 1'), "elastic_teeth = 1\n +cannot stand beside"),
+        (lambda text: text.replace('element = "P1"', 'model = "rigid teeth"'), 'model = "rigid teeth"\n +cannot stand beside .* Take "elastic"'),
+        (lambda text: text.replace('element = "P1"', 'condensation = "every step"'), 'condensation = "every step"\n +cannot stand beside .* Take "once"'),
+        (lambda text: text + "\n[output]\nroot_stress = true\n", r"root_stress = true\n +knows equal teeth only"),
+    ],
+)
+def test_what_cannot_stand_beside_it_is_said(change, message):
+    """Each names the field as it is written and what to take instead."""
+    with pytest.raises(SceneError, match=message):
+        scene_from_text(change(text_with('pinion = "own.msh"')))
+
+
+def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_written(tmp_path, capsys):
+    """design.md, exit codes: 2, nothing written; the message leads with the field. A file that is not there; quadrilaterals asked of triangles."""
+    scene = tmp_path / "scene.toml"
+    for meshes, words in (
+        (f'wheel = "{MESHES / "cracked_pinion.msh"}"', "body_meshes.wheel = "),
+        ('pinion = "nowhere.msh"', "there is no such file"),
+    ):
+        scene.write_text(text_with(meshes))
+        for command in (["check", str(scene)], ["run", str(scene), "--output", str(tmp_path / "out")]):
+            assert main(command) == 2
+            said = capsys.readouterr().err
+            assert words in said and "Nothing was computed or written" in said
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_flank_coarser_than_the_contact_asks_for_is_warned_of():
+    """The example's 0.38 mm against the scene's 0.12 mm."""
+    built = model(scene_from_text(text_of(TEETH, "body_meshes")))
+    assert any("body_meshes.pinion: elements along its flanks are up to 0.376 mm long, the contact asks for 0.12 mm" in words for words in built.warnings)
+
+
+def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):
+    """Recovery is by sectors."""
+    scene = scene_from_text(text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"'))
+    with pytest.raises(ComputationError, match="stresses are recovered from gears of equal sectors"):
+        RunStresses(turn[0], scene, cache)
