@@ -27,7 +27,11 @@ class FlankInterpolation:
 
 
 def hat_integrals(offsets: np.ndarray) -> np.ndarray:
-    """Integral of each hat function (n,), mm: the length of flank that a contact node stands for."""
+    """Integral of each hat function (n,), mm: the length of flank that a contact node stands for.
+
+    >>> hat_integrals(np.array([0.0, 1.0, 3.0])).tolist()
+    [0.5, 1.5, 1.0]
+    """
     cells = np.diff(offsets)
     integrals = np.zeros(len(offsets))
     integrals[:-1] += 0.5 * cells

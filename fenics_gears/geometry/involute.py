@@ -15,7 +15,10 @@ NEWTON_STEPS = 60
 def involute_function(roll_angle):
     """Polar angle ``v - atan(v)`` swept by the involute up to a roll angle; rad, any shape.
 
-    In terms of the pressure angle ``a = atan(v)`` this is the textbook's ``inv a = tan a - a``.
+    In terms of the pressure angle ``a = atan(v)`` this is the textbook's ``inv a = tan a - a``, at 20 degrees:
+
+    >>> round(float(involute_function(np.tan(np.radians(20.0)))), 6)
+    0.014904
     """
     return roll_angle - np.arctan(roll_angle)
 
@@ -25,6 +28,9 @@ def inverse_involute(polar_angle: float) -> float:
 
     Newton on ``v - atan v``, whose slope is ``v^2/(1 + v^2)``. It is convex up to v = 1/sqrt(3) and its own asymptote
     ``v - pi/2`` lies below it, so that the start is above the root and the steps descend to it.
+
+    >>> round(inverse_involute(involute_function(0.5)), 12)
+    0.5
     """
     if polar_angle <= 0.0:
         return 0.0
@@ -55,6 +61,11 @@ def flank_point(base_radius: float, roll_angle, contact_roll_angle):
 
     ``x`` along the line of action from its tangent point, ``h`` from the gear's centre towards the line of action,
     where ``h = base_radius``. Roll angles in rad; arrays broadcast. Source: model.md, section 1 ([A.1] of the paper).
+
+    The point in contact is ``rb v`` from the tangent point:
+
+    >>> [round(float(length), 12) for length in flank_point(30.0, 0.4, 0.4)]
+    [12.0, 30.0]
     """
     turned = contact_roll_angle - roll_angle
     x = base_radius * (np.sin(turned) + roll_angle * np.cos(turned))
@@ -88,7 +99,11 @@ def roll_angle_at_height(base_radius: float, contact_roll_angle, height) -> np.n
 
 
 def arc_length(base_radius: float, roll_angle):
-    """Length of the involute from the base circle to a roll angle: ``rb v^2/2``, mm."""
+    """Length of the involute from the base circle to a roll angle: ``rb v^2/2``, mm.
+
+    >>> round(float(roll_angle_at_arc_length(30.0, arc_length(30.0, 0.4))), 12)
+    0.4
+    """
     return 0.5 * base_radius * np.square(roll_angle)
 
 

@@ -44,5 +44,8 @@ def mesh_factor(pairs: float) -> float:
     """Stiffness of a mesh in parts of c' for a number of pairs: 0.75 pairs + 0.25.
 
     Of the contact ratio it is c_gamma_alpha/c'; of 1 and 2 pairs, 1 and 1.75, the two levels whose mean over the path that is.
+
+    >>> mesh_factor(1), mesh_factor(2), mesh_factor(1.5) == (mesh_factor(1) + mesh_factor(2)) / 2
+    (1.0, 1.75, True)
     """
     return 0.75 * pairs + 0.25

@@ -7,7 +7,13 @@ from collections.abc import Iterable
 
 
 def nearest(word: str, names: Iterable[str], likeness: float = 0.6) -> str | None:
-    """The one of ``names`` that ``word`` most likely meant, whatever its case; None where none is alike."""
+    """The one of ``names`` that ``word`` most likely meant, whatever its case; None where none is alike.
+
+    >>> nearest("frictoin", ["friction", "inertia"])
+    'friction'
+    >>> nearest("oil", ["friction", "inertia"]) is None
+    True
+    """
     by_lower_case = {name.lower(): name for name in names}
     found = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=likeness)
     return by_lower_case[found[0]] if found else None
