@@ -14,7 +14,7 @@ from fenics_gears.elasticity.mesh_data import corner_areas, oriented
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.elasticity.sector_boundary import sector_boundary
-from fenics_gears.elasticity.sector_mesh import sector_mesh, whole_gear_mesh
+from fenics_gears.elasticity.sector_mesh import filled, sector_mesh, whole_gear_mesh
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point
@@ -109,3 +109,17 @@ def test_gmsh_leaves_the_interrupt_handler_alone(pinion):
         assert signal.getsignal(signal.SIGINT) is handler
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize("recombine", [False, True])
+@pytest.mark.parametrize("size", [0.5, 0.8])
+def test_outlines_that_differ_by_round_off_have_the_same_mesh(pinion, size, recombine):
+    """Exact identity: the same cells, and inner points that do not move; two routes reach one outline by sums of different order."""
+    boundary, field = sector_boundary(pinion.of_module_one, ElementSizes(flank=size, fillet=0.4, coast=1.0, body=3.0).in_modules_of(pinion))
+    outline = boundary.points[::2] if recombine else boundary.points
+    points, cells = filled(outline, field, 2.0 if recombine else 1.0, recombine)
+    last_bit = np.random.default_rng(0).integers(-1, 2, outline.shape)
+    moved, same_cells = filled(outline * (1.0 + 2.0**-52 * last_bit), field, 2.0 if recombine else 1.0, recombine)
+    assert moved[: len(outline)] == pytest.approx(outline, abs=1e-13)
+    assert np.array_equal(moved[len(outline) :], points[len(outline) :])
+    assert all(np.array_equal(one, other) for one, other in zip(cells, same_cells, strict=True))
