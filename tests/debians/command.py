@@ -3,6 +3,7 @@
 import argparse
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -25,6 +26,8 @@ def main(arguments, description) -> int:
     if why_not:
         say(why_not)
         return 2
+    # Shells start what runs in the background deaf to Ctrl-C, every process below would be too, and tests of Ctrl-C would wait for ever.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     commit = git("log", "-1", "--format=%h %s").decode().strip()
     say(f"trying {commit}" + (" (what is uncommitted is left out)" if git("status", "--porcelain", "--untracked-files=no") else ""))
     trials = []
