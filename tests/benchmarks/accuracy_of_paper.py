@@ -43,8 +43,7 @@ def section(name: str, report: Report) -> str:
     whole.insert(1, "|---" * len(table.WHOLE_HEADINGS) + "|")
     where = report.machine
     measured = (
-        f"Whole settings timed {report.own.times.rounds} times in turns, medians; rungs {report.knobs[0].rungs[0].times.rounds} times. "
-        f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}."
+        f"{table.timed(report)} {where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}."
     )
     remarks = [f"* {remark}" for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))]
     return "\n".join([

@@ -8,12 +8,15 @@ import pytest
 from tests.effects.examples import scene_of, text_of
 
 from fenics_gears.cli import main
+from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model import model
-from fenics_gears.scene.data import RIGID_TEETH, Accuracy
+from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
 from fenics_gears.simulation import simulate
 from fenics_gears.studies.accuracy import ladder, measured, table
-from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, SPAN, judged
+from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
+from fenics_gears.studies.accuracy.root_point import peak_root_stress, point_rows
+from fenics_gears.studies.accuracy.timing import KeptGears
 
 TEETH = "tooth_elasticity"
 # Fewer and coarser than --quick: what is tested here is the way, not the ladder.
@@ -66,7 +69,8 @@ def test_every_knob_of_the_issue_is_turned_with_the_others_fine(report):
     }  # fmt: skip
     for result in report.knobs:
         for each in result.rungs:
-            assert replace(each.rung.setting, **{result.knob.field: getattr(report.fine, result.knob.field)}) == report.fine
+            base = result.knob.base or report.fine
+            assert replace(each.rung.setting, **{result.knob.field: getattr(base, result.knob.field)}) == base
 
 
 def test_the_scenes_own_values_are_rungs(report):
@@ -107,6 +111,61 @@ def test_times_are_split_and_of_every_round(report):
     assert report.own.times.median("condense") > 0.0 and "cores" in report.machine["processor"]
 
 
+@pytest.mark.parametrize("sections", [(TEETH,), (TEETH, "friction", "inertia")])
+def test_the_root_stress_is_that_of_the_runs_own_output(sections):
+    """Authority: `[output] root_stress` of the same run, its variable at 30 degrees; the pinion's largest over the last cycle."""
+    scene = replace(scene_of(*sections), motion=Motion(200.0, 2, 2), output=Output(root_stress=True))
+    run, cycle = KeptGears().run_with_cycle(scene)
+    last = run.isel(time=slice(len(run.mesh_phase) - cycle.steps, None), gear=0)
+    assert peak_root_stress(run, scene, cycle) == pytest.approx(float(last["root_stress_at_30_degrees"].max()), rel=1e-9)
+
+
+def test_a_fillet_without_that_tangent_is_judged_at_its_middle():
+    """Authority: definition; the point at 30 degrees is not a number there."""
+    rows = np.arange(3 * 10 * 2, dtype=float).reshape(3, 10, 2)
+    assert (point_rows(RootStressRows(rows, np.zeros(5))) == rows[:, [4, 9]]).all()
+    rows[:, [4, 9]] = np.nan
+    assert (point_rows(RootStressRows(rows, np.zeros(5))) == rows[:, [2, 7]]).all()
+
+
+def test_root_stress_has_errors_and_orders(report):
+    """Authority: issue 6; every rung and whole setting has one, cheaper models without flanks in contact have none, and it costs no time."""
+    assert all(np.isfinite(each.errors[ROOT]) for result in report.knobs for each in result.rungs)
+    assert all(np.isfinite(each.errors[ROOT]) for each in report.settings) and all(np.isnan(each.errors[ROOT]) for each in report.models)
+    body = knob(report, "body element size").rungs
+    assert max(each.errors[ROOT] for each in body) < 0.1
+    assert "root stress" in table.HEADINGS
+
+
+def test_rungs_are_repeated_the_quickest_first_as_far_as_there_is_time():
+    """Authority: by hand; 1 + 2 fit into 4, 3 more do not; what is left out is said."""
+    settings = [replace(ladder.Setting("P2", 0.1, 0.1, 3.0, 1.0, 20), steps=steps) for steps in (40, 20, 80)]
+    seconds = dict(zip(settings, (2.0, 1.0, 3.0)))
+    assert measured.within(seconds, 4.0) == settings[:2]
+    assert measured.within(seconds, 6.0) == settings and measured.within(seconds, 0.5) == []
+
+
+def test_what_was_timed_less_often_is_told(report):
+    """Authority: house rule; a number says how it was measured."""
+    assert table.timed(report).endswith("settings of single knobs as often.")
+    fewer = replace(report, rounds=5)
+    assert f"0 of {sum(len(each.rungs) for each in report.knobs)} settings" in table.timed(fewer) and "60 s that were given" in table.timed(fewer)
+
+
+def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
+    """Authority: issue 6 names the knob; it is a model of its own, compared in one setting that both routes have, and limits no setting."""
+    coarse = {"flank elements": 0.7, "contact nodes": 0.7, "body elements": 4.0, "steps": 4}
+    monkeypatch.setattr(ladder, "REMESHED_FINE", coarse)
+    assert [each.name for each in ladder.knobs(scene)][-1] == "condensation"
+    study = measured.Study(scene, measured.SilentProgress(), True, 1)
+    study.knobs = (ladder._condensation(scene),)
+    (result,) = study.turn_knobs()
+    anew, once = result.rungs
+    assert once.errors[CURVE] == once.errors[ROOT] == 0.0 and 0.0 < anew.errors[CURVE] < 0.2
+    assert np.isnan(anew.errors[ROOT])
+    assert all((limit.value == study._known[study.base][0][name]).all() for name, limit in result.limits.items())
+
+
 def test_the_energy_account_closes_to_round_off(report):
     """Authority: the exact account of a quasi-static, frictionless run."""
     assert max(each.errors["energy defect"] for each in report.settings) < 1e-9
@@ -145,14 +204,14 @@ def test_without_load_there_is_nothing_to_measure(scene):
 
 def test_a_rung_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
     """Authority: house style, a failed case is a record among the results."""
-    kept = measured.KeptGears.run
+    kept = measured.KeptGears.run_with_cycle
 
     def fails(self, scene):
         if scene.accuracy.interpolation == "collocated":
             raise ComputationError("no solution at step 3\nand a history")
         return kept(self, scene)
 
-    monkeypatch.setattr(measured.KeptGears, "run", fails)
+    monkeypatch.setattr(measured.KeptGears, "run_with_cycle", fails)
     study = measured.Study(scene, measured.SilentProgress(), True, 1)
     study.knobs = tuple(each for each in study.knobs if each.name == "interpolation")
     (result,) = study.turn_knobs()

@@ -13,7 +13,7 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
 from fenics_gears.errors import SceneError
 from fenics_gears.model import Model, model
-from fenics_gears.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP
+from fenics_gears.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Scene
 
 # Elements and contact nodes in a half-width, body elements in parts of their default, the window in parts of the default, steps in a cycle.
@@ -28,6 +28,8 @@ QUICK = {
 # Where a knob stands while another is looked at: one halving before its finest rung; steps, whose cost is memory, three.
 FINE = {"flank elements": 4.0, "contact nodes": 4.0, "body elements": 0.5, "contact length": 1.0, "steps": 80}
 QUICK_FINE = {"flank elements": 1.4, "contact nodes": 1.4, "body elements": 1.0, "contact length": 1.0, "steps": 20}
+# Gears meshed anew at every step cost a hundred times as much: both ways of condensing are compared in a setting that is less fine.
+REMESHED_FINE = {"flank elements": 2.0, "contact nodes": 2.0, "body elements": 1.0, "steps": 20}
 CHOICES = {"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)}
 QUICK_CHOICES = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
 
@@ -44,6 +46,7 @@ class Setting:
     steps: int
     interpolation: str = AVERAGED
     elastic_teeth: int | None = None
+    condensation: str = ONCE
 
     @property
     def grid(self) -> ContactGrid:
@@ -60,6 +63,7 @@ class Setting:
 
     def accuracy(self, module: float) -> Accuracy:
         """The setting as `[accuracy]` has it; `module` in mm."""
+        remeshed = self.condensation == EVERY_STEP
         return Accuracy(
             element=self.element,
             flank_element_size=self.flank,
@@ -67,8 +71,9 @@ class Setting:
             contact_nodes=self.grid.nodes,
             steps_per_mesh_cycle=self.steps,
             body_element_size=self.body * DEFAULT_SIZES[self.order].body * module,
-            interpolation=self.interpolation,
+            interpolation=None if remeshed else self.interpolation,
             elastic_teeth=self.elastic_teeth,
+            condensation=self.condensation,
         )
 
     @property
@@ -76,7 +81,8 @@ class Setting:
         """The setting for a label in a picture."""
         teeth = "" if self.elastic_teeth is None else f", teeth {self.elastic_teeth}"
         collocated = "" if self.interpolation == AVERAGED else f", {self.interpolation}"
-        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:g}{collocated}{teeth}"
+        remeshed = "" if self.condensation == ONCE else f", condensed {self.condensation}"
+        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:g}{collocated}{teeth}{remeshed}"
 
 
 @dataclass(frozen=True)
@@ -91,13 +97,17 @@ class Rung:
 
 @dataclass(frozen=True)
 class Knob:
-    """A knob, its rungs from coarse to fine, the order expected of its error; None where there is no power law."""
+    """A knob, its rungs from coarse to fine, the order expected of its error; None where there is no power law.
+
+    base: the setting in which it is turned and from which its rungs are measured, where that is not the fine one.
+    """
 
     name: str
     field: str
     rungs: tuple[Rung, ...]
     expected: float | None
     why: str
+    base: Setting | None = None
 
 
 def checked_model(scene: Scene) -> Model:
@@ -155,7 +165,19 @@ def knobs(scene: Scene, quick: bool = False) -> tuple[Knob, ...]:
     chosen = QUICK_CHOICES if quick else CHOICES
     choices = [Knob(name, name, _choices(base, name, options), None, "a choice") for name, options in chosen.items()]
     choices.append(Knob("elastic teeth", "elastic_teeth", _choices(base, "elastic_teeth", (1, None)), None, "a choice"))
-    return tuple(_with_own(knob, base, own(scene), unit) for knob in (*powers, *choices))
+    if not quick:
+        choices.append(_condensation(scene))
+    return tuple(_with_own(knob, knob.base or base, own(scene), unit) for knob in (*powers, *choices))
+
+
+def _condensation(scene: Scene) -> Knob:
+    """Gears condensed once for all positions, and meshed anew at every one: another model, no finer one."""
+    parts, unit = REMESHED_FINE, half_width(scene)
+    base = replace(
+        fine(scene), flank=unit / parts["flank elements"], spacing=unit / parts["contact nodes"], body=parts["body elements"], steps=parts["steps"],
+    )  # fmt: skip
+    rungs = tuple(Rung(f"{each}, {parts['steps']} steps", replace(base, condensation=each)) for each in (EVERY_STEP, ONCE))
+    return Knob("condensation", "condensation", rungs, None, "another model", base)
 
 
 def _order_of_nodes(scene: Scene) -> tuple[float, str]:

@@ -8,8 +8,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, DEFECT = "T_E", "T_EPP", "mesh stiffness", "pressure", "peak pressure", "energy defect"
-MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, DEFECT)
+CURVE, SPAN, STIFFNESS, PRESSURE, PEAK = "T_E", "T_EPP", "mesh stiffness", "pressure", "peak pressure"
+ROOT, DEFECT = "root stress", "energy defect"
+MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, ROOT, DEFECT)
 # A setting is judged by these two together: a curve may have the right height and the wrong shape.
 JUDGED = (CURVE, SPAN)
 CURVE_POINTS, PRESSURE_PHASES, PRESSURE_POINTS = 640, 20, 401
@@ -18,8 +19,11 @@ PAIRS_BACK, PAIRS = 6, 9
 Answer = dict[str, np.ndarray]
 
 
-def answer(run: xr.Dataset, window: float) -> Answer:
-    """Every measure of a run that it has, each an array; `window` (mm): length over which pressures are compared."""
+def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> Answer:
+    """Every measure of a run that it has, each an array; `window` (mm): length over which pressures are compared.
+
+    root_stress: MPa, peak at a material point (`root_point`), which a run does not carry; None where it is not known.
+    """
     found = {
         CURVE: _curve(run),
         SPAN: np.array([run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]]),
@@ -30,6 +34,8 @@ def answer(run: xr.Dataset, window: float) -> Answer:
     if "contact_pressure" in run:
         found[PRESSURE] = _pressure(run, window)
         found[PEAK] = np.array([run.attrs["peak_contact_pressure"]])
+    if root_stress is not None:
+        found[ROOT] = np.array([root_stress])
     return found
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import statistics
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import xarray as xr
 
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.model import Model
 from fenics_gears.progress import SilentProgress
+from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
 from fenics_gears.studies.workshop import GEARS, gear_key
@@ -48,9 +51,9 @@ class Times:
         return statistics.median(getattr(self, stage))
 
 
-def run_afresh(scene: Scene) -> xr.Dataset:
-    """A run that takes nothing from the cache and leaves nothing there. Ctrl-C in its march ends all."""
-    return _whole(simulate(scene, preparation=lambda built, progress, cache: prepared(built, SilentProgress(), None)))
+def run_afresh(scene: Scene) -> tuple[xr.Dataset, Cycle]:
+    """A run that takes nothing from the cache and leaves nothing there, and its mesh cycle. Ctrl-C in its march ends all."""
+    return _run(scene, lambda built: prepared(built, SilentProgress(), None))
 
 
 class KeptGears:
@@ -61,9 +64,15 @@ class KeptGears:
 
     def run(self, scene: Scene) -> xr.Dataset:
         """A run of the full contact; its times are those of a run of its own."""
-        return _whole(simulate(scene, preparation=lambda built, progress, cache: self._prepared(built)))
+        return self.run_with_cycle(scene)[0]
+
+    def run_with_cycle(self, scene: Scene) -> tuple[xr.Dataset, Cycle]:
+        """The same, and its mesh cycle."""
+        return _run(scene, self._prepared)
 
     def _prepared(self, built: Model):
+        if built.resolution.condensation == EVERY_STEP:
+            return prepared(built, SilentProgress(), None)
         reach = tooth_reach(built)
         for name in GEARS:
             key = gear_key(built, name, reach)
@@ -73,7 +82,16 @@ class KeptGears:
         return compliances, mesh_cycle(built, compliances)
 
 
-def _whole(result: xr.Dataset) -> xr.Dataset:
+def _run(scene: Scene, prepare: Callable[[Model], tuple]) -> tuple[xr.Dataset, Cycle]:
+    """A complete run of a scene whose gears and mesh cycle `prepare(model)` makes."""
+    cycles = []
+
+    def preparation(built: Model, progress, cache):
+        gears, cycle = prepare(built)
+        cycles.append(cycle)
+        return gears, cycle
+
+    result = simulate(scene, preparation=preparation)
     if not result.attrs["complete"]:
         raise KeyboardInterrupt
-    return result
+    return result, cycles[0]

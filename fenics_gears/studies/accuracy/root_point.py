@@ -1,0 +1,61 @@
+"""Peak stress at one material point of the pinion's tooth root: where the fillet's tangent stands at 30 degrees to the tooth's centreline.
+
+The point is the gear's, whatever its mesh, so that meshes can be compared by it; the largest stress anywhere sits elsewhere on every mesh.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.model import model
+from fenics_gears.results.stored_forces import StoredForces, stored_forces
+from fenics_gears.scene.data import Material, Scene
+from fenics_gears.simulation import tooth_reach
+
+PINION = 0
+
+
+def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
+    """Largest tension (MPa) at the point over the last stored mesh cycle, of whichever fillet it is pulled in: that on the loaded side.
+
+    run: of `scene`, with contact nodes on the flanks; cycle: the one that it had.
+    """
+    built = model(scene)
+    resolution = built.resolution
+    rows = _rows(
+        built.pair.pinion, scene.gears.material, resolution.element, resolution.flank_element_size, resolution.body_element_size,
+        tooth_reach(built), scene.coast_flanks is not None,
+    )  # fmt: skip
+    point = point_rows(rows)
+    steps = range(len(run["mesh_phase"]) - cycle.steps, len(run["mesh_phase"]))
+    stresses = [_stress(point, stored_forces(run, built, cycle, index), built) for index in steps]
+    return max(stresses, default=0.0)
+
+
+def point_rows(rows: RootStressRows) -> np.ndarray:
+    """Rows (2 reach + 1, 2, d) of the point on either side; of a fillet without such a tangent those of its middle."""
+    points = rows.rows.shape[1] // 2
+    place = points - 1 if np.isfinite(rows.rows[rows.reach, points - 1]).all() else (points - 1) // 2
+    return rows.rows[:, [place, points + place]]
+
+
+def _stress(point: np.ndarray, stored: StoredForces, built) -> float:
+    """Larger stress (MPa) of both sides of the loaded teeth at a stored step; 0 where none is loaded."""
+    forces, reach = stored.on_flanks(built, PINION), len(point) // 2
+    of_teeth = [sum(point[reach + tooth - loaded] @ force for loaded, force in forces.items()) for tooth in forces]
+    return float(np.max(of_teeth, initial=0.0))
+
+
+@lru_cache(maxsize=64)
+def _rows(
+    pinion: Gear, material: Material, element: str, flank: float, body: float | None, reach: int, coast_flank: bool,
+) -> RootStressRows:  # fmt: skip
+    return root_stress_rows(
+        pinion, material, element=element, flank_element_size=flank, body_element_size=body, reach=reach, coast_flank=coast_flank,
+    )  # fmt: skip
