@@ -3,6 +3,7 @@
 import re
 
 import pytest
+import xarray
 from tests.docs.blocks import PAGES, ROOT, in_text, name_of
 
 PLACES = ("fenics_gears/", "tests/", "docs/", "demos/", "meshes/", "setup/")
@@ -26,6 +27,13 @@ def test_the_tour_names_files_of_every_folder():
     folders = [path for path in (ROOT / "fenics_gears").iterdir() if (path / "__init__.py").exists()]
     assert folders and all(f"fenics_gears/{folder.name}" in named for folder in folders)
     assert len([name for name in named if name.endswith(".py") and (ROOT / name).exists()]) > 40
+
+
+def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
+    """Authority: a study of frequencies with friction and without, of equal steps."""
+    named = set(in_text(ROOT / "docs" / "studies.md"))
+    with xarray.open_dataset(readers_folder / "results" / "frequencies" / "study.nc", engine="h5netcdf") as study:
+        assert len(study.data_vars) > 8 and not [name for name in study.data_vars if name not in named]
 
 
 def sources():
