@@ -37,7 +37,7 @@ def simulate(
     preparation: Preparation | None = None,
     comm=None,
 ) -> xr.Dataset:
-    """Run a scene and return its result (design.md, Result).
+    """Run a scene and return its result (docs/result.md).
 
     `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
     of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.

@@ -1,6 +1,6 @@
 """Curves over the recorded mesh cycles: transmission error, mesh forces, load sharing between tooth pairs.
 
-Each function takes a result (design.md, Result) and returns a Figure, or None where the result has nothing to show in it.
+Each function takes a result (docs/result.md) and returns a Figure, or None where the result has nothing to show in it.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
 """Files and messages that the pages name are there."""
 
+import ast
 import re
 
 import pytest
@@ -27,6 +28,28 @@ def test_the_tour_names_files_of_every_folder():
     folders = [path for path in (ROOT / "fenics_gears").iterdir() if (path / "__init__.py").exists()]
     assert folders and all(f"fenics_gears/{folder.name}" in named for folder in folders)
     assert len([name for name in named if name.endswith(".py") and (ROOT / name).exists()]) > 40
+
+
+def imported(module):
+    """What a module imports, anywhere in it, as dotted names."""
+    for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def test_imports_point_the_way_that_the_page_says():
+    """Authority: the page's own list of folders, from the scene to the commands; none imports from one after it."""
+    table = (ROOT / "docs" / "reading_the_code.md").read_text(encoding="utf-8")
+    folders = re.findall(r"^\| `fenics_gears/(\w+)` \|", table, re.M)
+    assert folders[0] == "scene" and folders[-1] == "commands" and len(folders) == 9
+    against = []
+    for place, folder in enumerate(folders):
+        later = tuple(f"fenics_gears.{name}." for name in folders[place + 1 :])
+        for module in (ROOT / "fenics_gears" / folder).rglob("*.py"):
+            against += [f"{module.name}: {name}" for name in imported(module) if f"{name}.".startswith(later)]
+    assert not against
 
 
 def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
