@@ -1,0 +1,134 @@
+"""tests/debians/run without making a system: what it reads, counts and calls green. It itself is tried by being run."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tests.debians.command import main
+from tests.debians.dockerfile import read_dockerfile
+from tests.debians.root import Call
+from tests.debians.summary import table
+from tests.debians.trial import OF_RANKS, QUICK, QUICK_OF_RANKS, RANKS, SUITES, Counts, Trial, counted
+
+CHECKOUT = Path(__file__).parents[2]
+JUNIT = '<testsuites><testsuite tests="{}" failures="{}" errors="{}" skipped="{}" time="{}"/></testsuites>'
+
+
+def green(suite, logs):
+    """A trial in which all went well."""
+    trial = Trial(suite, logs, versions={"DOLFINx": "0.9.0"}, is_whole=True)
+    trial.calls["first command"] = Call(0, 1.0, "")
+    trial.tests = {ranks: Counts(10, 0, 1, 2.0, complete=True) for ranks in (1, *RANKS)}
+    return trial
+
+
+def test_dockerfile_is_the_debian_13_case_of_the_script():
+    """Issue 7: it starts from Debian 13, is set up by the one command that sets up every Debian, and its container runs the program."""
+    docker = read_dockerfile(CHECKOUT / "Dockerfile")
+    assert SUITES[docker.suite] == "Debian 13"
+    assert docker.commands[0].startswith(f"{docker.copied_to}/gears --set-up-only")
+    assert docker.entry_point == ["gears"] and f"ln -s {docker.copied_to}/gears" in docker.commands[1]
+    assert docker.environment["OMPI_ALLOW_RUN_AS_ROOT"] == "1"
+
+
+@pytest.mark.parametrize(
+    ("step", "told"),
+    [("USER gears", "USER"), ("FROM ubuntu:24.04", "must start from"), ("COPY setup /setup", "whole checkout"), ("WORKDIR /elsewhere", "once")],
+)
+def test_steps_that_the_script_would_not_carry_out_are_refused(tmp_path, step, told):
+    """A Dockerfile that does more than what is tried must not be called tried."""
+    text = (CHECKOUT / "Dockerfile").read_text(encoding="utf-8")
+    name = step.split()[0]
+    lines = [line for line in text.splitlines() if name == "WORKDIR" or not line.startswith(name)]
+    (tmp_path / "Dockerfile").write_text("\n".join([*lines, step]), encoding="utf-8")
+    with pytest.raises(ValueError, match=told):
+        read_dockerfile(tmp_path / "Dockerfile")
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_every_suite_has_its_lists_of_packages(suite):
+    """Without a list of its own a release would be set up as unstable."""
+    assert (CHECKOUT / f"setup/{suite}.apt").exists() and (CHECKOUT / f"setup/{suite}-test.apt").exists()
+
+
+@pytest.mark.parametrize("path", [*OF_RANKS, *QUICK, *QUICK_OF_RANKS])
+def test_tests_that_are_chosen_exist(path):
+    """pytest given a path that is gone runs nothing."""
+    assert (CHECKOUT / path).exists()
+
+
+def test_outcomes_of_all_ranks_count(tmp_path):
+    """By construction: what every rank passed, what any failed, the slowest rank's time; a rank without a file makes it incomplete."""
+    (tmp_path / "0.xml").write_text(JUNIT.format(12, 1, 1, 2, 3.0))
+    (tmp_path / "1.xml").write_text(JUNIT.format(12, 0, 0, 2, 5.0))
+    both = counted([tmp_path / "0.xml", tmp_path / "1.xml"])
+    assert both == Counts(passed=8, failed=2, skipped=4, seconds=5.0, complete=True) and not both.is_green
+    assert counted([tmp_path / "1.xml"]).is_green
+    assert not counted([tmp_path / "1.xml", tmp_path / "2.xml"]).is_green
+    assert not counted([]).is_green
+
+
+def test_counts_are_pytests_own(tmp_path):
+    """The file that this pytest writes is read as it reports: one passes, one fails, one is skipped, one breaks off in its fixture."""
+    (tmp_path / "test_four.py").write_text(
+        "import pytest\n"
+        "def test_passes(): pass\n"
+        "def test_fails(): assert False\n"
+        "@pytest.mark.skip\ndef test_skips(): pass\n"
+        "@pytest.fixture\ndef broken(): raise OSError\n"
+        "def test_breaks_off(broken): pass\n"
+    )
+    subprocess.run([sys.executable, "-m", "pytest", "-q", "--junitxml=out.xml", "."], cwd=tmp_path, capture_output=True)
+    found = counted([tmp_path / "out.xml"])
+    assert (found.passed, found.failed, found.skipped) == (1, 2, 1)
+
+
+def test_one_column_for_each_debian_and_one_verdict(tmp_path):
+    """What was not come to is a dash, and nothing but a whole green trial is called green."""
+    broken = green("sid", tmp_path)
+    broken.tests[3] = Counts(9, 1, 0, 2.0, complete=True)
+    short = Trial("bookworm", tmp_path)
+    lines = table([green("trixie", tmp_path), broken, short]).splitlines()
+    cells = {line.split("|")[1].strip(): [cell.strip() for cell in line.split("|")[2:-1]] for line in lines}
+    assert cells[""] == ["Debian 13", "unstable", "Debian 12"]
+    assert cells["DOLFINx"] == ["0.9.0", "0.9.0", "-"]
+    assert cells["suite: passed, failed, skipped"] == ["10, 0, 1", "10, 0, 1", "-"]
+    assert cells["all green"] == ["yes", "NO", "NO"]
+    assert len({len(line) for line in lines}) == 1
+
+
+def test_a_call_that_fails_is_not_green(tmp_path):
+    """A container that does not start spoils a trial whose tests all pass."""
+    trial = green("trixie", tmp_path)
+    assert trial.is_green
+    trial.note("container", Call(127, 0.1, ""))
+    assert not trial.is_green
+
+
+def test_without_root_nothing_is_tried(monkeypatch, capsys, tmp_path):
+    """Exit code 2 and the remedy, before anything is made."""
+    monkeypatch.setattr("os.geteuid", lambda: 1000)
+    assert main(["trixie", "--roots", str(tmp_path / "roots"), "--logs", str(tmp_path / "logs")], "") == 2
+    assert "sudo" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_missing_tool_is_named_with_its_package(monkeypatch, capsys, tmp_path):
+    """mmdebstrap is on few machines."""
+    monkeypatch.setattr("os.geteuid", lambda: 0)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert main(["--roots", str(tmp_path / "roots"), "--logs", str(tmp_path / "logs")], "") == 2
+    assert "apt-get install mmdebstrap" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("wrong", [["buster"], ["--fast"], ["trixie", "--"]])
+def test_a_wrong_call_is_told_before_anything_is_made(capsys, tmp_path, wrong):
+    """Exit code 2 with the word that is wrong."""
+    try:
+        code = main([*wrong[:1], "--logs", str(tmp_path / "logs"), "--roots", str(tmp_path / "roots"), *wrong[1:]], "")
+    except SystemExit as ended:
+        code = ended.code
+    told = capsys.readouterr().err
+    assert code == 2 and wrong[-1] in told
+    assert not list(tmp_path.iterdir())

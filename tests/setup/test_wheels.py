@@ -1,0 +1,63 @@
+"""The wheels of setup/*.pip fit each other and what Debian has. They are installed without pip's own resolution, so nobody else looks."""
+
+import platform
+from importlib import metadata
+from pathlib import Path
+
+import numpy
+import pytest
+from packaging.requirements import Requirement
+
+SETUP = Path(__file__).parents[2] / "setup"
+
+
+def wheels(suite):
+    """Name and version of every wheel in a suite's list."""
+    lines = (SETUP / f"{suite}.pip").read_text(encoding="utf-8").splitlines()
+    return dict(line.split("==") for line in lines if not line.startswith("#"))
+
+
+def here():
+    """The wheels of this system; skips the test where all comes from Debian, whose packages say themselves what fits."""
+    try:
+        suite = platform.freedesktop_os_release().get("VERSION_CODENAME", "")
+    except OSError:
+        suite = ""
+    if not (SETUP / f"{suite}.pip").exists():
+        pytest.skip(f"{suite or 'this system'} has no list of wheels")
+    found = wheels(suite)
+    if any(_installed(name) != version for name, version in found.items()):
+        pytest.skip("this Python is not the one that setup/install makes")
+    return found
+
+
+def _installed(name):
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+@pytest.mark.parametrize("suite", [path.stem for path in SETUP.glob("*.pip")])
+def test_no_wheel_brings_what_dolfinx_is_built_on(suite):
+    """Authority: DOLFINx, petsc4py and mpi4py are compiled against Debian's numpy and MPI; h5py's wheel carries an HDF5 of its own."""
+    assert not {"numpy", "scipy", "mpi4py", "petsc4py", "h5py", "numba", "fenics-dolfinx"} & wheels(suite).keys()
+
+
+def test_what_the_wheels_require_is_there():
+    """Authority: each wheel's own metadata; a version out of its range, of numpy above all, fails only in use."""
+    wanting = []
+    for wheel in here():
+        for requirement in map(Requirement, metadata.requires(wheel) or ()):
+            if requirement.marker and not requirement.marker.evaluate({"extra": ""}):
+                continue
+            version = _installed(requirement.name)
+            if version is None or not requirement.specifier.contains(version, prereleases=True):
+                wanting.append(f"{wheel} wants {requirement}, there is {version}")
+    assert wanting == []
+
+
+def test_the_one_numpy_is_debians():
+    """Authority: where Debian puts its modules; the wheels' own folder has no numpy in front of it."""
+    here()
+    assert Path(numpy.__file__).is_relative_to("/usr/lib/python3/dist-packages")
