@@ -52,10 +52,10 @@ class Root:
         """Make it anew, as small as Docker's slim images."""
         self.remove()
         self.folder.parent.mkdir(parents=True, exist_ok=True)
-        left_out = [f"--dpkgopt=path-exclude=/usr/share/{name}/*" for name in LEFT_OUT]
+        as_docker = ["--dpkgopt=force-unsafe-io", '--aptopt=Acquire::Languages "none"', *(f"--dpkgopt=path-exclude=/usr/share/{name}/*" for name in LEFT_OUT)]
         aside = self.folder.with_name(f"{self.folder.name}.part")
         _remove(aside)
-        call = _run(["mmdebstrap", "--variant=minbase", *left_out, self.suite, aside], log)
+        call = _run(["mmdebstrap", "--variant=minbase", *as_docker, self.suite, aside], log)
         if call.is_green:
             aside.rename(self.folder)
         return call
