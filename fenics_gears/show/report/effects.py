@@ -22,8 +22,8 @@ def effects(run: Run) -> Section:
     if run.scene is None:
         return Section("effects", "Effects", [Words(NO_SCENE, warns=True)])
     states = sorted(effect_states(run.scene), key=lambda state: not state.on)
-    rows = [("● on" if state.on else "○ off", f"[{state.effect.written}]", state.words, state.adds) for state in states]
-    table = Table(("", "Section", "The model has", "which adds"), rows, numbers=9)
+    rows = [("●\u00a0on" if state.on else "○\u00a0off", f"[{state.effect.written}]", state.words, state.adds) for state in states]
+    table = Table(("", "Section", "The model has", "Adds"), rows, numbers=9)
     return Section("effects", "Effects on and off", [table, *_measured(run)])
 
 

@@ -31,7 +31,7 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     drive = abs(last["work_input"])
 
     def row(label: str, value: float) -> tuple[str, str, str]:
-        share = f" ({abs(value) / drive:.3%} of the drive's work)" if drive and label != "work of the drive" else ""
+        share = f" ({100.0 * abs(value) / drive:.3g} % of the drive's work)" if drive and label != "work of the drive" else ""
         # What rounding leaves of two equal numbers is none.
         return label, f"{value if abs(value) > 1e-9 * drive else 0.0:.6g}", UNIT + share
 

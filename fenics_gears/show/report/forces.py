@@ -61,10 +61,11 @@ def _pairs(dataset: xr.Dataset) -> list[Plot]:
         curves = pair_curves(dataset, names[0])
         note = "Where several rigid pairs touch at once their shares are not determined." if np.isnan(dataset[names[0]].values).any() else ""
         if names[-1] != names[0] and names[-1] in dataset:
-            curves += [(f"coast flank of {name}", -values, colour) for name, values, colour in pair_curves(dataset, names[-1])]
-            note = f"{COAST_NOTE} {note}".strip()
+            coast = [(f"coast flank of {name}", -values, colour) for name, values, colour in pair_curves(dataset, names[-1])]
+            curves, note = curves + coast, f"{COAST_NOTE} {note}".strip() if coast else note
         if total:
-            curves.append(("all drive flanks", in_unit(dataset[total], "N"), DARK))
+            # First, so that the pairs are drawn upon it.
+            curves.insert(0, ("all drive flanks", in_unit(dataset[total], "N"), DARK))
         if curves:
             together = np.concatenate([each for _, each, _ in curves])
             plots.append(over_time(dataset, caption, "Force (N)", curves, least=least(together), note=note, height=340))

@@ -43,7 +43,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
             note = f"{largest / nominal:.3g} × nominal {digits(nominal)} N"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
-        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", "over five contact nodes")
+        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", "over five contact nodes" + (", on a sharp edge: see the warnings" if "sharp edge" in attributes.get("warnings", "") else ""))
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
         yield Tile("Largest root stress", digits(float(largest.max())), "MPa", f"pinion {digits(largest[0])}, wheel {digits(largest[1])}")

@@ -43,7 +43,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
     const range = shared[plot.dataset.linked];
     if (range) Object.assign(figure.layout.xaxis, { range, autorange: false });
     Plotly.newPlot(plot, figure.data, figure.layout, {
-      responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d", "toggleSpikelines"],
+      responsive: true, displaylogo: false, displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false, modeBarButtonsToRemove: ["lasso2d", "select2d", "toggleSpikelines"],
       toImageButtonOptions: { format: "svg", filename: name },
     });
     if (plot.dataset.linked) plot.on("plotly_relayout", change => follow(plot, change));

@@ -48,7 +48,7 @@ def plot(
     if np.isfinite(values).any():
         figure.update_yaxes(range=list(limits(values, least or 1e-300)))
         if np.nanmax(np.abs(values)) < 1e-3:
-            figure.update_yaxes(exponentformat="power")
+            figure.update_yaxes(exponentformat="e")
     return Plot(caption, figure, note, height, linked)
 
 
@@ -67,8 +67,8 @@ def layout(x_title: str, y_title: str, *, legend: bool) -> dict:
     return {
         "template": "none",
         "font": {"family": FONT, "size": 13, "color": DARK},
-        # One left margin for all plots, so that the time axes of plots below each other match; room above for plotly's buttons.
-        "margin": {"l": 80, "r": 16, "t": 36 if legend else 28, "b": 46},
+        # One left margin for all plots, so that the time axes of plots below each other match; above, room for plotly's buttons and the legend below them.
+        "margin": {"l": 80, "r": 16, "t": 40 if legend else 26, "b": 46},
         "showlegend": legend,
         "legend": {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom", "font": {"size": 12.5}},
         "hovermode": "x",
@@ -101,10 +101,7 @@ def _trace(go, curve: Curve):
 
 
 def _thinning(steps: int) -> str:
-    return (
-        f"Drawn from {steps:,} steps by the smallest and the largest value of each of {MOST_POINTS // 2:,} slices of time: every peak is there, "
-        "what lies between is in the result's file."
-    )
+    return f"Of {steps:,} steps the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
 
 
 def bars(go, name: str, x: np.ndarray, y: np.ndarray, colour: str, width: float):

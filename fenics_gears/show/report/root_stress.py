@@ -81,6 +81,6 @@ def _along_fillets(run: Run) -> list[Plot]:
         ]
         phase = float(own["mesh_phase"].values[time])
         caption = f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair'].values[pair])}, mesh cycle {phase:.3f}"
-        note = "From the root circle (tangent across the tooth) to the form circle."
+        note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
         plots.append(plot(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
     return plots

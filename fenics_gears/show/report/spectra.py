@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+from math import lcm
+
 import numpy as np
 
 from fenics_gears.results.contact_variables import largest_normal_force
@@ -9,14 +12,16 @@ from fenics_gears.show.panels import GREY, PALETTE
 from fenics_gears.show.report.page import Block, Plot, Section, Table, Words
 from fenics_gears.show.report.plotting import Curve, bars, layout, plot
 from fenics_gears.show.report.run import Run
-from fenics_gears.show.spectrum import COLOURS, OrderLines, order_lines, origin
+from fenics_gears.show.spectrum import COLOURS, MESH, OrderLines, order_lines, origin
 from fenics_gears.show.units import in_unit
 
 MESH_ORDERS, LISTED_ORDERS, FOLLOWED_ORDERS = 10.5, 8, 4
 CYCLES_TO_FOLLOW = 8
 # Lines below this part of the largest are the solver's tolerance.
 LEAST_PART = 1e-5
-BETWEEN = "between mesh orders"
+# Of the largest force; what varies by less is the solver's tolerance.
+LEAST_VARIATION = 1e-6
+ERROR, FORCE, BETWEEN = "Transmission error", "Mesh force", "between mesh orders"
 
 
 def spectra(run: Run) -> Section:
@@ -25,13 +30,15 @@ def spectra(run: Run) -> Section:
     if not run.has_curves or run.cycles < 1.0 - 1e-9:
         return Section("spectra", heading, [Words("Less than one mesh cycle is stored; its harmonics are not to be told from one another.", warns=not run.complete)])
     signals = _signals(run)
-    lines = {name: order_lines(values, run.cycles, (1, 1)) for name, (values, _) in signals.items()}
+    found = {name: spectrum(run, values) for name, (values, _) in signals.items()}
     blocks: list[Block] = []
     if run.scene is not None and run.scene.speed_ramp is not None:
         blocks.append(Words("The mesh frequency changes through the record: orders stay in place, resonances pass through them. See the orders cycle by cycle."))
     for name, (_, unit) in signals.items():
-        blocks.append(_plot(run, name, unit, lines[name]))
-    blocks.append(_table(signals, lines))
+        blocks.append(_plot(run, name, unit, found[name]))
+    if FORCE not in signals:
+        blocks.append(Words("The force of the mesh does not vary: nothing but a constant couple acts on it."))
+    blocks.append(_table(signals, {name: each.lines for name, each in found.items()}))
     blocks += _cycle_by_cycle(run, signals)
     return Section("spectra", heading, blocks)
 
@@ -40,21 +47,23 @@ def _signals(run: Run) -> dict[str, tuple[np.ndarray, str]]:
     """Values (time,) and unit of what is analysed."""
     error = in_unit(run.dataset["transmission_error"], "rad")
     if np.isfinite(run.micrometres):
-        signals = {"Transmission error": (error * run.micrometres, "µm")}
+        signals = {ERROR: (error * run.micrometres, "µm")}
     else:
-        signals = {"Transmission error": (error * 1e6, "µrad")}
+        signals = {ERROR: (error * 1e6, "µrad")}
     if "normal_force" in run.dataset and largest_normal_force(run.dataset):
         force = in_unit(run.dataset["normal_force"], "N")
         coast = in_unit(run.dataset["coast_normal_force"], "N") if "coast_normal_force" in run.dataset else 0.0
-        signals["Mesh force"] = (force - coast, "N")
+        # Without inertia and friction the load alone sets the force; what varies of it then is round-off.
+        if np.ptp(force - coast) > LEAST_VARIATION * largest_normal_force(run.dataset):
+            signals[FORCE] = (force - coast, "N")
     return signals
 
 
-def _plot(run: Run, name: str, unit: str, lines: OrderLines) -> Plot:
+def _plot(run: Run, name: str, unit: str, found: Spectrum) -> Plot:
     import plotly.graph_objects as go
 
+    lines, kinds = found.lines, found.origins
     shown = (lines.orders <= MESH_ORDERS) & (lines.amplitudes > LEAST_PART * lines.amplitudes.max(initial=0.0))
-    kinds = _origins(run, lines.orders)
     spacing = lines.orders[0] if len(lines.orders) else 1.0
     width = min(0.12, 0.8 * spacing)
     traces = [
@@ -63,10 +72,10 @@ def _plot(run: Run, name: str, unit: str, lines: OrderLines) -> Plot:
         if (own := shown & (kinds == kind)).any()
     ]
     figure = go.Figure(traces, layout("Mesh order (events a mesh cycle)", f"Amplitude ({unit})", legend=len(traces) > 1))
-    figure.update_layout(barmode="overlay", margin_t=66, updatemenus=[_scales()])
+    figure.update_layout(barmode="overlay", margin_t=48, updatemenus=[_scales()])
     figure.update_xaxes(range=[0, MESH_ORDERS], dtick=1, showgrid=False)
     figure.update_yaxes(rangemode="tozero")
-    return Plot(name, figure, _note(run, name, lines), 320)
+    return Plot(name, figure, _note(run, name, found), 320)
 
 
 def _scales() -> dict:
@@ -79,20 +88,36 @@ def _scales() -> dict:
     }  # fmt: skip
 
 
-def _origins(run: Run, orders: np.ndarray) -> np.ndarray:
-    """What each mesh order comes back with; parts of the mesh order cannot be told in a record shorter than a turn of the pinion."""
-    if run.scene is not None and run.cycles >= run.scene.gears.pinion.teeth * (1.0 - 1e-9):
-        teeth = run.scene.gears.pinion.teeth, run.scene.gears.wheel.teeth
-        return np.array([origin(order * teeth[0], teeth) for order in orders])
-    whole = np.abs(orders - np.round(orders)) < 1e-6
-    return np.where(whole, "mesh", BETWEEN)
+@dataclass(frozen=True)
+class Spectrum:
+    """Lines over mesh orders, what each comes back with (n,), and words on the record they are of."""
+
+    lines: OrderLines
+    origins: np.ndarray
+    record: str
 
 
-def _note(run: Run, name: str, lines: OrderLines) -> str:
-    what = "Amplitudes of the harmonics, without the mean" + (", drive flanks positive, coast flanks negative" if "coast_normal_force" in run.dataset and name == "Mesh force" else "")
-    if lines.exact:
-        return f"{what}; of {int(run.cycles * (1 + 1e-9))} whole mesh cycles."
-    return f"{what}; {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours."
+def spectrum(run: Run, values: np.ndarray) -> Spectrum:
+    """The mesh orders of values (time,): of whole hunting tooth periods where these are stored at a steady speed, so that what comes with a
+    turn of either gear stands apart; else of whole mesh cycles."""
+    scene = run.scene
+    if scene is not None and scene.speed_ramp is None:
+        teeth = scene.gears.pinion.teeth, scene.gears.wheel.teeth
+        found = order_lines(values, run.cycles, teeth)
+        if found is not None and found.exact:
+            periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)
+            record = f"of {periods} hunting tooth period{'s' if periods > 1 else ''} ({lcm(*teeth)} mesh cycles each)"
+            return Spectrum(replace(found, orders=found.orders / teeth[0]), np.array([origin(order, teeth) for order in found.orders]), record)
+    lines = order_lines(values, run.cycles, (1, 1))
+    origins = np.where(np.abs(lines.orders - np.round(lines.orders)) < 1e-6, MESH, BETWEEN)
+    whole = int(run.cycles * (1 + 1e-9))
+    words = f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}" if lines.exact else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
+    return Spectrum(lines, origins, words)
+
+
+def _note(run: Run, name: str, found: Spectrum) -> str:
+    sides = ", drive flanks positive, coast flanks negative" if "coast_normal_force" in run.dataset and name == FORCE else ""
+    return f"Amplitudes of the harmonics, without the mean{sides}; {found.record}."
 
 
 def _table(signals: dict, lines: dict[str, OrderLines]) -> Table:

@@ -1,0 +1,74 @@
+"""Runs and a study on coarse meshes, made by the commands that people make them by."""
+
+import pytest
+
+from fenics_gears import environment
+from fenics_gears.cli import main
+
+environment.prepare()
+
+COARSE = """[accuracy]
+element = "P1"
+flank_element_size = "0.3 mm"
+contact_length = "2.4 mm"
+contact_nodes = 9
+steps_per_mesh_cycle = 20
+"""
+
+
+def scene_text(paper_scene, *, without=(), more="", cycles=2):
+    """The paper's scene on a coarse mesh, less some sections, with more of them before the accuracy; `cycles` mesh cycles, one stored."""
+    head = paper_scene.text[: paper_scene.text.index("[accuracy]")]
+    head = head.replace("mesh_cycles = 30", f"mesh_cycles = {cycles}").replace("recorded_cycles = 2", "recorded_cycles = 1")
+    parts = head.split("\n[")
+    kept = [part for part in parts if part.partition("]")[0] not in without]
+    return "\n[".join(kept).rstrip("#\n ") + f"\n\n{more}\n{COARSE}"
+
+
+@pytest.fixture(scope="session")
+def cache(tmp_path_factory):
+    """A cache of their own for all tests here."""
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture(scope="session")
+def made(paper_scene, tmp_path_factory, cache):
+    """A function that runs a scene's text and returns the run's directory."""
+
+    def make(text, name):
+        directory = tmp_path_factory.mktemp(name)
+        (directory / f"{name}.toml").write_text(text, encoding="utf-8")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("FENICS_GEARS_CACHE", str(cache))
+            assert main(["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet"]) == 0
+        return directory / "run"
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def run(made, paper_scene):
+    """The directory of a dynamic run with friction and root stress."""
+    return made(scene_text(paper_scene, more="[output]\nroot_stress = true\n"), "dynamic")
+
+
+@pytest.fixture(scope="session")
+def report(run, cache):
+    """The page of that run."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("FENICS_GEARS_CACHE", str(cache))
+        assert main(["report", str(run), "--quiet"]) == 0
+    return run / "report.html"
+
+
+@pytest.fixture(scope="session")
+def study(paper_scene, tmp_path_factory, cache):
+    """The directory of a study of three frequencies, with friction and without."""
+    directory = tmp_path_factory.mktemp("study")
+    (directory / "pair.toml").write_text(scene_text(paper_scene), encoding="utf-8")
+    sweep = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\nfriction = ["absent", "present"]\n'
+    (directory / "study.toml").write_text('title = "Three speeds <i>"\nscene = "pair.toml"\n' + sweep, encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("FENICS_GEARS_CACHE", str(cache))
+        assert main(["study", str(directory / "study.toml"), "--output", str(directory / "out"), "--quiet"]) == 0
+    return directory / "out"

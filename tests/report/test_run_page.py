@@ -1,0 +1,239 @@
+"""The report on a run: which sections it has, what they say, and that it is one well-formed file that loads nothing."""
+
+import csv
+import re
+import subprocess
+import sys
+import tomllib
+from fnmatch import fnmatch
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.report.conftest import scene_text
+from tests.report.pages import seen
+
+from fenics_gears import results
+from fenics_gears.cli import main
+from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
+
+CHECKOUT = Path(__file__).parents[2]
+SECTIONS = [
+    "summary", "warnings", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver", "versions", "scene",
+]  # fmt: skip
+
+
+def page_of(dataset, directory, *options):
+    """The page of a dataset that is saved as a run."""
+    results.save(dataset, directory / "run.nc")
+    assert main(["report", str(directory), "--quiet", "--no-stress", *options]) == 0
+    return seen(directory / "report.html")
+
+
+def captions(page):
+    """Names of a page's plots."""
+    return [attributes["aria-label"] for tag, attributes in page.tags if attributes.get("class") == "plot"]
+
+
+def test_every_section_is_there_and_says_what_the_result_holds(report, run):
+    """Authority: issue 7's list of sections; the numbers are those of the result's file."""
+    page, dataset = seen(report), results.load(run / "run.nc")
+    assert list(page.sections) == SECTIONS
+    micrometres = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"] * 1e3
+    assert f"{micrometres:.4g} µm" in page.sections["summary"]
+    assert f"{dataset.attrs['dynamic_factor_by_stress']:.3f} by root stress" in page.sections["summary"]
+    for warning in dataset.attrs["warnings"].splitlines():
+        assert warning[1:] in page.sections["warnings"]
+    assert "elastic torsion of the input" in page.sections["effects"] and "constant speed" in page.sections["effects"]
+    assert "contact ratio" in page.sections["geometry"] and "4.5 mm" in page.sections["geometry"]
+    assert "taken by friction" in page.sections["energy"] and "taken by damping" in page.sections["energy"]
+    assert f"{dataset.attrs['newton_iterations_total']:,}" in page.sections["solver"] and "mode 1" in page.sections["solver"]
+    assert dataset.attrs["fenics_gears_version"] in page.sections["versions"]
+    assert dataset.attrs["scene"] in page.sections["scene"]
+    wanted = {"Transmission error", "Normal force of the mesh", "Friction force of the mesh", "Load sharing: normal force of each tooth pair", "Energy held"}
+    assert wanted <= set(captions(page))
+    assert {"The pair", "Largest pressure of a contact node", "Largest tension in the fillets of either gear"} <= set(captions(page))
+    pictures = [attributes for tag, attributes in page.tags if tag == "img"]
+    assert [picture["alt"] for picture in pictures] == ["Pressure over flank and time", "Von Mises stress of both gears in mesh"]
+
+
+def test_the_page_is_well_formed(report):
+    """Authority: HTML's rules: every element closed in its order, each id once, each link of the contents to a section."""
+    page = seen(report)
+    assert page.faults == [] and len(page.names) == len(set(page.names))
+    links = {attributes["href"] for tag, attributes in page.tags if tag == "a"}
+    assert links == {f"#{name}" for name in page.sections}
+
+
+def test_nothing_is_loaded_from_anywhere(report):
+    """Authority: issue 7: needs no network. Addresses that a browser fetches are all `data:`; style and script fetch nothing."""
+    page = seen(report)
+    assert page.fetched and all(value.startswith("data:") for _, _, value in page.fetched)
+    assert not re.search(r"url\(|@import", "".join(page.styles))
+    own = page.scripts[-1]
+    assert "Plotly.newPlot" in own and not re.search(r"fetch\(|XMLHttpRequest|import\(|https?://", own)
+
+
+def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, paper_scene):
+    """Authority: rule 9 of the house: what a scene does not name is not in its result, and so not on the page."""
+    bare = made(scene_text(paper_scene, without=("shafts", "bearings", "inertia", "damping", "friction")), "bare")
+    assert main(["report", str(bare), "--quiet", "--no-stress"]) == 0
+    page = seen(bare / "report.html")
+    said = set(captions(page))
+    assert not any("riction" in each or "centres" in each or "shaft's end" in each for each in said)
+    assert "Friction takes" not in page.sections["summary"] and "Dynamic factor" not in page.sections["summary"]
+    assert "taken by" not in page.sections["energy"] and "Natural frequencies" not in page.sections["solver"]
+    assert "was not recorded" in page.sections["root-stress"] and "no-stress" in page.sections["stress"]
+    assert "does not vary" in page.sections["spectra"]
+
+
+def test_rigid_flanks_have_no_pressure_and_no_stress(made, paper_scene):
+    """Authority: rigid flanks touch at points; the page says so in a line."""
+    rigid = made(scene_text(paper_scene, without=("gears.material", "inertia", "damping", "friction"), more="[coast_flanks]\n"), "rigid")
+    assert main(["report", str(rigid), "--quiet"]) == 0
+    page = seen(rigid / "report.html")
+    for name in ("pressure", "stress"):
+        assert "There is none: this run's flanks are rigid" in page.sections[name]
+    assert "Smallest distance of the flanks" in captions(page)
+    assert not [tag for tag, _ in page.tags if tag == "img"]
+
+
+def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
+    """Authority: HTML: a title is text. Neither a tag nor the end of the page's own scripts can be made of it."""
+    nasty = "<script>alert('x')</script> </script><!-- & \"quoted\" `code` %{x} 𝄞"
+    dataset = results.load(run / "run.nc")
+    warned = dataset.assign_attrs(title=nasty, scene=f"# {nasty}\n" + dataset.attrs["scene"], warnings=f"first {nasty}")
+    page = page_of(warned, tmp_path)
+    assert page.faults == [] and list(page.sections) == SECTIONS
+    assert f"# {nasty}" in page.sections["scene"] and "<script>alert('x')" in page.sections["warnings"]
+    assert sum(tag == "script" for tag, _ in page.tags) == page.plots + 2
+    assert not any("alert" in script for script in page.scripts)
+
+
+@pytest.mark.parametrize("steps", [0, 1, 8])
+def test_an_incomplete_run_says_so(run, tmp_path, steps):
+    """Authority: the attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is there."""
+    cut = results.load(run / "run.nc").isel(time=slice(0, steps)).assign_attrs(complete=0)
+    page = page_of(cut, tmp_path)
+    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "INCOMPLETE RUN" in text and list(page.sections) == SECTIONS and page.faults == []
+    assert ("Transmission error" in captions(page)) == (steps == 8)
+    assert "of what is stored" in page.sections["summary"] or steps == 0
+
+
+def test_a_scene_of_another_version_still_has_its_curves(run, tmp_path):
+    """A result is worth a look whatever its scene's text has become."""
+    page = page_of(results.load(run / "run.nc").assign_attrs(scene="[unheard_of]\n"), tmp_path)
+    assert "Transmission error" in captions(page) and "none of this version" in page.sections["geometry"]
+    assert "none of this version" in page.sections["effects"]
+
+
+def measured_lines(dataset, error):
+    """Lines of effects.csv: the bare scene and the whole one, with a transmission error in mm."""
+    whole = "bearings damping friction inertia shafts tooth_elasticity"
+    for name, sections, compared in (("bare", "tooth_elasticity", ""), ("all", whole, "")):
+        line = dict.fromkeys(CSV_COLUMNS, "1") | {"effects": name, "sections": sections, "remarks": "", "compared_with": compared}
+        line |= {"transmission_error_peak_to_peak_mm": repr(error), "change_of_transmission_error": "0.25", "change_of_peak_force": ""}
+        yield line
+
+
+def write_measured(directory, lines):
+    """Write effects.csv."""
+    with open(directory / "effects.csv", "w", encoding="utf-8", newline="") as opened:
+        writer = csv.DictWriter(opened, CSV_COLUMNS)
+        writer.writeheader()
+        writer.writerows(lines)
+
+
+def test_measured_effects_are_shown_if_they_are_of_this_scene(run, tmp_path):
+    """Authority: the transmission error of the scene with all its effects is the run's own, or the table is of another scene."""
+    dataset = results.load(run / "run.nc")
+    error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]
+    write_measured(tmp_path, measured_lines(dataset, error))
+    page = page_of(dataset, tmp_path)
+    assert "What each effect costs and changes" in page.sections["effects"] and f"{error * 1e3:.3f}" in page.sections["effects"] and "+25%" in page.sections["effects"]
+    write_measured(tmp_path, measured_lines(dataset, 1.1 * error))
+    assert "was measured on another scene" in page_of(dataset, tmp_path).sections["effects"]
+    (tmp_path / "effects.csv").write_text("something,else\n1,2\n", encoding="utf-8")
+    assert "no table of this version" in page_of(dataset, tmp_path).sections["effects"]
+
+
+def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
+    """--effects measures the run's own scene and writes what `gears effects` writes beside the run, before the page reads it."""
+    from fenics_gears.commands import measuring
+    from fenics_gears.studies.effect_lattice import measured
+
+    dataset = results.load(run / "run.nc")
+    error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]
+    asked = []
+    monkeypatch.setattr(measured, "measure", lambda scene, progress: asked.append(scene.text) or "measured")
+
+    def write(found, directory, name, write_csv, draw):
+        assert (found, directory, name) == ("measured", tmp_path, "effects")
+        write_measured(directory, measured_lines(dataset, error))
+        return [directory / "effects.csv"]
+
+    monkeypatch.setattr(measuring, "write_report", write)
+    page = page_of(dataset, tmp_path, "--effects")
+    assert asked == [dataset.attrs["scene"]] and "What each effect costs and changes" in page.sections["effects"]
+
+
+def test_a_long_run_makes_a_small_page(run, tmp_path):
+    """30,000 steps stay below 10 MB, and the highest of them is drawn."""
+    dataset = results.load(run / "run.nc").drop_dims(["contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
+    steps = 30_001
+    long = dataset.isel(time=np.arange(steps) % dataset.sizes["time"])
+    phase = np.arange(steps) / 100.0
+    force = long["normal_force"].values.copy()
+    force[17_333] = 123_456.0
+    long = long.assign_coords(time=phase / 200.0, mesh_phase=("time", phase, dataset["mesh_phase"].attrs))
+    long["normal_force"] = ("time", force, dataset["normal_force"].attrs)
+    page = page_of(long, tmp_path)
+    assert (tmp_path / "report.html").stat().st_size < 10e6
+    drawn = page.scripts[captions(page).index("Normal force of the mesh")]
+    assert "123456.0" in drawn and drawn.count(",") < 20_000
+    assert "Of 30,001 steps" in page.sections["forces"]
+
+
+def refusal(capsys, *arguments):
+    """What is said of a call that is refused with exit code 2."""
+    assert main(["report", *map(str, arguments)]) == 2
+    return capsys.readouterr().err
+
+
+def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsys):
+    """Authority: exit code 2: nothing written; each message says what was given and what is allowed."""
+    assert "no such file or directory" in refusal(capsys, tmp_path / "nowhere")
+    assert "neither run.nc nor study.nc" in refusal(capsys, tmp_path)
+    assert "give --output such a name" in refusal(capsys, run, "--output", tmp_path / "page.pdf")
+    assert "has stored mesh cycles 0 to 1" in refusal(capsys, run, "--at", "7", "--output", tmp_path)
+    content = (run / "run.nc").read_bytes()
+    (tmp_path / "run.nc").write_bytes(content[: len(content) // 2])
+    assert "cannot be read as a result: it does not hold what was written into it" in refusal(capsys, tmp_path)
+    (tmp_path / "run.nc").write_bytes(b"no NetCDF at all")
+    assert "cannot be read as a result" in refusal(capsys, tmp_path)
+    assert {file.name for file in tmp_path.iterdir()} == {"run.nc"}
+
+
+def test_the_page_goes_where_it_is_asked_to_and_replaces_an_earlier_one(run, tmp_path, capsys):
+    """A file, a directory that is there or is not yet; an earlier page is replaced as a whole."""
+    (tmp_path / "report.html").write_text("an earlier page", encoding="utf-8")
+    for output, file in ((tmp_path, "report.html"), (tmp_path / "new" / "folder", "new/folder/report.html"), (tmp_path / "my.page.html", "my.page.html")):
+        assert main(["report", str(run / "run.nc"), "--no-stress", "--output", str(output)]) == 0
+        assert str(tmp_path / file) in capsys.readouterr().out
+        assert list(seen(tmp_path / file).sections) == SECTIONS
+    assert not list(tmp_path.rglob(".unfinished*"))
+
+
+def test_other_commands_load_neither_plotly_nor_jinja():
+    """They are needed by the report alone."""
+    code = "import sys, fenics_gears.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if name in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=CHECKOUT, check=True).stdout.strip() == "[]"
+
+
+def test_an_installed_copy_has_the_template():
+    """Authority: setuptools takes along what package-data names; each file of a package that is no module is so named."""
+    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["package-data"]["*"]
+    files = [file for file in (CHECKOUT / "fenics_gears" / "show" / "report").iterdir() if file.is_file() and file.suffix != ".py"]
+    assert {"page.html", "page.css", "page.js"} <= {file.name for file in files}
+    assert all(any(fnmatch(file.name, pattern) for pattern in wanted) for file in files)
