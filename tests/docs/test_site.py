@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from tests.docs.blocks import PAGES, ROOT, name_of
 
-BUILD = ROOT / "docs" / "build"
+MATHJAX = Path("/usr/share/javascript/mathjax")
 pytestmark = pytest.mark.skipif(shutil.which("sphinx-build") is None, reason="Sphinx is not installed")
 
 
@@ -45,7 +45,7 @@ def test_pictures_are_there(site):
 
 def test_equations_are_drawn_without_a_network(site):
     """Authority: the files; what MathJax loads for the model's page lies in the site."""
-    if not Path("/usr/share/javascript/mathjax").is_dir():
+    if not MATHJAX.is_dir():
         pytest.skip("Debian's MathJax is not installed")
     page = (site / "docs" / "model.html").read_text(encoding="utf-8")
     scripts = re.findall(r'<script [^>]*src="([^"]+)"', page)
@@ -56,6 +56,39 @@ def test_equations_are_drawn_without_a_network(site):
         assert (site / "docs" / script.split("?")[0]).exists()
     config = (site / "_static/mathjax/config/TeX-AMS_SVG.js").read_text(encoding="utf-8")
     assert "TeX" in config and (site / "_static/mathjax/jax/output/SVG/fonts/TeX").is_dir()
+
+
+def in_browser(page, profile):
+    """The page as a browser without network has it when all its scripts have run."""
+    options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={profile}"]
+    # The browser's own clock runs ahead until nothing is left to do.
+    options += ["--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=20000", "--dump-dom"]
+    done = subprocess.run(["chromium", *options, f"file://{page}"], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+needs_browser = pytest.mark.skipif(shutil.which("chromium") is None or not MATHJAX.is_dir(), reason="Chromium or Debian's MathJax is missing")
+# How MathJax shows what it cannot read, and a name that it does not know.
+FAILED_FORMULA = re.compile(r'<merror>|mathcolor="red"')
+
+
+@needs_browser
+def test_equations_are_drawn_in_a_browser(site, tmp_path):
+    """Authority: the page's own formulas; each is drawn, and none as an error."""
+    shown = in_browser(site / "docs" / "model.html", tmp_path)
+    formulas = shown.count('class="math notranslate')
+    assert shown.count('class="MathJax_SVG"') == formulas > 100
+    assert not FAILED_FORMULA.search(shown)
+
+
+@needs_browser
+@pytest.mark.parametrize("formula", [r"\frac{a}{", r"\sqrroot{x}"])
+def test_a_formula_that_cannot_be_drawn_is_noticed(small_checkout, tmp_path, formula):
+    """Authority: by hand; the check above can fail."""
+    (small_checkout / "docs" / "other.md").write_text(f"# Two\n\n${formula}$\n", encoding="utf-8")
+    assert built(small_checkout, tmp_path / "html").returncode == 0
+    assert FAILED_FORMULA.search(in_browser(tmp_path / "html" / "docs" / "other.html", tmp_path / "profile"))
 
 
 def test_pages_load_nothing_from_elsewhere(site):
