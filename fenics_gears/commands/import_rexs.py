@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 
 from fenics_gears.errors import GeometryError, SceneError
@@ -22,7 +23,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def import_rexs(options: argparse.Namespace) -> int:
     """Write the scene, once it is found right, and say what was assumed and left out."""
-    output = options.output or Path(options.file.stem.removesuffix(".rexs") + ".toml")
+    output = options.output or Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml")
     _check_output(output)
     from fenics_gears.scene.rexs.imported import Choice, imported_scene
 
@@ -56,14 +57,20 @@ def _check_scene(imported, file: Path, output: Path) -> None:
     from fenics_gears.geometry.pair import gear_pair
     from fenics_gears.scene.read import scene_from_text
 
+    source = f"{file} as a scene"
     try:
-        scene = scene_from_text(imported.text, output.stem, source=f"{file} as a scene")
+        scene = scene_from_text(imported.text, output.stem, source=source)
         removals(scene, gear_pair(scene.gears))
     except SceneError as error:
-        words = str(error) if not isinstance(error, GeometryError) else f"{file} as a scene: {error}"
+        words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else _without_lines(str(error), source)
         gears = f"The pinion is {imported.stage.pinion.gear}, the wheel {imported.stage.wheel.gear}."
         assumed = "".join(f"\n    assumed: {each}" for each in imported.assumed if each.startswith("gears."))
-        raise SceneError(f"{words}\n{gears}{assumed}\nNothing was written.") from error
+        raise SceneError(f"{words}\n{gears}{assumed}") from error
+
+
+def _without_lines(words: str, source: str) -> str:
+    """The messages without the numbers of lines of a text that is not written."""
+    return re.sub(rf"^{re.escape(source)}:\d+:", lambda _: f"{source}:", words, flags=re.MULTILINE)
 
 
 def _told(imported, output: Path) -> str:

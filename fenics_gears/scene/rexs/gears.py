@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos, cos, isclose, tan
+from math import isclose
 
 from fenics_gears.scene.rexs.model import Component
 from fenics_gears.scene.rexs.reading import Place, Reading, agreed, first_number, first_quantity, given, needed, positive
+from fenics_gears.scene.rexs.shifts import profile_shifts
 from fenics_gears.scene.rexs.stage import GearParts, Stage
 from fenics_gears.scene.rexs.values import Value, ValueProblem, bare, computed, number_of, place, quantity_of, unquoted, whole_number_of
 
@@ -16,7 +17,6 @@ ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = 1.0, 1.25, 0.38
 BORE = 0.4
 # ISO 6336-1: Young's modulus (N/mm^2) and Poisson's ratio of steel.
 STEEL = (206e3, 0.3)
-SHIFT = "addendum_modification_coefficient"
 # A diameter that repeats module and teeth may be rounded, in modules.
 ROUNDED = 1e-3
 
@@ -54,7 +54,7 @@ def pair_values(reading: Reading, stage: Stage) -> PairValues:
     module, angle = reading.attempt(_module, stage), reading.attempt(_pressure_angle, stage)
     distance = reading.attempt(_length, stage.stage, "center_distance")
     teeth = [reading.attempt(_teeth, part.gear) for part in stage.gears]
-    shifts = reading.attempt(_profile_shifts, stage, module, angle, distance, *teeth) or (None, None)
+    shifts = profile_shifts(reading, stage, module, angle, distance, teeth)
     gears = [_gear_values(reading, part, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
     for part, values in zip(stage.gears, gears):
         reading.attempt(_check_reference_diameter, part.gear, module, values.teeth)
@@ -106,8 +106,10 @@ def _face_width(stage: Stage) -> Value:
 
 
 def _gear_values(reading: Reading, part: GearParts, module: Value | None, teeth: Value | None, shift: Value | None) -> GearValues:
-    tip = reading.attempt(_tip_diameter, part, module, teeth, shift)
-    root = reading.attempt(_root_diameter, part, module, teeth, shift, tip)
+    gear = part.gear
+    tip_stated, root_stated = (name in gear.attributes for name in ("tip_diameter", "root_diameter"))
+    tip = reading.attempt(_length, gear, "tip_diameter") if tip_stated else reading.attempt(_tip_diameter, part, module, teeth, shift)
+    root = reading.attempt(_length, gear, "root_diameter") if root_stated else reading.attempt(_root_diameter, part, module, teeth, shift, tip)
     return GearValues(teeth, shift, tip, root, reading.attempt(_bore_diameter, part, root), reading.attempt(_rack_tip_radius, part, module))
 
 
@@ -116,46 +118,8 @@ def _teeth(gear: Component) -> Value:
     return positive(needed(next((whole_number_of(*each) for each in given(places)), None), places), gear, "number_of_teeth")
 
 
-def _profile_shifts(stage: Stage, module: Value, angle: Value, distance: Value, *teeth: Value) -> list[Value]:
-    """The shift of either gear; a gear without one has what the centre distance leaves it, without backlash."""
-    shifts = [_profile_shift(part, module) for part in stage.gears]
-    if None not in shifts:
-        return shifts
-    missing = shifts.index(None)
-    known, gear = shifts[1 - missing], stage.gears[missing].gear
-    if known is None:
-        raise ValueProblem(f"{place(gear, SHIFT)} is missing, for its flanks too, and so is that of component {stage.gears[1 - missing].gear.identifier}.")
-    number = _sum_of_shifts(stage, module.number, angle.number, distance.number, sum(each.number for each in teeth)) - known.number
-    shifts[missing] = Value(number, bare(round(number, 9)), f"no {SHIFT}; what that of the other gear and the centre distance leave it, without backlash", True)
-    return shifts
-
-
-def _sum_of_shifts(stage: Stage, module: float, angle: float, distance: float, teeth: float) -> float:
-    """The sum of both shifts (ISO 21771) that leaves no backlash at a centre distance, mm; angle in rad."""
-    cosine = 0.5 * module * teeth * cos(angle) / distance
-    if not cosine < 1.0:
-        raise ValueProblem(f"{place(stage.stage, 'center_distance')} = {distance:.6g} mm is too small for {teeth:g} teeth of module {module:g} mm.")
-    operating = acos(cosine)
-    return 0.5 * teeth * (tan(operating) - operating - tan(angle) + angle) / tan(angle)
-
-
-def _profile_shift(part: GearParts, module: Value) -> Value | None:
-    """The shift that the tooth's thickness follows from; the sides of a tooth have one each, which must agree."""
-    places = [(holder, name) for holder in (*part.flanks.values(), part.gear) for name in (SHIFT, "profile_shift_coefficient", "addendum_modification")]
-    shifts = []
-    for component, name in given(places):
-        if name == "addendum_modification":
-            length = quantity_of(component, name, "mm")
-            shifts.append(Value(length.number / module.number, bare(length.number / module.number), f"{length.origin}, over the module"))
-        else:
-            shifts.append(number_of(component, name))
-    return agreed(shifts, f"{part.gear} has contradictory profile shifts")
-
-
 def _tip_diameter(part: GearParts, module: Value, teeth: Value, shift: Value) -> Value:
-    stated = first_quantity([(part.gear, "tip_diameter")], "mm")
-    if stated is not None:
-        return positive(stated, part.gear, "tip_diameter")
+    """What the addendum of the flanks gives, or the standard's."""
     addendum = first_number(_flank_places(part, "addendum_coefficient_basic_profile"))
     modules = ADDENDUM if addendum is None else addendum.number
     number = module.number * (teeth.number + 2.0 * (shift.number + modules))
@@ -164,9 +128,7 @@ def _tip_diameter(part: GearParts, module: Value, teeth: Value, shift: Value) ->
 
 
 def _root_diameter(part: GearParts, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
-    stated = first_quantity([(part.gear, "root_diameter")], "mm")
-    if stated is not None:
-        return positive(stated, part.gear, "root_diameter")
+    """What the depth of the teeth gives, or the tool."""
     depth = first_quantity([(part.gear, "tooth_depth")], "mm")
     if depth is not None:
         return computed(tip.number - 2.0 * depth.number, 1.0, "mm", f"no root_diameter; tip diameter less twice {depth.origin}")

@@ -55,7 +55,7 @@ def needed(value: Value | None, places: Iterable[Place], remedy: str = "") -> Va
     """The value; raises ValueProblem, naming where it was looked for, for None."""
     if value is None:
         (component, name), *others = places
-        besides = ", ".join(f"{other} of component {each.identifier}" for each, other in others)
+        besides = together(f"{other} of component {each.identifier}" for each, other in others)
         raise ValueProblem(f"{place(component, name)} is missing{' (and ' + besides + ')' if besides else ''}.{remedy}")
     return value
 

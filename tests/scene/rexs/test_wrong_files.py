@@ -192,3 +192,15 @@ def test_nothing_but_the_chosen_stage_must_be_whole(paper_scene, tmp_path):
     model = rexs.with_component(rexs.paper_model(), 31, "cylindrical_gear", ("normal_module", "?", "parsec"))
     model = rexs.with_component(model, 33, "cylindrical_stage", stage={"stage": 33, "gear_1": 31, "gear_2": 31})
     assert scene_of(tmp_path, model, stage=4)[0].gears == paper_scene.gears
+
+
+def test_what_does_not_hang_together_is_told_together(tmp_path):
+    """A missing module hides neither a wrong shift nor a wrong diameter; shifts that both lack are one mistake."""
+    changes = ((P, "normal_module", None), (FLANK, "addendum_modification_coefficient", 0.2), (P, "tip_diameter", 80.0, "kg"))
+    said = refused(tmp_path, changed(*changes))
+    assert "3 mistakes" in said and "contradictory profile shifts" in said and "tip_diameter = 80.0 kg is a mass" in said
+    both = [(flank, "addendum_modification_coefficient", None) for flank in rexs.PINION_FLANKS + rexs.WHEEL_FLANKS]
+    said = refused(tmp_path, changed(*both))
+    assert "1 mistake in" in said and "addendum_modification_coefficient is missing, for its flanks too, and so is that of component 6" in said
+    near = refused(tmp_path, changed(*both[:2], (rexs.STAGE, "center_distance", 80.0, "mm")))
+    assert "center_distance = 80 mm is too small for 40 teeth of module 4.5 mm" in near
