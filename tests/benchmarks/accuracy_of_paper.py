@@ -11,6 +11,8 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
+from tests.benchmarks.marked_section import write_section
+
 from fenics_gears.progress import LineProgress
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.read import load_scene
@@ -57,16 +59,6 @@ def _with_units(headings, units) -> tuple[str, ...]:
     return tuple(f"{heading}, {unit}" if unit else heading for heading, unit in zip(headings, units))
 
 
-def replaced(page: str, name: str, words: str) -> str:
-    """The page with a scene's section. Raises SystemExit where its markers are missing."""
-    begin, end = markers(name)
-    before, found, rest = page.partition(begin)
-    _, closed, after = rest.partition(end)
-    if not (found and closed):
-        raise SystemExit(f"{PAGE}: the lines {begin} and {end} are missing; put them where the section shall stand")
-    return f"{before}{begin}\n\n{words}\n\n{end}{after}"
-
-
 def main() -> None:
     """Measure, write pictures, numbers and the page's sections, each as soon as it is there."""
     from fenics_gears.show.plots import save_figure
@@ -84,7 +76,7 @@ def main() -> None:
         progress.close()
         save_figure(work_precision(report), PICTURES / f"accuracy_{name}.png")
         table.write_csv(report, PICTURES / f"accuracy_{name}.csv")
-        PAGE.write_text(replaced(PAGE.read_text(encoding="utf-8"), name, section(name, report)), encoding="utf-8")
+        write_section(PAGE, *markers(name), section(name, report))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,137 @@
+"""A pair of involute flanks pressed together at the pitch point, and Hertz's line contact that it must come to.
+
+Johnson, Contact Mechanics, 1985, sections 4.2 (c) and 5.6. In the plane the approach of two bodies has no value of its own: it goes with the
+logarithm of how far off the point is that is held. What the bodies' shape makes of it is proportional to the load, though, so that the
+approach per line load of two loads F1 > F2 on the same flanks differs by ln(F1/F2)/(pi E*), whatever the bodies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.operator import CENTRE_COORDINATES
+from fenics_gears.contact.pressure import without_oscillation
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
+from fenics_gears.model import Model, model
+from fenics_gears.resolution import hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.scene.data import Scene
+from fenics_gears.simulation import gear_compliance
+
+# The smaller load, in parts of the larger: half its half-width.
+SMALLER = 0.25
+# The window in half-widths of the larger load.
+WINDOW = 5.0
+# Points at which a pressure is summed, even in the angle whose sine it is.
+SAMPLES = 20_000
+QUANTITIES = ("peak pressure", "half-width", "approach")
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """A solution: approach (mm) along the line of action; offsets (n,), mm, and pressures (n,), MPa, of the pair's nodes."""
+
+    approach: float
+    offsets: np.ndarray
+    pressure: np.ndarray
+
+    @property
+    def peak(self) -> float:
+        """Largest pressure, of five nodes together as the program tells it."""
+        return float(without_oscillation(self.pressure).max())
+
+    @property
+    def half_width(self) -> float:
+        """From the second moment of the pressure: of an ellipse b^2/4, to which every node's hat function adds its own h^2/6."""
+        centre = self.pressure @ self.offsets / self.pressure.sum()
+        spacing = self.offsets[1] - self.offsets[0]
+        return 2.0 * float(np.sqrt(self.pressure @ (self.offsets - centre) ** 2 / self.pressure.sum() + spacing**2 / 6.0))
+
+
+class HertzContact:
+    """The flanks of a scene at the pitch point, without friction; `compliance` is made for flank elements of any size (mm)."""
+
+    def __init__(self, scene: Scene):
+        self.scene = replace(scene, friction=None)
+        built = model(self.scene)
+        self.pair, self.line_load = built.pair, abs(scene.load.wheel_torque) / built.pair.wheel.base_radius / built.pair.face_width
+        self.modulus, self.radius = plane_contact_modulus(scene), relative_radius(built.pair, built.pair.pitch_point)
+
+    def half_width(self, line_load: float) -> float:
+        """Hertz's, mm, under a line load (N/mm)."""
+        return hertz_half_width(line_load, self.radius, self.modulus)
+
+    def built(self, flank_element_size: float, element: str = "P2") -> Model:
+        """The model with flank elements of a size (mm)."""
+        accuracy = replace(self.scene.accuracy, element=element, flank_element_size=flank_element_size)
+        return model(replace(self.scene, accuracy=accuracy))
+
+    def compliances(self, flank_element_size: float, element: str = "P2", cache=None):
+        """Both gears' flank compliance."""
+        built = self.built(flank_element_size, element)
+        return tuple(gear_compliance(built, name, 2, cache) for name in ("pinion", "wheel"))
+
+    def pressed(self, compliances, spacing: float, line_load: float) -> Pressed:
+        """Solve one position under a line load (N/mm) with contact nodes `spacing` (mm) apart, one of them on the line of action."""
+        cells = 2 * int(np.ceil(0.5 * WINDOW * self.half_width(self.line_load) / spacing))
+        flanks = Flanks(self.pair, compliances, (None, None))
+        cycle = MeshCycle(flanks, ContactGrid(cells * spacing, cells + 1), 1, [CENTRE_COORDINATES.index("rotation_2")], tangential=False)
+        phase = (self.pair.pitch_point - self.pair.path_start) / self.pair.base_pitch % 1.0
+        operator = cycle.between(phase, phase).operator
+        load = line_load * self.pair.face_width
+        problem = StepProblem(
+            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, rigid=np.abs(operator.rigid), gap=operator.gap,
+            slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
+        )  # fmt: skip
+        solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+        forces, (loaded,) = solution.forces, np.unique(operator.node_pair[solution.forces > 0.0])
+        own = operator.node_pair == loaded
+        tooth_pair = operator.pairs[loaded]
+        pressure = forces[own] / (tooth_pair.lengths * self.pair.face_width)
+        return Pressed(float(solution.coordinates[0]), tooth_pair.offsets, pressure)
+
+    def errors(self, compliances, spacing: float) -> dict[str, float]:
+        """Relative errors of the scene's load, and of the approach between it and the smaller one."""
+        large, small = (self.line_load, SMALLER * self.line_load)
+        one, other = (self.pressed(compliances, spacing, load) for load in (large, small))
+        width = self.half_width(large)
+        logarithm = (other.approach / small - one.approach / large) * np.pi * self.modulus
+        return {
+            "peak pressure": one.peak / (2.0 * large / (np.pi * width)) - 1.0,
+            "half-width": one.half_width / width - 1.0,
+            "approach": logarithm / np.log(large / small) - 1.0,
+        }
+
+    def flank_error(self, gear: Gear, compliance: FlankCompliance) -> float:
+        """Relative error of the flank's elements alone, without any contact: a flank under Hertz's own pressure at the pitch point.
+
+        Its displacement, averaged over the pressure and per line load, differs by 2 (1 - nu^2)/(pi E) ln(b1/b2) between two half-widths.
+        """
+        large, small = (self.half_width(load) for load in (self.line_load, SMALLER * self.line_load))
+        given = [force @ compliance.blocks[0] @ force for force in (self._elliptic(gear, compliance, width) for width in (large, small))]
+        return float((given[1] - given[0]) * np.pi * self.modulus / np.log(large / small)) - 1.0
+
+    def _elliptic(self, gear: Gear, compliance: FlankCompliance, width: float) -> np.ndarray:
+        """Consistent forces (2 f,) on flank nodes of an elliptic pressure of 1 N/mm in all along the flank, at the pitch point."""
+        order, arcs = compliance.element_order, arc_length(gear.base_radius, compliance.roll_angle)
+        roll = {id(self.pair.pinion): self.pair.pinion_roll_angle, id(self.pair.wheel): self.pair.wheel_roll_angle}[id(gear)](self.pair.pitch_point)
+        angles = (np.arange(SAMPLES) + 0.5) * np.pi / SAMPLES
+        at = arc_length(gear.base_radius, roll) + width * np.cos(angles)
+        shares = 2.0 * np.sin(angles) ** 2 / SAMPLES
+        vertices = arcs[::order]
+        element = np.searchsorted(vertices, at) - 1
+        local = (at - vertices[element]) / np.diff(vertices)[element]
+        shapes = [1.0 - local, local] if order == 1 else [(1 - local) * (1 - 2 * local), 4 * local * (1 - local), local * (2 * local - 1)]
+        normals = -canonical_normal(roll_angle_at_arc_length(gear.base_radius, at))
+        forces = np.zeros((len(arcs), 2))
+        for ahead, shape in enumerate(shapes):
+            np.add.at(forces, order * element + ahead, (shares * shape)[:, None] * normals)
+        return forces.ravel()
