@@ -49,12 +49,13 @@ def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
     """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong."""
     told = _told(TORQUE, choice.wheel_torque), _told(SPEED, choice.pinion_speed)
     model, reading = read_model(path), Reading()
+    loaded = reading.attempt(_loaded, model, choice)
     try:
-        stage = chosen_stage(model, choice.stage)
+        stage = chosen_stage(loaded or model, choice.stage)
     except ValueProblem as problem:
         raise SceneError(f"{path}: {problem}\nNothing was written.") from None
     sections = _pair_sections(reading, stage, pair := pair_values(reading, stage))
-    sections |= _load_sections(reading, model, choice, pair, told)
+    sections |= _load_sections(reading, loaded, stage, pair, told)
     sections |= _error_sections(reading, stage, sections)
     densities = [reading.attempt(density_of, part) for part in stage.gears]
     _check_all_found(reading, path)
@@ -100,16 +101,19 @@ def _relief_lines(relief: ReliefValues) -> list[tuple[str, Value]]:
     return [("depth", relief.depth), ("start", relief.start), ("shape", relief.shape)]
 
 
-def _load_sections(reading: Reading, model: Model, choice: Choice, pair: PairValues, told: tuple[Value | None, Value | None]) -> Sections:
-    torque, speed = told
-    if torque is None or speed is None or choice.load_case is not None:
-        model = reading.attempt(lambda: loaded_model(model, choice.load_case))
+def _loaded(model: Model, choice: Choice) -> Model:
+    """The model in the chosen load case; as it is where the call says all that a load case is asked for. Raises ValueProblem."""
+    if choice.load_case is None and choice.wheel_torque is not None and choice.pinion_speed is not None:
+        return model
+    return loaded_model(model, choice.load_case)
+
+
+def _load_sections(reading: Reading, model: Model | None, stage: Stage, pair: PairValues, told: tuple[Value | None, Value | None]) -> Sections:
+    """Torque and speed; ``model``: in its load case, None where that is not known."""
     teeth = pair.pinion.teeth, pair.wheel.teeth
-    if model is not None and None not in teeth:
-        ratio = teeth[1].number / teeth[0].number
-        stage = chosen_stage(model, choice.stage)
-        torque = torque or reading.attempt(wheel_torque, model, stage, ratio)
-        speed = speed or reading.attempt(pinion_speed, stage, ratio)
+    ratio = None if None in teeth else teeth[1].number / teeth[0].number
+    torque = told[0] or reading.attempt(wheel_torque, model, stage, ratio)
+    speed = told[1] or reading.attempt(pinion_speed, None if model is None else stage, ratio)
     return {"load": [("wheel_torque", torque)], "motion": [("pinion_speed", speed)]}
 
 

@@ -302,3 +302,14 @@ def test_names_of_a_file_stay_in_comments(paper_scene, tmp_path):
         rexs.component(model, number)["name"] = 'x"\n[friction]\ncoefficient = 0.5\n"""'
     scene, _ = imported(tmp_path, rexs.as_json(model), name="na\nme.rexsj")
     assert scene.friction is None and scene.gears == paper_scene.gears
+
+
+def test_load_case_may_turn_the_drive_round(tmp_path):
+    """A load case in which the other gear drives: pinion, wheel, torque and speed change places together."""
+    model = with_load_cases(300.0)
+    data = [{"id": number, "attributes": [rexs.attribute("is_driving_gear", number == rexs.WHEEL_DATA)]} for number in (rexs.PINION_DATA, rexs.WHEEL_DATA)]
+    model["model"]["load_spectrum"]["load_cases"][0]["components"] += data
+    scene, _ = scene_of(tmp_path, model)
+    assert (scene.gears.pinion.teeth, scene.gears.wheel.teeth) == (24, 16)
+    assert scene.load.wheel_torque == pytest.approx(300e3 * 16 / 24)
+    assert scene.motion.mesh_frequency == pytest.approx(100 / 60 * 16)
