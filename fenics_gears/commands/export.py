@@ -1,0 +1,46 @@
+"""``gears export RUN``: the curves of a run as a table for spreadsheets."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from fenics_gears.commands.run import RUN_FILE
+from fenics_gears.errors import ComputationError, SceneError
+
+CURVES_FILE = "curves.csv"
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("export", parents=[shared], help="write the curves of a run as a table (CSV) for spreadsheets")
+    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")
+    command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"what to write (default: {CURVES_FILE} beside run.nc)")
+    command.set_defaults(command=export)
+
+
+def export(options: argparse.Namespace) -> int:
+    """Write a run's table of curves."""
+    from fenics_gears.output import check_writable, written_aside
+
+    file = options.run / RUN_FILE if options.run.is_dir() else options.run
+    if not file.is_file():
+        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
+    output = options.output or file.parent / CURVES_FILE
+    if output.suffix != ".csv":
+        raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
+    check_writable(output.parent)
+    from fenics_gears import results
+    from fenics_gears.results.curves_table import save_curves
+
+    try:
+        dataset = results.load(file)
+    except ComputationError as error:
+        # Nothing was computed: the call is wrong.
+        raise SceneError(str(error)) from error
+    written: list[Path] = []
+    with written_aside(output.parent, written) as aside:
+        save_curves(dataset, aside / output.name)
+    if not options.quiet:
+        print(output)
+    return 0

@@ -1,0 +1,38 @@
+"""Everything of a result that is a curve over time, as one table for programs that read no NetCDF."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+# More than any measurement has, and fewer than make a table unreadable.
+DIGITS = 12
+
+
+def save_curves(result: xr.Dataset, path: Path) -> None:
+    """Write the table as comma-separated values: a line for each stored step, units in the heads, decimal points."""
+    columns = dict(curves(result))
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        writer.writerows([f"{value:.{DIGITS}g}" for value in row] for row in zip(*columns.values()))
+
+
+def curves(result: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
+    """The head and the values (steps,) of each curve: time, mesh phase, then each variable over time alone or over time and gear."""
+    first = [name for name in ("time", "mesh_phase") if name in result.variables]
+    for name in (*first, *(name for name in result.data_vars if name not in first)):
+        variable, unit = result[name], _unit(result[name].attrs.get("units", "1"))
+        if variable.dims == ("time",):
+            yield f"{name}{unit}", variable.values
+        elif variable.dims == ("time", "gear"):
+            for gear in result["gear"].values:
+                yield f"{name} {gear}{unit}", variable.sel(gear=gear).values
+
+
+def _unit(unit: str) -> str:
+    return "" if unit == "1" else f" [{unit}]"
