@@ -1,8 +1,8 @@
-"""What accuracy of the paper's scene costs, into docs/accuracy.md: `python -m tests.benchmarks.accuracy_of_paper [--rounds 5]`.
+"""What accuracy of the paper's scene costs, into docs/accuracy.md and the README: `python -m tests.benchmarks.accuracy_of_paper`.
 
 Runs what `gears accuracy` runs on demos/lundvall2004.toml quasi-static and at 200 Hz, with friction and without; writes each one's
-tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV. Times are this machine's; errors must
-not change. Names of scenes as further arguments run those alone.
+tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV; then, of all four together, a picture and
+a table into the README. Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
+from tests.benchmarks.accuracy_overview import TITLES, overview, overview_picture, readme_section
 from tests.benchmarks.marked_section import write_section
 
 from fenics_gears.progress import LineProgress
@@ -21,6 +22,7 @@ from fenics_gears.studies.accuracy.measured import Report, measure
 
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE, PICTURES = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md", ROOT / "docs" / "pictures"
+README = ROOT / "README.md"
 
 
 def scenes() -> dict[str, Scene]:
@@ -68,15 +70,27 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on settings of single knobs run again for their times")
+    parser.add_argument("--write-again", action="store_true", help="the README's picture and table from what is saved, without measuring")
     options = parser.parse_args()
-    for name in options.names:
+    for name in [] if options.write_again else options.names:
         progress = LineProgress()
         print(name, flush=True)
-        report = measure(all_scenes[name], progress, rounds=options.rounds)
+        report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_rungs=options.timing_seconds)
         progress.close()
         save_figure(work_precision(report), PICTURES / f"accuracy_{name}.png")
         table.write_csv(report, PICTURES / f"accuracy_{name}.csv")
         write_section(PAGE, *markers(name), section(name, report))
+    write_overview()
+
+
+def write_overview() -> None:
+    """All scenes together, from what is saved of them, into the README."""
+    from fenics_gears.show.plots import save_figure
+
+    found = {name: overview(PICTURES / f"accuracy_{name}.csv") for name in TITLES}
+    save_figure(overview_picture(found), PICTURES / "accuracy.png")
+    write_section(README, *markers("of the paper's scene"), readme_section(found))
 
 
 if __name__ == "__main__":

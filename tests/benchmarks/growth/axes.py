@@ -1,0 +1,178 @@
+"""What grows: number of flank nodes, contact nodes, teeth, steps; and what theory expects of every stage.
+
+Every point is the paper's pair, quasi-static with friction, but for what its axis changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from fenics_gears.model import model
+from fenics_gears.scene.data import Accuracy, GearData, Motion, Scene
+from fenics_gears.scene.read import load_scene
+
+SCENE = Path(__file__).parents[3] / "demos" / "lundvall2004.toml"
+FLANK_SIZE, LENGTH, NODES, STEPS = 0.08, 3.2, 41, 20
+# Contact nodes one flank element's node distance apart and more; finer flanks than this take gigabytes.
+FINEST_FLANK = 0.0125
+
+
+@dataclass(frozen=True)
+class Theory:
+    """Exponent that is expected of what grows; and why."""
+
+    exponent: float
+    why: str
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Something that grows: `values` are asked for, what a point then has is its x (`counted` by the point's run).
+
+    `theory`: of seconds of stages, of bytes of their arrays ("condense arrays") and of the process's peak above its idle ("condense peak").
+    """
+
+    name: str
+    words: str
+    values: tuple[float, ...]
+    scene: Callable[[float], Scene]
+    counted: str
+    theory: dict[str, Theory]
+
+    @property
+    def stages(self) -> set[str]:
+        """Stages that theory says something about, which are run several times."""
+        return {"condense" if name.split()[0] in ("assemble", "schur", "ring") else name.split()[0] for name in self.theory}
+
+
+def logarithmic(first: float, last: float, points: int = 7) -> tuple[float, ...]:
+    """Whole numbers, even in their logarithm."""
+    return tuple(float(round(value)) for value in np.geomspace(first, last, points))
+
+
+def paper() -> Scene:
+    """The paper's scene without inertia, at settings that no axis but its own changes."""
+    scene = load_scene(SCENE)
+    accuracy = Accuracy("P2", FLANK_SIZE, LENGTH, NODES, STEPS)
+    return replace(scene, inertia=None, damping=None, motion=Motion(200.0, 2, 1), accuracy=accuracy)
+
+
+def _accuracy(scene: Scene, **changes) -> Scene:
+    return replace(scene, accuracy=replace(scene.accuracy, **changes))
+
+
+def of_flank_elements(elements: float) -> Scene:
+    """So many elements along the pinion's flank."""
+    scene = paper()
+    pinion = model(scene).pair.pinion
+    length = 0.5 * pinion.base_radius * (pinion.tip_roll_angle**2 - pinion.form_roll_angle**2)
+    return _accuracy(scene, flank_element_size=length / elements)
+
+
+def of_contact_nodes(nodes: float) -> Scene:
+    """So many nodes in a window, the flanks' elements as the program's defaults have them beside them, but not too fine to be held."""
+    spacing = LENGTH / (nodes - 1)
+    return _accuracy(paper(), contact_nodes=int(nodes), flank_element_size=max(spacing / 0.7, FINEST_FLANK), steps_per_mesh_cycle=8)
+
+
+def of_steps(steps: float) -> Scene:
+    """So many steps in a mesh cycle, of which one is marched."""
+    scene = replace(paper(), motion=Motion(200.0, 1, 1))
+    return _accuracy(scene, steps_per_mesh_cycle=int(steps))
+
+
+def of_cycles(cycles: float) -> Scene:
+    """The paper's drivetrain at 200 Hz, marched through so many mesh cycles, of which two are kept."""
+    scene = replace(load_scene(SCENE), motion=Motion(200.0, int(cycles), min(int(cycles), 2)))
+    return replace(scene, accuracy=paper().accuracy)
+
+
+def of_teeth(teeth: float, solid: bool) -> Scene:
+    """A pinion of 20 teeth and a wheel of so many; its rim is three modules thick, or it is solid down to 0.45 of its root radius."""
+    scene, module = paper(), 4.5
+    gears = replace(
+        scene.gears, centre_distance=0.5 * module * (20 + teeth) + 0.1,
+        pinion=_standard_gear(20, module, solid=True), wheel=_standard_gear(int(teeth), module, solid),
+    )  # fmt: skip
+    return replace(scene, gears=gears)
+
+
+def _standard_gear(teeth: int, module: float, solid: bool) -> GearData:
+    root = module * (teeth - 2.5)
+    bore = 0.45 * root if solid else root - 6.0 * module
+    return GearData(teeth, 0.0, module * (teeth + 2.0), root, bore, 0.38)
+
+
+LINEAR, NONE = "as many as there are", "does not depend on it"
+AXES = (
+    Axis(
+        "flank nodes", "nodes along the pinion's flank (P2, two an element)", logarithmic(8, 800), of_flank_elements, "flank_nodes",
+        {
+            "mesh": Theory(1.0, "elements grow away from the flank: as many layers whatever their size, so cells as n"),
+            "assemble": Theory(1.0, "as many as there are cells"),
+            "schur": Theory(2.0, "the flank's n dofs are kept: fronts beside a graded strip, n^2 for what is handed to the dense rest (n^1.5 if none were kept)"),
+            "ring": Theory(3.0, "dense inverse of the flank's stiffness"),
+            "operators": Theory(2.0, "contact nodes' rows and columns of the flank's compliance: as many flank nodes under a fixed window, squared"),
+            "solving": Theory(0.0, NONE),
+            "condense arrays": Theory(2.0, "dense matrices of the flank's dofs"),
+            "condense peak": Theory(2.0, "dense matrices of the flank's dofs, a dozen of them at once"),
+            "operators arrays": Theory(2.0, "the flank's compliance between every two teeth, once more in the order in which it is gone through"),
+        },
+    ),
+    Axis(
+        "contact nodes", "contact nodes of a pair's window, flank elements finer along with them", logarithmic(6, 600), of_contact_nodes, "contact_nodes",
+        {
+            "operators": Theory(2.0, "each pair of contact nodes; its rank by Cholesky with pivots: n^3/3, once n is large"),
+            "solving": Theory(2.0, "products with all nodes' rows n^2; the closed nodes' dense system n^3, once n is large"),
+            "operators arrays": Theory(2.0, "each pair of contact nodes"),
+        },
+    ),
+    Axis(
+        "teeth of a rim", "teeth of the wheel, a rim three modules thick", logarithmic(20, 2000), lambda z: of_teeth(z, False), "teeth",
+        {
+            "mesh": Theory(0.0, "one sector, whatever the number of them"),
+            "schur": Theory(0.0, "one sector"),
+            "ring": Theory(0.0, "joined by doubling: log z; by its Fourier transform z"),
+            "operators": Theory(0.0, NONE),
+            "solving": Theory(0.0, NONE),
+            "condense arrays": Theory(0.0, NONE),
+        },
+    ),
+    Axis(
+        "teeth of a solid gear", "teeth of the wheel, solid down to 0.45 of its root radius", logarithmic(20, 2000), lambda z: of_teeth(z, True), "teeth",
+        {
+            "mesh": Theory(1.0, "a sector becomes a wedge as long as z is large, of elements as wide as itself: cells as z"),
+            "schur": Theory(3.0, "cuts of as many nodes as z are kept: dense"),
+            "ring": Theory(3.0, "log z dense eliminations of a cut; by its Fourier transform z of them, z^4"),
+            "operators": Theory(0.0, NONE),
+            "solving": Theory(0.0, NONE),
+            "condense arrays": Theory(2.0, "dense matrices of the cuts' dofs"),
+        },
+    ),
+    Axis(
+        "steps of a mesh cycle", "steps of a mesh cycle, one of which is marched", logarithmic(20, 2000), of_steps, "steps",
+        {
+            "operators": Theory(1.0, LINEAR),
+            "solving": Theory(1.0, LINEAR),
+            "operators arrays": Theory(1.0, "all positions of a mesh cycle are kept"),
+        },
+    ),
+    Axis(
+        "mesh cycles", "mesh cycles of 20 steps at 200 Hz", logarithmic(2, 400), of_cycles, "cycles",
+        {
+            "operators": Theory(0.0, "the positions of a mesh cycle serve them all"),
+            "solving": Theory(1.0, LINEAR),
+            "operators arrays": Theory(0.0, "the positions of a mesh cycle serve them all"),
+            "solving arrays": Theory(0.0, "what is not to be kept is forgotten"),
+        },
+    ),
+)  # fmt: skip
+
+
+def axis_named(name: str) -> Axis:
+    """The axis of a name."""
+    return next(axis for axis in AXES if axis.name == name)

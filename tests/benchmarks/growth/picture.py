@@ -1,0 +1,85 @@
+"""The picture of growth: seconds of every stage and bytes over what grows, with the slopes over the upper decade."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
+
+from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
+from tests.benchmarks.growth.axes import AXES, Axis
+from tests.benchmarks.growth.report import MEBI, Points, WORDS, column, exponents
+
+COLUMNS = 3
+COLOURS = dict(zip(("mesh", "assemble", "schur", "ring", "operators", "solving"), PALETTE))
+MARKS = dict(zip(COLOURS, "os^Dvp"))
+IDLE = "process, peak of all stages"
+
+
+@styled
+def growth_picture(found: Mapping[str, Points], machine: Mapping[str, str]) -> Figure:
+    """Two rows of panels for each three axes: times above, memory below."""
+    axes_found = [axis for axis in AXES if axis.name in found]
+    rows = -(-len(axes_found) // COLUMNS)
+    figure = Figure(figsize=(15.0, 7.2 * rows + 0.9), layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.035, 1, 0.965))
+    panels = figure.subplots(2 * rows, COLUMNS, squeeze=False, gridspec_kw={"height_ratios": (1.7, 1.0) * rows})
+    for place in range(rows * COLUMNS):
+        row, column_ = divmod(place, COLUMNS)
+        times, memory = panels[2 * row][column_], panels[2 * row + 1][column_]
+        if place < len(axes_found):
+            _times(times, axes_found[place], found[axes_found[place].name])
+            _memory(memory, axes_found[place], found[axes_found[place].name])
+        else:
+            times.set_axis_off()
+            memory.set_axis_off()
+    figure.suptitle(
+        "How time and memory grow: the paper's pair, quasi-static with friction, one thing at a time made larger",
+        x=0.008, ha="left", fontsize=14, color=DARK,
+    )  # fmt: skip
+    told = (
+        "Numbers in the legends: exponents over the upper decade. Times: processor seconds on one thread, medians.\n"
+        f"{machine['processor']}, load {machine['load']}; {machine['versions']}"
+    )
+    figure.text(0.008, 0.008, told, fontsize=10, color=DARK, parse_math=False)
+    return figure
+
+
+def _times(panel: Axes, axis: Axis, points: Points) -> None:
+    fits, x = exponents(axis, points), [point[axis.counted] for point in points]
+    for stage, colour in COLOURS.items():
+        if stage not in axis.theory:
+            continue
+        fit, theory = fits[stage], axis.theory[stage].exponent
+        label = f"{WORDS[stage]}: {'-' if fit is None else f'{fit.value:.1f}'}, theory {theory:g}"
+        panel.plot(x, [point[column(stage)] for point in points], "-" + MARKS[stage], color=colour, markersize=5, label=label)
+    _logarithmic(panel)
+    panel.set_title(axis.words if len(axis.words) < 52 else axis.words.replace(", ", ",\n", 1))
+    panel.set_ylabel("Processor time (s)")
+    panel.legend(fontsize=9, loc="upper left", borderaxespad=0.2)
+    low, high = panel.get_ylim()
+    # Room for the legend.
+    panel.set_ylim(low, high * (high / low) ** 0.55)
+
+
+def _memory(panel: Axes, axis: Axis, points: Points) -> None:
+    x = [point[axis.counted] for point in points]
+    peaks = [max(value for name, value in point.items() if name.endswith("_peak_bytes")) for point in points]
+    panel.plot(x, [each / MEBI for each in peaks], "-", color=GREY, label=IDLE)
+    for stage, colour in (("condense", PALETTE[2]), ("operators", PALETTE[4]), ("solving", PALETTE[5])):
+        values = [point[f"{stage}_array_bytes"] / MEBI for point in points]
+        panel.plot(x, values, "-" + {"condense": "^", "operators": "v", "solving": "p"}[stage], color=colour, markersize=4, label=f"arrays of {stage.replace('condense', 'condensing')}")
+    _logarithmic(panel)
+    panel.set_ylabel("Memory (MiB)")
+    panel.set_xlabel(axis.name[0].upper() + axis.name[1:])
+    panel.legend(fontsize=8.5, loc="upper left", ncol=2, borderaxespad=0.2, columnspacing=1.0)
+    low, high = panel.get_ylim()
+    panel.set_ylim(low, high * (high / low) ** 0.5)
+
+
+def _logarithmic(panel: Axes) -> None:
+    panel.set_xscale("log")
+    panel.set_yscale("log")
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

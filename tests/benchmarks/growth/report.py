@@ -1,0 +1,96 @@
+"""Points of all axes, their exponents beside theory's, as CSV and as tables for a page."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from tests.benchmarks.growth.axes import AXES, Axis
+from tests.benchmarks.growth.fit import Exponent, exponent
+
+Points = Sequence[Mapping[str, float]]
+STAGES = ("mesh", "assemble", "schur", "ring", "condense", "operators", "solving")
+WORDS = {
+    "mesh": "meshing", "assemble": "condensing: assembling", "schur": "condensing: Schur complement", "ring": "condensing: ring of sectors",
+    "condense": "condensing", "operators": "marching: operators", "solving": "marching: solving",
+}  # fmt: skip
+MEBI = 2.0**20
+
+
+def column(quantity: str) -> str:
+    """The name that a quantity of the theory has in a point."""
+    stage, _, what = quantity.partition(" ")
+    return {"": f"{stage}_s", "arrays": f"{stage}_array_bytes", "peak": f"{stage}_above_idle_bytes"}[what]
+
+
+def words(quantity: str) -> str:
+    """A quantity for people."""
+    stage, _, what = quantity.partition(" ")
+    return WORDS[stage] + {"": "", "arrays": ", arrays", "peak": ", peak of the process above its idle"}[what]
+
+
+def exponents(axis: Axis, points: Points) -> dict[str, Exponent | None]:
+    """Of every quantity that theory says something about."""
+    x = [point[axis.counted] for point in points]
+    return {quantity: exponent(x, [point[column(quantity)] for point in points]) for quantity in axis.theory}
+
+
+def section(found: Mapping[str, Points], machine: Mapping[str, str]) -> str:
+    """Both tables of every axis, the picture and what it was measured on."""
+    parts = ["![](pictures/growth.png)", "", "All numbers: [growth.csv](pictures/growth.csv)."]
+    for axis in AXES:
+        if axis.name in found:
+            points = found[axis.name]
+            parts += ["", f"### {axis.name[0].upper()}{axis.name[1:]}", "", *_exponent_table(axis, points), "", *_point_table(axis, points)]
+    fewest = min(int(point[f"{stage}_rounds"]) for name, points in found.items() for point in points for stage in _timed(name))
+    parts += ["", (
+        f"Processor seconds on one thread, medians of 5 runs, of {fewest} or more where a stage takes longer than a second; each point in a process "
+        f"of its own. {machine['processor']}, load {machine['load']}; {machine['versions']}."
+    )]  # fmt: skip
+    return "\n".join(parts)
+
+
+def _timed(name: str) -> set[str]:
+    return next(axis for axis in AXES if axis.name == name).stages
+
+
+def _exponent_table(axis: Axis, points: Points) -> list[str]:
+    lines = ["|what grows|exponent over the upper decade|between the last two points|theory|why|", "|---|---|---|---|---|"]
+    for quantity, found in exponents(axis, points).items():
+        theory = axis.theory[quantity]
+        measured = ("-", "-") if found is None else (f"{found.value:.2f} ± {found.error:.2f}", f"{found.last:.2f}")
+        lines.append(f"|{words(quantity)}|{measured[0]}|{measured[1]}|{theory.exponent:g}|{theory.why}|")
+    return lines
+
+
+def _point_table(axis: Axis, points: Points) -> list[str]:
+    timed = [stage for stage in STAGES if stage in axis.theory]
+    heading = [axis.name, "unknowns of both gears", *(f"{WORDS[stage]}, s" for stage in timed), "peak of the process, MiB", "arrays, MiB"]
+    lines = [f"|{'|'.join(heading)}|", "|---" * len(heading) + "|"]
+    for point in points:
+        peak = max(value for name, value in point.items() if name.endswith("_peak_bytes"))
+        arrays = sum(value for name, value in point.items() if name.endswith("_array_bytes"))
+        cells = [f"{point[axis.counted]:g}", f"{point['unknowns']:.0f}", *(f"{point[stage + '_s']:.2g}" for stage in timed)]
+        lines.append(f"|{'|'.join([*cells, f'{peak / MEBI:.0f}', f'{arrays / MEBI:.3g}'])}|")
+    return lines
+
+
+def write_csv(found: Mapping[str, Points], machine: Mapping[str, str], file: Path) -> None:
+    """A line for each point, with all that was measured, then one for each exponent."""
+    measured = dict.fromkeys(name for points in found.values() for point in points for name in point)
+    columns = ["kind", "axis", "quantity", *measured, "exponent", "standard_error", "fitted_points", "last_slope", "theory", "why", *machine]
+    with open(file, "w", encoding="utf-8", newline="") as opened:
+        writer = csv.DictWriter(opened, columns, restval="")
+        writer.writeheader()
+        for axis in (axis for axis in AXES if axis.name in found):
+            for point in found[axis.name]:
+                writer.writerow({"kind": "point", "axis": axis.name, **point, **machine})
+            for quantity, fit in exponents(axis, found[axis.name]).items():
+                theory = axis.theory[quantity]
+                told = {} if fit is None else {
+                    "exponent": fit.value, "standard_error": fit.error, "fitted_points": fit.points, "last_slope": fit.last,
+                }  # fmt: skip
+                writer.writerow({
+                    "kind": "exponent", "axis": axis.name, "quantity": quantity, **told, "theory": theory.exponent, "why": theory.why, **machine,
+                })  # fmt: skip
