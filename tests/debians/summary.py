@@ -20,7 +20,7 @@ def table(trials: list[Trial]) -> str:
         rows.append([f"{name}: passed, failed, skipped", *(_outcome(trial.tests.get(ranks)) for trial in trials)])
         rows.append([f"{name}, s", *(f"{trial.tests[ranks].seconds:.0f}" if ranks in trial.tests else "-" for trial in trials)])
     rows.append(["all green", *("yes" if trial.is_green else "NO" for trial in trials)])
-    return _aligned(rows)
+    return "\n\n".join([_aligned(rows), *_skipped(trials)])
 
 
 def _ended(call):
@@ -32,6 +32,14 @@ def _outcome(counts: Counts | None):
         return "-"
     text = f"{counts.passed}, {counts.failed}, {counts.skipped}"
     return text if counts.complete else f"{text}, BROKEN OFF"
+
+
+def _skipped(trials):
+    """A line for each Debian on which tests were skipped, with their reasons."""
+    for trial in trials:
+        reasons = sorted({reason for counts in trial.tests.values() for reason in counts.reasons})
+        if reasons:
+            yield f"Skipped on {SUITES[trial.suite]}: {'; '.join(reasons)}."
 
 
 def _aligned(rows):

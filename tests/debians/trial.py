@@ -32,6 +32,8 @@ class Counts:
     skipped: int = 0
     seconds: float = 0.0
     complete: bool = False
+    reasons: tuple[str, ...] = ()
+    """Why tests were skipped, each reason once."""
 
     @property
     def is_green(self) -> bool:
@@ -132,11 +134,13 @@ def _run_tests(trial, root, call, quick):
 
 def counted(files) -> Counts:
     """Outcomes in the JUnit files of all ranks: what every rank passed counts once, what any failed or skipped is added up."""
-    suites = [ElementTree.parse(file).getroot().find("testsuite").attrib for file in files if file.exists()]
-    if not suites:
+    reports = [ElementTree.parse(file).getroot().find("testsuite") for file in files if file.exists()]
+    if not reports:
         return Counts()
+    suites = [report.attrib for report in reports]
+    reasons = {skip.get("message", "") for report in reports for skip in report.iter("skipped")}
     failed = [int(suite["failures"]) + int(suite["errors"]) for suite in suites]
     skipped = [int(suite["skipped"]) for suite in suites]
     passed = [int(suite["tests"]) - bad - left_out for suite, bad, left_out in zip(suites, failed, skipped, strict=True)]
     seconds = max(float(suite["time"]) for suite in suites)
-    return Counts(min(passed), sum(failed), sum(skipped), seconds, len(suites) == len(files))
+    return Counts(min(passed), sum(failed), sum(skipped), seconds, len(suites) == len(files), tuple(sorted(reasons)))

@@ -75,13 +75,13 @@ def test_counts_are_pytests_own(tmp_path):
         "import pytest\n"
         "def test_passes(): pass\n"
         "def test_fails(): assert False\n"
-        "@pytest.mark.skip\ndef test_skips(): pass\n"
+        "@pytest.mark.skip(reason='no browser')\ndef test_skips(): pass\n"
         "@pytest.fixture\ndef broken(): raise OSError\n"
         "def test_breaks_off(broken): pass\n"
     )
     subprocess.run([sys.executable, "-m", "pytest", "-q", "--junitxml=out.xml", "."], cwd=tmp_path, capture_output=True)
     found = counted([tmp_path / "out.xml"])
-    assert (found.passed, found.failed, found.skipped) == (1, 2, 1)
+    assert (found.passed, found.failed, found.skipped, found.reasons) == (1, 2, 1, ("no browser",))
 
 
 def test_one_column_for_each_debian_and_one_verdict(tmp_path):
@@ -96,6 +96,13 @@ def test_one_column_for_each_debian_and_one_verdict(tmp_path):
     assert cells["suite: passed, failed, skipped"] == ["10, 0, 1", "10, 0, 1", "-"]
     assert cells["all green"] == ["yes", "NO", "NO"]
     assert len({len(line) for line in lines}) == 1
+
+
+def test_why_tests_were_skipped_is_told(tmp_path):
+    """A skipped test is nobody's proof; whoever reads the table sees why it was left out, and where."""
+    trial = green("trixie", tmp_path)
+    trial.tests[1] = Counts(10, 0, 2, 2.0, complete=True, reasons=("no CalculiX",))
+    assert table([trial, green("sid", tmp_path)]).splitlines()[-1] == "Skipped on Debian 13: no CalculiX."
 
 
 def test_a_call_that_fails_is_not_green(tmp_path):
