@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import lcm
+
+import numpy as np
 
 from fenics_gears.contact.mesh_cycle import pair_places
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, result_variables
 from fenics_gears.geometry.characteristics import characteristics
+from fenics_gears.effects import effects_on
 from fenics_gears.model import Model, model
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
@@ -157,29 +161,45 @@ def _cost(built: Model) -> Rows:
         return [("marching", f"{built.steps * SECONDS_PER_STEP:.1f}", "s"), ("memory", f"{memory / 1e6:.0f}", "MB")]
     order = 2 if built.resolution.element.endswith("2") else 1
     body, per_node = SECTOR_UNKNOWNS[built.resolution.element]
-    unknowns, flank_dofs = [], []
-    for gear in (built.pair.pinion, built.pair.wheel):
+    unknowns, flank_dofs, of = [], [], []
+    for name in ("pinion", "wheel"):
+        gear, meshed = getattr(built.pair, name), _meshed(built, name)
         arc = 0.5 * gear.base_radius * (gear.tip_roll_angle**2 - gear.form_roll_angle**2)
         nodes = order * arc / built.resolution.flank_element_size + 1
-        unknowns.append(body + per_node * nodes)
-        flank_dofs.append(2.0 * nodes)
+        unknowns.append(body + per_node * nodes if meshed is None else meshed)
+        # Of all teeth, where each has a compliance of its own: memory goes by the square.
+        flank_dofs.append(2.0 * nodes * (1.0 if meshed is None else np.sqrt(gear.teeth)))
+        of.append(f"a {name} sector" if meshed is None else f"the whole {name}")
     if built.resolution.condensation == EVERY_STEP:
         condensing, marching, memory = _reference_cost(built, unknowns, order)
     else:
         condensing, marching, memory = _fast_cost(built, unknowns, flank_dofs)
     return [
-        ("unknowns of a pinion sector", f"{unknowns[0]:.0f}", ""),
-        ("unknowns of a wheel sector", f"{unknowns[1]:.0f}", ""),
+        *((f"unknowns of {words}", f"{count:.0f}", "") for words, count in zip(of, unknowns)),
         ("meshing and condensing, unless cached", f"{condensing:.1f}", "s"),
         ("marching", f"{marching:.1f}", "s"),
         ("memory", f"{memory / 1e6:.0f}", "MB"),
     ]
 
 
+def _meshed(built: Model, name: str) -> int | None:
+    """Unknowns of a gear that an effect has a mesh of its own for; None for a ring of sectors."""
+    for effect in effects_on(built.scene):
+        if effect.unknowns_of is not None:
+            return effect.unknowns_of(getattr(built.scene, effect.section), built, name)
+    return None
+
+
+def _unlike_cycles(built: Model) -> int:
+    """Mesh cycles of the run that can have contact operators of their own: as many as pass until the same teeth of meshed gears meet."""
+    teeth = [getattr(built.pair, name).teeth for name in ("pinion", "wheel") if _meshed(built, name) is not None]
+    return min(lcm(*teeth), built.scene.motion.mesh_cycles)
+
+
 def _fast_cost(built: Model, unknowns: list[float], flank_dofs: list[float]) -> tuple[float, float, float]:
     """Seconds of condensing and of marching, bytes."""
     rows = _contact_rows(built)
-    positions = min(built.resolution.steps_per_mesh_cycle, built.steps + 2)
+    positions = min(_unlike_cycles(built) * built.resolution.steps_per_mesh_cycle, built.steps + 2)
     operator_parts = 1.5 if built.scene.friction is not None else 1.0
     condensing = sum(
         SECONDS_PER_GEAR + SECONDS_PER_UNKNOWN * n + SECONDS_PER_FLANK_CUBE * dofs**3 for n, dofs in zip(unknowns, flank_dofs)

@@ -17,8 +17,10 @@ from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 
-# Teeth respond alike where their compliances agree to this part of the largest: no more than contact itself is solved to.
-ALIKE = 1e-5
+# Teeth respond alike where their compliances agree to this part of the largest, a fifth of what a default mesh errs by. The body carries
+# a crack's effect on: from tooth to tooth it falls by about half.
+ALIKE = 1e-4
+SAME_ROLL = 1e-9
 GEARS = (0, 1)
 
 
@@ -106,7 +108,7 @@ class WholeBodyCycle:
 
     def _respond_alike(self, gear: int, one: int, other: int) -> bool:
         body, teeth = self._flanks.compliance[gear], self._teeth[gear]
-        if any(not np.array_equal(body.rolls_of(one + tooth), body.rolls_of(other + tooth)) for tooth in teeth):
+        if not all(same_rolls(body.rolls_of(one + tooth), body.rolls_of(other + tooth)) for tooth in teeth):
             return False
         largest = np.abs(body.between(one, one).diagonal()).max()
         return all(
@@ -141,8 +143,13 @@ class WholeBodyCycle:
     def _same_nodes(self, one: tuple[FlankCompliance, ...], other: tuple[FlankCompliance, ...]) -> bool:
         """Whether the flank nodes of all teeth in mesh stand at the same roll angles, so that contact nodes see them alike."""
         return all(
-            np.array_equal(one[gear].rolls_of(tooth), other[gear].rolls_of(tooth)) for gear in GEARS for tooth in self._teeth[gear]
+            same_rolls(one[gear].rolls_of(tooth), other[gear].rolls_of(tooth)) for gear in GEARS for tooth in self._teeth[gear]
         )
+
+
+def same_rolls(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two flanks have nodes at the same roll angles (rad), but for the last digits of points in a file."""
+    return one.shape == other.shape and bool(np.abs(one - other).max() <= SAME_ROLL)
 
 
 def first_tooth(gear: int, cycle: int) -> int:

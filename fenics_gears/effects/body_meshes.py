@@ -116,6 +116,17 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach: int, cache):
     )
 
 
+def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
+    """Unknowns of a gear with a mesh of its own; None for the other."""
+    if getattr(meshes, name) is None:
+        return None
+    from fenics_gears.elasticity.element_nodes import element_nodes
+    from fenics_gears.elasticity.elements import element_named
+
+    element = model.resolution.element
+    return 2 * len(element_nodes(_body(meshes, name, model.pair, element).mesh, element_named(element)).points)
+
+
 def _body(meshes: BodyMeshes, name: str, pair, element: str):
     from fenics_gears.elasticity.whole_body.given import given_body
 
@@ -138,4 +149,5 @@ EFFECT = Effect(
     check=check,
     warnings=warnings,
     elasticity=elasticity,
+    unknowns_of=unknowns_of,
 )

@@ -43,6 +43,7 @@ class Effect:
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over pitches; None to leave it as it is.
+    ``unknowns_of(data, model, name)``: of that gear's finite elements, for the expected cost; None to leave it as it is.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
     ``check(data, scene, pair)``: raises SceneError for what only shows in those files.
     ``warnings(data, model)``: sentences that a user should read before the run.
@@ -68,6 +69,7 @@ class Effect:
     load: Callable | None = None
     clock: Callable | None = None
     elasticity: Callable | None = None
+    unknowns_of: Callable | None = None
     located: Callable | None = None
     check: Callable | None = None
     warnings: Callable | None = None

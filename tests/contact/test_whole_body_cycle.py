@@ -101,6 +101,16 @@ def test_teeth_that_differ_by_less_than_contact_is_solved_to_share(paper_pair, r
     assert kinds[0] == 1 and kinds[1] >= 3
 
 
+def test_the_last_digits_of_a_file_make_no_other_teeth(paper_pair, rings):
+    """Nodes at roll angles that differ by round-off are the same nodes, and their contact nodes are built once."""
+    body = whole(rings[0], 16, {8: 2.0})
+    rolls = tuple(each + 1e-13 * tooth for tooth, each in enumerate(body.roll_angles))
+    found = cycle(paper_pair, (WholeBodyCompliance(rolls, body.element_order, body.blocks), rings[1]))
+    positions = [found.position(number * STEPS) for number in range(16)]
+    assert found.kinds < 8
+    assert positions[0].operator.pairs[0].interpolation is positions[8].operator.pairs[0].interpolation
+
+
 def test_a_tooth_with_other_nodes_is_seen_through_its_own(paper_pair, rings):
     """Where a flank is meshed otherwise its contact nodes interpolate its own nodes; all else is seen as before."""
     finer = stand_in_compliance(paper_pair.pinion, elements=80)
