@@ -33,7 +33,7 @@ class Seen(HTMLParser):
             self.names.append(found["id"])
         if tag == "section":
             self.sections[found["id"]] = ""
-        self.plots += found.get("class") == "plot"
+        self.plots += found.get("class") == "curves"
         if tag not in VOID:
             self.open.append(tag)
 

@@ -32,7 +32,7 @@ def page_of(dataset, directory, *options):
 
 def captions(page):
     """Names of a page's plots."""
-    return [attributes["aria-label"] for tag, attributes in page.tags if attributes.get("class") == "plot"]
+    return [attributes["aria-label"] for tag, attributes in page.tags if attributes.get("class") == "curves"]
 
 
 def test_every_section_is_there_and_says_what_the_result_holds(report, run):

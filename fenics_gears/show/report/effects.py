@@ -21,10 +21,13 @@ def effects(run: Run) -> Section:
     """Each effect with what the model has by it or without it; below, what was measured."""
     if run.scene is None:
         return Section("effects", "Effects", [Words(NO_SCENE, warns=True)])
-    states = sorted(effect_states(run.scene), key=lambda state: not state.on)
-    rows = [("●\u00a0on" if state.on else "○\u00a0off", f"[{state.effect.written}]", state.words, state.adds) for state in states]
-    table = Table(("", "Section", "The model has", "Adds"), rows, numbers=9)
-    return Section("effects", "Effects on and off", [table, *_measured(run)])
+    states = effect_states(run.scene)
+    on = [(f"[{state.effect.written}]", state.words, state.adds) for state in states if state.on]
+    off = [(f"[{state.effect.written}]", state.words) for state in states if not state.on]
+    tables = [
+        Table(("Section", "The model has", "which adds"), on, "● On", numbers=9), Table(("Section", "In its place the model has"), off, "○ Off", numbers=9),
+    ]  # fmt: skip
+    return Section("effects", "Effects on and off", [*tables, *_measured(run)])
 
 
 def _measured(run: Run) -> list[Block]:
@@ -37,10 +40,10 @@ def _measured(run: Run) -> list[Block]:
         return [Words(f"{MEASURED_TABLE} beside the run is no table of this version's `gears effects`, and is left out.", warns=True)]
     if not _same_scene(run, lines):
         return [Words(f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; the report's option `--effects` measures anew.", warns=True)]
-    blocks: list[Block] = [_table(lines)]
+    blocks: list[Block] = [*_tables(lines)]
     picture = file.with_name(MEASURED_PICTURE)
     if picture.is_file():
-        blocks.append(Picture("What the effects cost and change", picture.read_bytes()))
+        blocks.append(Picture("Cost and change of the effects", picture.read_bytes()))
     first = lines[0]
     blocks.append(Words(f"Measured on {first['processor']}, load {first['load']}; threads: {first['threads']}; {first['versions']}."))
     return blocks
@@ -66,18 +69,20 @@ def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
     return not run.complete or math.isclose(measured, answer, rel_tol=SAME_ANSWER, abs_tol=1e-4)
 
 
-def _table(lines: list[dict[str, str]]) -> Table:
-    headings = ("Effects", "Unknowns", "Newton a step", "Time a step (µs)", "Condensing (s)", "T_EPP (µm)", "Change", "Peak force (N)", "Change", "Compared with")
+def _tables(lines: list[dict[str, str]]) -> list[Block]:
+    headings = ("Effects", "Unknowns", "Newton a step", "Time a step (µs)", "Condensing (s)", "T_EPP (µm)", "Peak force (N)")
     rows, skipped = [], []
     for line in lines:
         if not line["step_time_s"]:
-            skipped.append((line["effects"], *[""] * 8, line["remarks"]))
+            skipped.append((line["effects"], line["remarks"]))
             continue
         number = {name: float(line[name]) for name in CSV_COLUMNS[2:15]}
-        changes = [in_percent(float(line[name])) if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")]
+        changes = [f" ({in_percent(float(line[name]))})" if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")]
         rows.append((
             line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}", f"{number['newton_iterations_per_step']:.2f}",
-            f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}", f"{number['transmission_error_peak_to_peak_mm'] * MILLI:.3f}", changes[0],
-            f"{number['peak_force_N']:,.0f}", changes[1], line["compared_with"],
+            f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}", f"{number['transmission_error_peak_to_peak_mm'] * MILLI:.3f}{changes[0]}",
+            f"{number['peak_force_N']:,.0f}{changes[1]}",
         ))  # fmt: skip
-    return Table(headings, rows + skipped, caption="What each effect costs and changes")
+    caption = "What each effect costs and changes: one more (changes are from the bare scene), one less (changes are from all)"
+    tables = [Table(headings, rows, caption)]
+    return tables + [Table(("Not run", "Why"), skipped, numbers=9)] if skipped else tables

@@ -18,7 +18,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
 
 // Curves: drawn when they come near the window, all of them before the page is printed.
 (async () => {
-  const packed = document.getElementById("library"), plots = [...document.querySelectorAll(".plot")];
+  const packed = document.getElementById("library"), plots = [...document.querySelectorAll(".curves")];
   if (!packed) return;
   try {
     const bytes = Uint8Array.from(atob(packed.textContent), character => character.charCodeAt(0));
