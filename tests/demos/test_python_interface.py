@@ -1,0 +1,78 @@
+"""The demonstration of the Python interface: it runs as a script and opens as a notebook, and its results are those that it speaks of."""
+
+import re
+import runpy
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from matplotlib.image import imread
+from tests.conftest import DEMOS
+
+SCRIPT = DEMOS / "python_interface" / "first_steps.py"
+COARSE = '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes = 26\nsteps_per_mesh_cycle = 40\n'
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    """Every name of the script after it has run beside a coarse scene of the paper's pair, and the folder it ran in."""
+    folder = tmp_path_factory.mktemp("checkout")
+    (folder / "demos").mkdir()
+    text = (DEMOS / "lundvall2004.toml").read_text(encoding="utf-8")
+    (folder / "demos" / "lundvall2004.toml").write_text(text[: text.index("[accuracy]")] + COARSE, encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.chdir(folder)
+        patched.setenv("MPLBACKEND", "agg")
+        patched.setattr(sys, "path", list(sys.path))
+        yield runpy.run_path(str(SCRIPT)), folder
+    pyplot.close("all")
+
+
+def cells():
+    """The script's cells by the format that Jupytext and VS Code share: (title, text) from each `# %%`."""
+    parts = re.split(r"^# %%(.*)\n", SCRIPT.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    assert parts[0] == ""
+    return list(zip((title.strip() for title in parts[1::2]), parts[2::2]))
+
+
+def test_it_opens_as_a_notebook():
+    """The percent format (Jupytext's documentation): a text cell is comments from its first line to its last, each code cell is Python by itself."""
+    kinds = [title for title, _ in cells()]
+    assert set(kinds) == {"", "[markdown]"} and kinds.count("") >= 8 and kinds.count("[markdown]") >= 8
+    for title, text in cells():
+        if title == "[markdown]":
+            assert all(line.startswith("#") for line in text.strip().splitlines())
+        else:
+            compile(text, "cell", "exec")
+
+
+def test_results_are_those_that_it_speaks_of(ran):
+    """The paper, Sections 5 and 6: at 200 Hz friction raises the transmission error; the torsional resonance is near 213 Hz; relief lowers the error."""
+    names, _ = ran
+    with_friction, without = (names["micrometres"](names[run]) for run in ("result", "frictionless"))
+    assert np.ptp(with_friction.values) > 1.1 * np.ptp(without.values)
+    assert "friction_force" in names["result"] and "friction_force" not in names["frictionless"]
+    study = names["study"]
+    assert np.all(study.idxmax("mesh_frequency").isin([200, 210, 220])) and np.all(study.diff("torque") > 0.0)
+    assert float(study.sel(torque=437, mesh_frequency=200)) == pytest.approx(np.ptp(with_friction.values), rel=1e-9)
+    assert np.ptp(names["micrometres"](names["relieved"]).values) < 0.75 * np.ptp(with_friction.values)
+
+
+def test_orders_add_up(ran):
+    """Exact (Parseval): the variance of the transmission error is half the sum of its orders' squares, up to those left out."""
+    names, _ = ran
+    error = names["micrometres"](names["result"]).values[:-1]
+    orders = names["mesh_orders"](names["result"], highest=19)
+    assert 0.5 * np.sum(orders**2) == pytest.approx(np.var(error), rel=1e-3)
+
+
+def test_pictures_and_the_kept_run_are_there(ran):
+    """Authority: the script's last cell; the run on disk is the one in memory, pictures are no empty pages."""
+    names, folder = ran
+    assert names["again"].identical(names["result"])
+    pictures = sorted(path.name for path in Path(folder, "results", "python_interface").glob("*.png"))
+    assert pictures == ["curves.png", "stress.png", "study_and_spectrum.png"]
+    for name in pictures:
+        assert np.ptp(imread(folder / "results" / "python_interface" / name)[..., :3]) > 0.5
