@@ -55,7 +55,14 @@ def _under_mpirun(options: argparse.Namespace) -> int:
     command += [sys.executable, "-m", "fenics_gears", "study", str(options.study)]
     command += ["--output", str(options.output)] if options.output is not None else []
     command += ["--quiet"] if options.quiet else []
-    return subprocess.call(command)
+    running = subprocess.Popen(command)
+    try:
+        return running.wait()
+    except KeyboardInterrupt:
+        # Ctrl-C is mpirun's as well, which ends its processes; to kill it meanwhile would leave them behind.
+        running.wait()
+        print("Interrupted. The cases that were done are kept; the same command goes on from there.", file=sys.stderr)
+        return INTERRUPTED
 
 
 def _count(text: str) -> int:
