@@ -53,7 +53,7 @@ def page() -> str:
     lines += ["## How it is computed, and what is put out", ""]
     for name in ("accuracy", "output"):
         lines += _with_parts(name)
-    lines += ["## Effects", ""]
+    lines += ["## Effects", "", "An example of each: [effects](effects.md#examples).", ""]
     for each in EFFECTS:
         if not each.within:
             lines += _effect(each.section)
