@@ -143,6 +143,6 @@ def test_modules_and_scripts_that_a_page_names_are_there(page):
     everything = "\n".join([*(block.code for block in blocks(page)), *in_text(page)])
     for module in re.findall(r"python3? -m ([\w.]+)", everything):
         assert importlib.util.find_spec(module), module
-    for script in re.findall(r"^(?:\./)?((?!docs/_build)(?:demos|docs|setup)/[\w/]+)(?=\s|$)", everything, re.M):
+    for script in re.findall(r"^(?:\./)?((?!docs/_build)(?:demos|docs|setup)/[a-z0-9_/]+)(?=\s|$)", everything, re.M):
         path = ROOT / script
         assert path.is_dir() or os.access(path, os.X_OK), script
