@@ -73,8 +73,7 @@ def _module(stage: Stage) -> Value:
 
 
 def _check_spur(gear: Component) -> None:
-    name = "helix_angle_reference_diameter"
-    for component, name in given([(gear, name)]):
+    for component, name in given([(gear, "helix_angle_reference_diameter")]):
         angle = quantity_of(component, name, "deg")
         if abs(angle.number) > 1e-9:
             raise ValueProblem(f"{place(gear, name)} = {unquoted(angle)}: a helical gear. Spur gears are computed only, whose helix angle is 0.")

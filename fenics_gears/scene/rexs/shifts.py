@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import acos, cos, tan
 
 from fenics_gears.scene.rexs.reading import Place, Reading, agreed, given
@@ -17,7 +18,7 @@ def profile_shifts(
 ) -> list[Value | None]:
     """The shift of the driving and of the driven gear; None for one that could not be found, which the reading's problems then tell."""
     places = [_places(part) for part in stage.gears]
-    shifts = [reading.attempt(lambda: _stated(part, where, module)) for part, where in zip(stage.gears, places)]
+    shifts = [reading.attempt(partial(_stated, part, where, module)) for part, where in zip(stage.gears, places)]
     missing = [number for number, where in enumerate(places) if not where]
     if len(missing) == 2:
         reading.attempt(_refuse_both_missing, stage)

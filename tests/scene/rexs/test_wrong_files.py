@@ -204,3 +204,21 @@ def test_what_does_not_hang_together_is_told_together(tmp_path):
     assert "1 mistake in" in said and "addendum_modification_coefficient is missing, for its flanks too, and so is that of component 6" in said
     near = refused(tmp_path, changed(*both[:2], (rexs.STAGE, "center_distance", 80.0, "mm")))
     assert "center_distance = 80 mm is too small for 40 teeth of module 4.5 mm" in near
+
+
+def test_parts_that_a_stage_cannot_have(tmp_path):
+    """A gear of another kind; two reliefs of one flank; in JSON, a number that is none and a value that is false where a quantity is due."""
+    bevel = rexs.paper_model()
+    rexs.component(bevel, W)["type"] = "bevel_gear"
+    assert "component 6 (bevel_gear 'wheel') is no cylindrical gear" in refused(tmp_path, bevel)
+    twice = with_relief()
+    twice = rexs.with_component(twice, 42, "tip_relief", reference={"origin": FLANK, "referenced": 42})
+    assert "two components tip_relief, 40 and 42; a scene has one" in refused(tmp_path, twice)
+    named = rexs.paper_model()
+    rexs.component(named, W)["id"] = "six"
+    with pytest.raises(SceneError, match='has a component whose id is "six", not a whole number'):
+        imported(tmp_path, rexs.as_json(named))
+    with pytest.raises(SceneError, match="normal_module = false mm does not begin with a number"):
+        imported(tmp_path, rexs.as_json(changed((P, "normal_module", False, "mm"))))
+    with pytest.raises(SceneError, match="poisson_ratio = nan none is not a finite number"):
+        imported(tmp_path, rexs.as_xml(changed((MATERIAL, "poisson_ratio", float("nan")))))
