@@ -71,7 +71,7 @@ class Model:
         """Size of the result in memory: four arrays over stored steps, the tooth pairs counted through them, and contact nodes; root stress."""
         pairs = self.scene.motion.recorded_cycles + self.pair.contact_ratio + 2.0
         root_stress = ROOT_STRESS_VALUES if self.scene.output.root_stress else 0
-        return 8.0 * self.stored_steps * pairs * (4.0 * self.resolution.contact_grid.most_nodes + root_stress)
+        return 8.0 * self.stored_steps * pairs * (4.0 * self.resolution.contact_grid.nodes + root_stress)
 
     @property
     def vibrations(self) -> list[Vibration]:

@@ -13,7 +13,7 @@ from math import ceil, inf, pi, sqrt
 import numpy as np
 
 from fenics_gears.contact.interpolation import AVERAGED
-from fenics_gears.contact.window import EDGE_CELLS, EVEN, ContactGrid
+from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import ISO_6336, Material, Scene
@@ -32,8 +32,6 @@ LONGEST_WINDOW = 3.0
 # Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart. Peak pressure is
 # then within 4, 1, 0.5 % of Hertz's for half-widths of 2, 4, 8 elements; with nodes one element apart it errs by 12, 2, 0.3 %.
 NODE_SPACING = 0.7
-# Elements of first order bear closer contact nodes at the edges of flanks where the others are this many elements apart.
-LINEAR_BEARS_EDGE = 1.5
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
 # Peaks of the transmission error lie between steps: 200 steps miss 0.1 % of the peak-to-peak value of the paper's pair.
@@ -104,22 +102,16 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
-    element = asked.element or DEFAULT_ELEMENT
     return Resolution(
-        element=element,
+        element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
-        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED, _edge_cells(element, length / (nodes - 1), size)),
+        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED),
         steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
         half_width=half_width,
         condensation=asked.condensation or ONCE,
         body_element_size=asked.body_element_size,
         elastic_teeth=asked.elastic_teeth,
     )
-
-
-def _edge_cells(element: str, spacing: float, size: float) -> tuple[float, ...]:
-    """Cells of the contact grid next to edges: finer ones where the flank's elements tell so many nodes apart."""
-    return EDGE_CELLS if element.endswith("2") or spacing >= LINEAR_BEARS_EDGE * size else EVEN
 
 
 def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:

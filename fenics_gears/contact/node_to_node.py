@@ -6,14 +6,14 @@ last step's displacement [A.2]-[A.4], nothing interpolated.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.operator import ContactOperator, earlier_rigid_tangent, over_nodes, rigid_rows, rigid_slip
 from fenics_gears.contact.tooth_pair import PairNodes, Place, Removal, facing_points
-from fenics_gears.contact.window import EVEN, ContactGrid, flank_ends, node_offsets
+from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
 
@@ -65,7 +65,7 @@ def node_pairs(
 
 def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
     """Offsets (mm) of the contact grid without an end node that all but stands on an end of either flank."""
-    offsets = node_offsets(pair, contact_rolls, replace(grid, edge_cells=EVEN))
+    offsets = node_offsets(pair, contact_rolls, grid)
     if len(offsets) < 3:
         return offsets
     near, exact = SMALLEST_REST * grid.spacing, 1e-9 * grid.spacing

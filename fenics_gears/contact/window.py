@@ -3,9 +3,6 @@
 A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows
 the moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with
 it: nodes then leave at the far, open end of the window one by one, and nothing jumps where the load is.
-
-Nodes may stand closer at such an edge. A pair that comes or goes touches with the edge alone, and the gap opens in proportion to the distance
-from it: averaged over half a hat function of width h it is too wide by a third of h times that slope, which is an error of first order.
 """
 
 from __future__ import annotations
@@ -19,35 +16,18 @@ from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 
 
-# Cells next to an edge where a flank ends, in parts of the spacing, from the edge on. With this one node more T_E of the paper's pair without
-# friction errs by 1.6, 0.41, 0.11, 0.026 % with 1, 2, 4, 8 nodes in a half-width, and by 4.5, 1.7, 0.63, 0.28 % with even cells; more nodes
-# gain little, and soon stand closer than the elements of the flank can tell apart.
-EDGE_CELLS, EVEN = (0.125, 0.875), (1.0,)
-# A window of fewer cells for each edge is one that has just opened, far from the load.
-FEWEST_CELLS = 2
-
-
 @dataclass(frozen=True)
 class ContactGrid:
-    """What spans the contact nodes: window length in mm, nodes in a whole window, and by its name how they see the flanks.
-
-    `edge_cells`: lengths of the cells next to an edge, in parts of the spacing, from the edge on; together 1.
-    """
+    """What spans the contact nodes: window length in mm, nodes in a whole window, and by its name how they see the flanks."""
 
     length: float
     nodes: int
     interpolation: str = AVERAGED
-    edge_cells: tuple[float, ...] = EVEN
 
     @property
     def spacing(self) -> float:
         """Distance of neighbouring contact nodes, mm."""
         return self.length / (self.nodes - 1)
-
-    @property
-    def most_nodes(self) -> int:
-        """Contact nodes of a pair at most: those of a whole window, and those next to two edges."""
-        return self.nodes + 2 * (len(self.edge_cells) - 1)
 
 
 def contact_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
@@ -111,19 +91,8 @@ def offsets_between(lowest: float, highest: float, grid: ContactGrid) -> np.ndar
         return np.empty(0)
     cut_low, cut_high = lowest > -half, highest < half
     if cut_low and cut_high:
-        even = np.linspace(start, end, max(1, round(length / grid.spacing)) + 1)
-        return even if len(even) <= 2 * FEWEST_CELLS else -_graded(-_graded(even, grid)[::-1], grid)[::-1]
+        return np.linspace(start, end, max(1, round(length / grid.spacing)) + 1)
     # The tolerance keeps the node count of an uncut window whole in spite of round-off.
     cells = max(1, int(np.floor(length / grid.spacing * (1.0 + 1e-12))))
     steps = min(grid.spacing, length / cells if cells == 1 else grid.spacing) * np.arange(cells + 1)
-    if cut_low:
-        return _graded(start + steps, grid)
-    return -_graded(steps - end, grid)[::-1] if cut_high else (end - steps)[::-1]
-
-
-def _graded(offsets: np.ndarray, grid: ContactGrid) -> np.ndarray:
-    """Offsets with the first cell, which begins at an edge, made finer towards it."""
-    if len(offsets) <= FEWEST_CELLS:
-        return offsets
-    cell = offsets[1] - offsets[0]
-    return np.concatenate([offsets[:1], offsets[0] + cell * np.cumsum(grid.edge_cells[:-1]), offsets[1:]])
+    return start + steps if cut_low else (end - steps)[::-1]

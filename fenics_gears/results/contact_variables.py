@@ -119,7 +119,7 @@ def _sharing_pairs(scene: Scene, cycle: Cycle, records: list[Record], numbers: l
 
 def _flank_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int], flank: int) -> dict:
     row = {number: i for i, number in enumerate(numbers)}
-    width, most = scene.gears.face_width, cycle.grid.most_nodes
+    width, most = scene.gears.face_width, cycle.grid.nodes
     force = np.zeros((2, len(records), len(numbers)))
     stress = np.zeros((2, len(records), len(numbers), most))
     place = np.full((2, len(records), len(numbers), most), np.nan)

@@ -1,11 +1,9 @@
 """The contact grid: nodes on the edges of the flanks, none lost where the load is."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from fenics_gears.contact.window import EDGE_CELLS, ContactGrid, contact_roll_angles, flank_limits, offsets_between
+from fenics_gears.contact.window import ContactGrid, contact_roll_angles, flank_limits
 from fenics_gears.contact.window import node_offsets as offsets_at
 from fenics_gears.geometry.involute import flank_point
 
@@ -52,34 +50,3 @@ def test_grid_moves_continuously_with_the_position(paper_pair):
 def test_far_pairs_have_no_nodes(paper_pair):
     """Beyond the reach of its tip a pair cannot touch."""
     assert len(node_offsets(paper_pair, paper_pair.path_start - 8.0, GRID)) == 0
-
-
-GRADED = replace(GRID, edge_cells=EDGE_CELLS)
-
-
-def test_nodes_stand_closer_at_an_edge_that_moves_with_them(paper_pair):
-    """By definition: one node more an eighth of the spacing from the edge, the others where they were, wherever the edge is."""
-    for xi in paper_pair.path_start + np.linspace(0.0, 0.6, 7):
-        even, graded = (node_offsets(paper_pair, xi, grid) for grid in (GRID, GRADED))
-        assert np.delete(graded, -2) == pytest.approx(even, abs=1e-12)
-        assert np.diff(graded)[-2:] == pytest.approx(np.array([0.875, 0.125]) * GRID.spacing, rel=1e-9)
-
-
-def test_a_window_that_no_edge_cuts_stays_even(paper_pair):
-    """Nothing to resolve there, and as many nodes as the grid says."""
-    assert np.array_equal(*(node_offsets(paper_pair, paper_pair.pitch_point, grid) for grid in (GRID, GRADED)))
-
-
-def test_a_flank_shorter_than_the_window_has_both_its_edges_resolved():
-    """Both ends alike, and no more nodes than the grid owns up to."""
-    offsets = offsets_between(-0.4, 0.6, GRADED)
-    cells = np.diff(offsets)
-    assert cells[:2] == pytest.approx(cells[::-1][:2]) and cells[0] == pytest.approx(cells[1] / 7.0)
-    assert (offsets[0], offsets[-1]) == pytest.approx((-0.4, 0.6))
-    assert len(offsets_between(-1.499, 1.499, GRADED)) <= GRADED.most_nodes
-    assert len(offsets_between(-1.4999, 2.0, GRADED)) <= GRADED.most_nodes
-
-
-def test_a_window_that_has_just_opened_has_two_nodes():
-    """Elements of first order tell no third one apart within a cell."""
-    assert len(offsets_between(1.48, 5.0, GRADED)) == 2
