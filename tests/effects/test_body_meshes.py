@@ -19,6 +19,7 @@ from fenics_gears.run_stresses import RunStresses
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.simulation import simulate
+from fenics_gears.studies.accuracy.ladder import checked_model
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.studies.workshop import Workshop
 
@@ -165,3 +166,9 @@ def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):
     scene = scene_from_text(text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"'))
     with pytest.raises(ComputationError, match="stresses are recovered from gears of equal sectors"):
         RunStresses(turn[0], scene, cache)
+
+
+def test_the_accuracy_of_a_given_mesh_is_not_measured():
+    """Its elements are not the program's to refine."""
+    with pytest.raises(SceneError, match="a mesh that is given cannot be refined"):
+        checked_model(scene_from_text(text_of(TEETH, "body_meshes")))

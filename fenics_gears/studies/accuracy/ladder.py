@@ -117,6 +117,8 @@ def checked_model(scene: Scene) -> Model:
         raise SceneError("gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out accuracy.model")
     if built.resolution.condensation == EVERY_STEP:
         raise SceneError('accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once", or leave it out.')
+    if scene.body_meshes is not None:
+        raise SceneError("[body_meshes]: a mesh that is given cannot be refined, and its error not be measured. Leave the section out.")
     if not scene.load.wheel_torque:
         raise SceneError("load.wheel_torque is 0: without load nothing gives way and there is no error to measure. Give a torque.")
     return built
