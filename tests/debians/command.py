@@ -36,7 +36,7 @@ def main(arguments, description) -> int:
         trial = Trial(suite, options.logs / suite)
         trials.append(trial)
         trial.logs.mkdir(parents=True, exist_ok=True)
-        try_out(trial, root, git("archive", "HEAD"), CHECKOUT, reuse=options.reuse, quick=options.quick, own=own)
+        try_out(trial, root, git("archive", "HEAD"), CHECKOUT, reuse=options.reuse, expired=options.expired, quick=options.quick, own=own)
         if not options.keep and not options.reuse and trial.is_green:
             root.remove()
     text = table(trials)
@@ -59,6 +59,7 @@ def parser(description):
     options.add_argument("suites", nargs="*", type=suite, metavar="SUITE", help=f"{', '.join(SUITES)}; without any all of them")
     options.add_argument("--quick", action="store_true", help="a few tests instead of the suite: minutes after the set-up")
     options.add_argument("--reuse", action="store_true", help="take the system that an earlier call left, with its packages, instead of a fresh one")
+    options.add_argument("--expired", action="store_true", help="accept a mirror that is a snapshot, whose lists of packages are past their date")
     options.add_argument("--keep", action="store_true", help="leave systems that are green too, 5 GB each, for --reuse")
     roots = Path(os.environ.get("FENICS_GEARS_DEBIANS", "/var/tmp/fenics_gears_debians"))
     options.add_argument("--roots", type=Path, default=roots, metavar="DIR", help=f"where the systems are (FENICS_GEARS_DEBIANS, now {roots})")

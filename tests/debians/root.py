@@ -48,11 +48,13 @@ class Root:
         """Whether it was made to the end."""
         return (self.folder / "etc/apt/sources.list").exists()
 
-    def make(self, log: Path) -> Call:
-        """Make it anew, as small as Docker's slim images."""
+    def make(self, log: Path, expired=False) -> Call:
+        """Make it anew, as small as Docker's slim images. expired: take lists of packages that are past their date, as snapshots of a mirror are."""
         self.remove()
         self.folder.parent.mkdir(parents=True, exist_ok=True)
         as_docker = ["--dpkgopt=force-unsafe-io", '--aptopt=Acquire::Languages "none"', *(f"--dpkgopt=path-exclude=/usr/share/{name}/*" for name in LEFT_OUT)]
+        if expired:
+            as_docker.append('--aptopt=Acquire::Check-Valid-Until "false"')
         aside = self.folder.with_name(f"{self.folder.name}.part")
         _remove(aside)
         call = _run(["mmdebstrap", "--variant=minbase", *as_docker, self.suite, aside], log)

@@ -72,10 +72,10 @@ class Trial:
         return self.logs / f"{name.replace(' ', '_')}.log"
 
 
-def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=False, quick=False, own=()) -> None:
+def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=False, expired=False, quick=False, own=()) -> None:
     """Try everything on a fresh system (with `reuse` on the one that is there), or the command `own` after the set-up; fills the trial."""
     docker = read_dockerfile(checkout / "Dockerfile")
-    if not (reuse and root.is_there()) and not trial.note("system", root.make(trial.log("system"))):
+    if not (reuse and root.is_there()) and not trial.note("system", root.make(trial.log("system"), expired)):
         return
     root.copy_in(archive, docker.copied_to)
 
