@@ -272,3 +272,10 @@ def test_the_order_expected_of_steps_is_that_of_what_moves(sections, order):
     """Authority: straight lines across kinks h^1.5 in L2, average acceleration h^2; friction's slip by backward differences h."""
     steps = next(each for each in ladder.knobs(scene_of(*sections), quick=True) if each.name == "steps per mesh cycle")
     assert steps.expected == order
+
+
+@pytest.mark.parametrize("sections, order", [((TEETH,), 1.0), ((TEETH, "corner_contact"), 1.0), ((TEETH, "tip_relief"), 2.0)])
+def test_the_order_expected_of_contact_nodes_is_that_of_tips_that_touch_or_not(sections, order):
+    """Authority: averages over half a hat of a gap that opens in proportion, h; over whole ones, h^2."""
+    nodes = next(each for each in ladder.knobs(scene_of(*sections), quick=True) if each.name == "contact node spacing")
+    assert nodes.expected == order
