@@ -17,15 +17,13 @@ from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.elasticity.whole_gear import whole_gear_compliance
 from fenics_gears.errors import ComputationError
 
-ALL = PINION.teeth - 1
-
 
 def standing_anywhere(mesh: BodyMesh) -> BodyMesh:
     """The same gear, turned by no whole number of pitches, its edges not named."""
     return BodyMesh(mesh.points @ rotation(0.123).T, mesh.cells, {})
 
 
-@pytest.mark.parametrize("name", ["P1", "P2", "Q1 incompatible", "Q2"])
+@pytest.mark.parametrize("name", ["P2", "Q1 incompatible"])
 def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
     """Exact identity: the same mesh, once as a ring, once as a whole whose flanks had to be found."""
     body = whole_body(standing_anywhere(whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)), PINION, "gear")
@@ -76,13 +74,12 @@ def test_a_cracked_gear_equals_brute_force():
     assert np.array_equal(found.between(7, 8), found.between(8, 7).T)
 
 
-@pytest.mark.parametrize("shift", [-0.2, -0.27])
-def test_parts_may_meet_anywhere_but_between_the_twins_of_a_crack(shift, monkeypatch):
+def test_parts_may_meet_anywhere_but_between_the_twins_of_a_crack(monkeypatch):
     """Exact identity: parts that are turned by some of a pitch, so that their interface would cross the crack, give the same compliance."""
     mesh = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(4.0)}), PINION, "gear").mesh
     expected = whole_body_compliance(mesh, PINION, STEEL, tooth_offsets=1)
     centreline = parts.centreline_angle
-    monkeypatch.setattr(parts, "centreline_angle", lambda gear: centreline(gear) + shift * gear.angular_pitch)
+    monkeypatch.setattr(parts, "centreline_angle", lambda gear: centreline(gear) - 0.2 * gear.angular_pitch)
     faces = parts.crack_faces(mesh)
     with monkeypatch.context() as context:
         context.setattr(parts, "crack_faces", lambda mesh: [])
