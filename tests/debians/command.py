@@ -12,6 +12,7 @@ from tests.debians.root import Root
 from tests.debians.summary import table
 from tests.debians.trial import SUITES, Trial, try_out
 
+ROOTS = "FENICS_GEARS_DEBIANS"
 CHECKOUT = Path(__file__).resolve().parents[2]
 
 
@@ -58,11 +59,11 @@ def parser(description):
     options = argparse.ArgumentParser("tests/debians/run", description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("suites", nargs="*", type=suite, metavar="SUITE", help=f"{', '.join(SUITES)}; without any all of them")
     options.add_argument("--quick", action="store_true", help="a few tests instead of the suite: minutes after the set-up")
-    options.add_argument("--reuse", action="store_true", help="take the system that an earlier call left, with its packages, instead of a fresh one")
-    options.add_argument("--expired", action="store_true", help="accept a mirror that is a snapshot, whose lists of packages are past their date")
+    options.add_argument("--reuse", action="store_true", help="take the system that an earlier call left, with its packages")
+    options.add_argument("--expired", action="store_true", help="accept a mirror that is a snapshot, its lists past their date")
     options.add_argument("--keep", action="store_true", help="leave systems that are green too, 5 GB each, for --reuse")
-    roots = Path(os.environ.get("FENICS_GEARS_DEBIANS", "/var/tmp/fenics_gears_debians"))
-    options.add_argument("--roots", type=Path, default=roots, metavar="DIR", help=f"where the systems are (FENICS_GEARS_DEBIANS, now {roots})")
+    roots = Path(os.environ.get(ROOTS, "/var/tmp/fenics_gears_debians"))
+    options.add_argument("--roots", type=Path, default=roots, metavar="DIR", help=f"where the systems are ({ROOTS}, now {roots})")
     options.add_argument("--logs", type=Path, default=CHECKOUT / "results/debians", metavar="DIR", help="where logs go (results/debians)")
     return options
 

@@ -49,10 +49,11 @@ class Root:
         return (self.folder / "etc/apt/sources.list").exists()
 
     def make(self, log: Path, expired=False) -> Call:
-        """Make it anew, as small as Docker's slim images. expired: take lists of packages that are past their date, as snapshots of a mirror are."""
+        """Make it anew, as small as Docker's slim images. expired: take lists of packages past their date, as snapshots of a mirror have."""
         self.remove()
         self.folder.parent.mkdir(parents=True, exist_ok=True)
-        as_docker = ["--dpkgopt=force-unsafe-io", '--aptopt=Acquire::Languages "none"', *(f"--dpkgopt=path-exclude=/usr/share/{name}/*" for name in LEFT_OUT)]
+        as_docker = ["--dpkgopt=force-unsafe-io", '--aptopt=Acquire::Languages "none"']
+        as_docker += [f"--dpkgopt=path-exclude=/usr/share/{name}/*" for name in LEFT_OUT]
         if expired:
             as_docker.append('--aptopt=Acquire::Check-Valid-Until "false"')
         aside = self.folder.with_name(f"{self.folder.name}.part")
