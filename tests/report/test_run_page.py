@@ -15,6 +15,8 @@ from tests.report.pages import seen
 
 from fenics_gears import results
 from fenics_gears.cli import main
+from fenics_gears.show.report.effects import effects
+from fenics_gears.show.report.run import Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[2]
@@ -133,7 +135,7 @@ def measured_lines(dataset, error):
     whole = "bearings damping friction inertia shafts tooth_elasticity"
     for name, sections, compared in (("bare", "tooth_elasticity", ""), ("all", whole, "")):
         line = dict.fromkeys(CSV_COLUMNS, "1") | {"effects": name, "sections": sections, "remarks": "", "compared_with": compared}
-        line |= {"transmission_error_peak_to_peak_mm": repr(error), "change_of_transmission_error": "0.25", "change_of_peak_force": ""}
+        line |= {"transmission_error_peak_to_peak_mm": str(float(error)), "change_of_transmission_error": "0.25", "change_of_peak_force": ""}
         yield line
 
 
@@ -151,11 +153,17 @@ def test_measured_effects_are_shown_if_they_are_of_this_scene(run, tmp_path):
     error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]
     write_measured(tmp_path, measured_lines(dataset, error))
     page = page_of(dataset, tmp_path)
-    assert "What each effect costs and changes" in page.sections["effects"] and f"{error * 1e3:.3f}" in page.sections["effects"] and "+25%" in page.sections["effects"]
+    assert "What each effect costs and changes" in page.sections["effects"] and f"{error * 1e3:.3f} (+25%)" in page.sections["effects"]
+
+    def last_words():
+        return effects(Run(dataset, tmp_path / "run.nc")).blocks[-1].text
+
     write_measured(tmp_path, measured_lines(dataset, 1.1 * error))
-    assert "was measured on another scene" in page_of(dataset, tmp_path).sections["effects"]
+    assert "was measured on another scene" in last_words()
+    write_measured(tmp_path, [line | {"step_time_s": "soon"} for line in measured_lines(dataset, error)])
+    assert "no table of this version" in last_words()
     (tmp_path / "effects.csv").write_text("something,else\n1,2\n", encoding="utf-8")
-    assert "no table of this version" in page_of(dataset, tmp_path).sections["effects"]
+    assert "no table of this version" in last_words()
 
 
 def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):

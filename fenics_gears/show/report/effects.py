@@ -12,6 +12,8 @@ from fenics_gears.show.report.page import Block, Picture, Section, Table, Words
 from fenics_gears.show.report.run import NO_SCENE, Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS, MICRO, MILLI, in_percent
 
+# The columns that hold a number in each line.
+NUMBERS = CSV_COLUMNS[2:15]
 MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"
 # Relative; the same scene gives the same transmission error, on another processor to round-off.
 SAME_ANSWER = 1e-3
@@ -50,12 +52,17 @@ def _measured(run: Run) -> list[Block]:
 
 
 def _lines(file: Path) -> list[dict[str, str]] | None:
+    """The table's lines; None where it is none of `gears effects`. A subset that was not run has no numbers."""
     try:
         with open(file, encoding="utf-8", newline="") as opened:
             reader = csv.DictReader(opened)
-            return list(reader) if tuple(reader.fieldnames or ()) == CSV_COLUMNS else None
-    except (OSError, UnicodeDecodeError, csv.Error):
+            lines = list(reader)
+        for line in lines:
+            for name in NUMBERS if line["step_time_s"] else ():
+                float(line[name])
+    except (OSError, UnicodeDecodeError, csv.Error, KeyError, TypeError, ValueError):
         return None
+    return lines if tuple(reader.fieldnames or ()) == CSV_COLUMNS else None
 
 
 def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
@@ -76,7 +83,7 @@ def _tables(lines: list[dict[str, str]]) -> list[Block]:
         if not line["step_time_s"]:
             skipped.append((line["effects"], line["remarks"]))
             continue
-        number = {name: float(line[name]) for name in CSV_COLUMNS[2:15]}
+        number = {name: float(line[name]) for name in NUMBERS}
         changes = [f" ({in_percent(float(line[name]))})" if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")]
         rows.append((
             line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}", f"{number['newton_iterations_per_step']:.2f}",

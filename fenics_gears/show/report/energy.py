@@ -31,9 +31,10 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     drive = abs(last["work_input"])
 
     def row(label: str, value: float) -> tuple[str, str, str]:
-        share = f" ({100.0 * abs(value) / drive:.3g} % of the drive's work)" if drive and label != "work of the drive" else ""
         # What rounding leaves of two equal numbers is none.
-        return label, f"{value if abs(value) > 1e-9 * drive else 0.0:.6g}", UNIT + share
+        shown = value if abs(value) > 1e-9 * drive else 0.0
+        share = f" ({100.0 * abs(shown) / drive:.4g} % of the drive's work)" if drive and label != "work of the drive" else ""
+        return label, f"{shown:.6g}", UNIT + share
 
     rows = [row("work of the drive", last["work_input"]), row("work done on the load", last["work_output"])]
     rows += [row(f"taken by {words}", last[name]) for name, words in TAKEN.items() if name in last]
