@@ -134,6 +134,19 @@ def test_packages_of_the_tests_are_asked_for_by_the_tests(checkout, machine, arg
     assert {"python3-dolfinx-real", *ONLY_FOR_TESTS} <= set(done.stderr.split())
 
 
+def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, machine, tmp_path):
+    """Ubuntu has no chromium; that is told and left out, while a package of the program that is not offered is still asked for and fails."""
+    environment = machine(
+        python3=BARE_PYTHON, apt_get=f'echo "$*" >>{tmp_path}/asked; case "$*" in *install*) exit 100;; esac', dpkg=NO_PACKAGES,
+        dpkg_query=NO_PACKAGES, id="echo 0",
+        apt_cache='case $2 in chromium|python3-dolfinx-real) echo "  Candidate: (none)";; *) echo "  Candidate: 1.0-1";; esac',
+    )  # fmt: skip
+    done = call(checkout / "gears", "test", environment=environment)
+    assert done.returncode == 1 and "does not offer chromium" in done.stderr
+    asked = (tmp_path / "asked").read_text().split()
+    assert {"python3-dolfinx-real", "shellcheck"} <= set(asked) and "chromium" not in asked
+
+
 def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
     """Where only a module of the tests is lacking the program runs; the tests say what is lacking and leave the program ready."""
     check = checkout / "setup/check.py"
