@@ -24,6 +24,9 @@ from tests.benchmarks.marked_section import write_section
 
 ROOT = Path(__file__).parents[3]
 PAGE, NUMBERS, PICTURE = (ROOT / "docs" / name for name in ("growth.md", "pictures/growth.csv", "pictures/growth.png"))
+COUNTED = (
+    "flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns", "condensed_unknowns", "most_contact_rows", "newton_iterations", "closed_nodes",
+)  # fmt: skip
 ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
 
 
@@ -38,18 +41,15 @@ def points_of(axis: Axis) -> list[dict[str, float]]:
     return found
 
 
-def saved() -> dict[str, list[dict[str, float]]]:
-    """What the CSV has."""
+def saved() -> tuple[dict[str, list[dict[str, float]]], dict[str, str]]:
+    """Points that the CSV has, by axis, and what they were measured on."""
     found: dict[str, list[dict[str, float]]] = {}
-    if NUMBERS.is_file():
-        with open(NUMBERS, encoding="utf-8", newline="") as file:
-            for line in csv.DictReader(file):
-                if line["kind"] == "point":
-                    known = {name: float(value) for name, value in line.items() if name.endswith(("_s", "_bytes", "_rounds")) and value}
-                    counted = ("flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns", "condensed_unknowns",
-                               "most_contact_rows", "newton_iterations", "closed_nodes")  # fmt: skip
-                    found.setdefault(line["axis"], []).append(known | {name: float(line[name]) for name in counted})
-    return found
+    with open(NUMBERS, encoding="utf-8", newline="") as file:
+        lines = [line for line in csv.DictReader(file) if line["kind"] == "point"]
+    for line in lines:
+        known = {name: float(value) for name, value in line.items() if name.endswith(("_s", "_bytes", "_rounds")) and value}
+        found.setdefault(line["axis"], []).append(known | {name: float(line[name]) for name in COUNTED})
+    return found, {name: lines[0][name] for name in machine()}
 
 
 def main() -> None:
@@ -59,8 +59,7 @@ def main() -> None:
     parser.add_argument("--write-again", action="store_true", help="picture and page from the saved numbers, without measuring")
     options = parser.parse_args()
     wanted = [] if options.write_again else [axis for axis in AXES if not options.names or axis.name in options.names]
-    before = machine()
-    found = saved() if options.names or options.write_again else {}
+    found, before = saved() if options.names or options.write_again else ({}, machine())
     for axis in wanted:
         found[axis.name] = points_of(axis)
         write_csv(found, before, NUMBERS)

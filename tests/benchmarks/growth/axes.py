@@ -114,7 +114,7 @@ AXES = (
         {
             "mesh": Theory(1.0, "elements grow away from the flank: as many layers whatever their size, so cells as n"),
             "assemble": Theory(1.0, "as many as there are cells"),
-            "schur": Theory(2.0, "the flank's n dofs are kept: fronts beside a graded strip, n^2 for what is handed to the dense rest (n^1.5 if none were kept)"),
+            "schur": Theory(2.0, "the flank's n dofs are kept beside a graded strip, whose separators are short: fronts of n dofs, squared (N^1.5 is for a square mesh of which nothing is kept)"),
             "ring": Theory(3.0, "dense inverse of the flank's stiffness"),
             "operators": Theory(2.0, "contact nodes' rows and columns of the flank's compliance: as many flank nodes under a fixed window, squared"),
             "solving": Theory(0.0, NONE),
@@ -136,7 +136,7 @@ AXES = (
         {
             "mesh": Theory(0.0, "one sector, whatever the number of them"),
             "schur": Theory(0.0, "one sector"),
-            "ring": Theory(0.0, "joined by doubling: log z; by its Fourier transform z"),
+            "ring": Theory(0.0, "joined by doubling: log z (by its Fourier transform: z)"),
             "operators": Theory(0.0, NONE),
             "solving": Theory(0.0, NONE),
             "condense arrays": Theory(0.0, NONE),
@@ -146,8 +146,8 @@ AXES = (
         "teeth of a solid gear", "teeth of the wheel, solid down to 0.45 of its root radius", logarithmic(20, 2000), lambda z: of_teeth(z, True), "teeth",
         {
             "mesh": Theory(1.0, "a sector becomes a wedge as long as z is large, of elements as wide as itself: cells as z"),
-            "schur": Theory(3.0, "cuts of as many nodes as z are kept: dense"),
-            "ring": Theory(3.0, "log z dense eliminations of a cut; by its Fourier transform z of them, z^4"),
+            "schur": Theory(2.0, "cuts of as many nodes as z are kept beside a strip: fronts of as many dofs, squared"),
+            "ring": Theory(3.0, "log z dense eliminations of a cut, of as many nodes as z (by its Fourier transform z of them: z^4)"),
             "operators": Theory(0.0, NONE),
             "solving": Theory(0.0, NONE),
             "condense arrays": Theory(2.0, "dense matrices of the cuts' dofs"),
