@@ -42,7 +42,7 @@ def section(found: Mapping[str, Points], machine: Mapping[str, str]) -> str:
     for axis in AXES:
         if axis.name in found:
             points = found[axis.name]
-            parts += ["", f"### {axis.name[0].upper()}{axis.name[1:]}", "", *_exponent_table(axis, points), "", *_point_table(axis, points)]
+            parts += ["", f"## {axis.name[0].upper()}{axis.name[1:]}", "", *_exponent_table(axis, points), "", *_point_table(axis, points)]
     fewest = min(int(point[f"{stage}_rounds"]) for name, points in found.items() for point in points for stage in _timed(name))
     parts += ["", (
         f"Processor seconds on one thread, medians of 5 runs, of {fewest} or more where a stage takes longer than a second; each point in a process "
