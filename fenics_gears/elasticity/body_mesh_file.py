@@ -54,7 +54,14 @@ def read_body_mesh(path) -> BodyMesh:
 
 
 def write_body_mesh(mesh: BodyMesh, path) -> None:
-    """Write a body, mm, as a gmsh file of format 4.1; named edges become physical curves, the body the physical surface "gear"."""
+    """Write a body, mm, as a gmsh file of format 4.1; named edges become physical curves, the body the physical surface "gear".
+
+    Raises SceneError where the file cannot be written.
+    """
+    try:
+        Path(path).touch()
+    except OSError as error:
+        raise SceneError(f"body mesh {path}: cannot be written: {error.strerror}") from None
     corners = mesh.cells.shape[1]
     with gmsh_model("body mesh") as gmsh:
         surface = gmsh.model.addDiscreteEntity(2)
