@@ -154,7 +154,7 @@ AXES = (
         },
     ),
     Axis(
-        "steps of a mesh cycle", "steps of a mesh cycle, one of which is marched", logarithmic(20, 2000), of_steps, "steps",
+        "steps of a mesh cycle", "steps of a mesh cycle, one cycle marched", logarithmic(20, 2000), of_steps, "steps",
         {
             "operators": Theory(1.0, LINEAR),
             "solving": Theory(1.0, LINEAR),
