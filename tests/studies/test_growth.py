@@ -86,7 +86,7 @@ def test_table_picture_and_numbers_have_every_exponent(tmp_path):
     found = {axis.name: points_of(axis)}
     assert all(fit.value == pytest.approx(axis.theory[name].exponent, abs=1e-9) for name, fit in exponents(axis, found[axis.name]).items())
     words = section(found, MACHINE)
-    assert "### Contact nodes" in words and "|marching: operators|2.00 ± 0.00|2.00|2|" in words
+    assert "## Contact nodes" in words and "|marching: operators|2.00 ± 0.00|2.00|2|" in words
     write_csv(found, MACHINE, tmp_path / "growth.csv")
     with open(tmp_path / "growth.csv", encoding="utf-8", newline="") as file:
         lines = list(csv.DictReader(file))

@@ -53,7 +53,7 @@ def _times(panel: Axes, axis: Axis, points: Points) -> None:
         if stage not in axis.theory:
             continue
         fit, theory = fits[stage], axis.theory[stage].exponent
-        label = f"{WORDS[stage]}: {'-' if fit is None else f'{fit.value:.1f}'.replace('-0.0', '0.0')}, theory {theory:g}"
+        label = f"{WORDS[stage]}: {'-' if fit is None else _rounded(fit.value)}, theory {theory:g}"
         panel.plot(x, [point[column(stage)] for point in points], "-" + MARKS[stage], color=colour, markersize=5, label=label)
     _logarithmic(panel)
     panel.set_title(axis.words if len(axis.words) < 52 else axis.words.replace(", ", ",\n", 1))
@@ -62,6 +62,11 @@ def _times(panel: Axes, axis: Axis, points: Points) -> None:
     low, high = panel.get_ylim()
     # Room for the legend.
     panel.set_ylim(low, high * (high / low) ** 0.55)
+
+
+def _rounded(value: float) -> str:
+    """With one digit, and no minus before a zero."""
+    return f"{round(value, 1) + 0.0:.1f}"
 
 
 def _memory(panel: Axes, axis: Axis, points: Points) -> None:
