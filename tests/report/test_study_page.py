@@ -131,6 +131,18 @@ def test_many_lines_become_a_map_or_a_choice(tmp_path):
     assert len(many.figure.data) == 12 and "12 of 27 combinations" in many.note
 
 
+def test_long_legends_have_room(tmp_path):
+    """Each row of a legend takes room of its own, so that the curves keep theirs."""
+    assert drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]).height == 340 < drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)).height
+
+
+def test_words_are_drawn_over_the_field_with_most_of_them(tmp_path):
+    """Where no field has numbers, that with most values is the axis."""
+    few = drawn(tmp_path, element=["P1", "P2"], friction=["absent", "a < b", "<b>c</b>"])
+    assert [trace.name for trace in few.figure.data] == ["element = P1 N", "element = P2 N"]
+    assert list(few.figure.data[0].x) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
+
+
 def test_cases_that_stand_out_are_the_extremes(tmp_path):
     """Authority: the made-up values: least at the first places, largest at the last ones."""
     cases = Cases(made_up(torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]), tmp_path / "study.nc", tmp_path / "report.html")

@@ -14,6 +14,8 @@ MOST_LINES = 2 * len(PALETTE)
 DASHES = ("solid", "dash")
 MARKED_POINTS = 200
 LOGARITHMIC_SPAN = 8.0
+# Pixels; a legend of long names takes more rows than the one that a plot has room for.
+HEIGHT, LEGEND_ROW, LETTERS_A_ROW = 340, 19, 120
 
 
 def result_plots(cases: Cases) -> list[Plot]:
@@ -50,16 +52,16 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str) -> Pl
         Curve(words, axis.values[places], values[places], PALETTE[turn % len(PALETTE)], DASHES[turn // len(PALETTE)], mode=mode)
         for turn, (words, places) in enumerate(lines)
     ]
-    drawn = plot(f"{name} over {axis.path}", curves, axis.title, y_title, note=note, height=340)
+    drawn = plot(f"{name} over {axis.path}", curves, axis.title, y_title, note=note, height=HEIGHT + LEGEND_ROW * _further_rows([words for words, _ in lines]))
     if logarithmic(axis):
         drawn.figure.update_xaxes(type="log")
     return drawn
 
 
 def main_field(cases: Cases) -> Field:
-    """The swept field with most different numbers; the first one where none has numbers."""
+    """The swept field with most different numbers; with most different words where none has numbers."""
     numeric = [field for field in cases.fields if field.numeric]
-    return max(numeric, key=lambda field: len(np.unique(field.values[np.isfinite(field.values)])), default=cases.fields[0])
+    return max(numeric or cases.fields, key=lambda field: len({value for value in field.values.tolist() if value == value}))
 
 
 def logarithmic(field: Field) -> bool:
@@ -71,6 +73,14 @@ def logarithmic(field: Field) -> bool:
         return False
     steps, factors = np.diff(values), np.diff(np.log(values))
     return np.ptp(factors) / factors.mean() < np.ptp(steps) / steps.mean()
+
+
+def _further_rows(names: list[str]) -> int:
+    """Rows of a legend beyond its first; plotly sets names in columns as wide as the longest."""
+    if len(names) < 2:
+        return 0
+    columns = max(1, LETTERS_A_ROW // (max(map(len, names)) + 8))
+    return -(-len(names) // columns) - 1
 
 
 def _zipped(cases: Cases) -> bool:
