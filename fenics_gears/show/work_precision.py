@@ -15,7 +15,7 @@ from fenics_gears.studies.accuracy.measured import OWN, Report, WholeResult
 from fenics_gears.studies.accuracy.measures import judged
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 
-MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h")
 LEAST_SHOWN = 1e-6
 
 
@@ -75,7 +75,8 @@ def _alone(axes: Axes, report: Report) -> None:
         if not points:
             continue
         order, expected = result.order("T_E"), result.knob.expected
-        told = "" if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+        aside = f" ({result.knob.why})" if result.knob.base else ""
+        told = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
         style = "-" if expected is not None else ":"
         colour = PALETTE[place % len(PALETTE)]
         axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.knob.name + told)

@@ -221,7 +221,7 @@ def test_a_rung_that_fails_is_told_and_the_others_are_measured(scene, monkeypatc
 
 def test_the_picture_names_every_setting_that_pays(report):
     """Authority: identity; each point of the front has its number and its line, and all errors and times are inside the axes."""
-    from fenics_gears.show.work_precision import work_precision
+    from fenics_gears.show.work_precision import MARKS, work_precision
 
     figure = work_precision(report)
     whole, alone = figure.axes
@@ -232,6 +232,7 @@ def test_the_picture_names_every_setting_that_pays(report):
         for value, (low, high) in ((each.times.total, whole.get_xlim()), (each.counted, whole.get_ylim())):
             assert low <= value <= high
     assert len(alone.lines) >= 5
+    assert len(set(MARKS)) == len(MARKS) >= len(ladder.knobs(report.scene))
     assert any(table.in_one_sentence(report)[:40] in text.get_text() for text in figure.texts)
 
 
