@@ -41,10 +41,16 @@ def simulate(
 
     `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
     of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.
+    `[accuracy] target`: settings are chosen first, by runs of their own, and the result tells its estimated error.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
     computation; ComputationError when a stage fails, with what was done before as its attribute `partial`.
     """
     progress = progress if progress is not None else SilentProgress()
+    if scene.accuracy.target is not None:
+        # Imported here: settings are chosen by simulating scenes that have them.
+        from fenics_gears.studies.target.run import simulate_to_target
+
+        return simulate_to_target(scene, progress=progress, cache=cache, preparation=preparation, comm=comm)
     built = model(scene)
     preparation = preparation or functools.partial(prepared, comm=comm)
     cache = cache if cache is not None else user_cache()

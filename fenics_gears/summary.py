@@ -12,6 +12,7 @@ MICROMETRES = 1e3
 
 # The stages of a run whose wall time the result carries, and what they are called.
 STAGES = {
+    "time_choose": "choosing settings",
     "time_mesh": "meshing",
     "time_compile": "compiling",
     "time_condense": "condensing",
@@ -36,7 +37,7 @@ def result_rows(dataset) -> list[tuple[str, str, str]]:
             rows.append((label, "not determined", ""))
     if "friction_loss" in dataset.attrs:
         rows.append(("friction takes", f"{dataset.attrs['friction_loss']:.3%} of the work of the drive", ""))
-    return rows + _root_stress(dataset)
+    return rows + _root_stress(dataset) + _estimated_error(dataset.attrs)
 
 
 def solver_rows(dataset) -> list[tuple[str, str, str]]:
@@ -65,6 +66,25 @@ def _root_stress(dataset) -> list[tuple[str, str, str]]:
     if "dynamic_factor_unknown" in dataset.attrs:
         rows.append(("dynamic factor", dataset.attrs["dynamic_factor_unknown"], ""))
     return rows
+
+
+def _estimated_error(attributes) -> list[tuple[str, str, str]]:
+    """What a target asked for and what is estimated, with the settings and the knob that limits them; nothing without a target."""
+    if "target" not in attributes:
+        return []
+    start = "estimated_error: "
+    parts = {name.removeprefix(start): error for name, error in attributes.items() if name.startswith(start)}
+    worst = max(parts, key=parts.__getitem__)
+    settings = (
+        f"{attributes['element']}, flank elements {attributes['flank_element_size']:.3g} mm, {attributes['contact_nodes']} contact nodes over "
+        f"{attributes['contact_length']:.3g} mm, {attributes['steps_per_mesh_cycle']} steps per mesh cycle"
+    )
+    return [
+        ("estimated error of T_E and T_EPP", f"{attributes['estimated_error']:.2%}, target {attributes['target']:.3%}", ""),
+        ("what limits it", f"{worst}: {parts[worst]:.2%}", ""),
+        ("settings chosen", settings, f"by {attributes['target_runs']} runs"),
+        *(("remark", remark, "") for remark in attributes["target_remarks"].splitlines()),
+    ]
 
 
 def _rungs(attributes) -> list[tuple[str, str, str]]:

@@ -22,6 +22,7 @@ ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 
 # The time stepping's own work at changes of contact, in parts of the largest energy, that is worth a word.
 NOTABLE_WORK = 0.1
+WINDOW_REACHED = "contact reached the end of the contact window"
 
 
 def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: int) -> list[str]:
@@ -61,7 +62,7 @@ def _window(cycle: Cycle, records: list[Record]) -> list[str]:
     if not reached:
         return []
     return [
-        f"contact reached the end of the contact window in {reached} of {len(records)} stored steps: "
+        f"{WINDOW_REACHED} in {reached} of {len(records)} stored steps: "
         f"raise accuracy.contact_length above {cycle.grid.length:.3g} mm"
     ]
 

@@ -16,6 +16,8 @@ def scene_to_measure(options, command: str):
     scene, directory = checked_scene_and_directory(options)
     if communicator() is not None:
         raise SceneError(f"gears {command} measures times, which mean nothing while processes share the machine. Start it without mpirun.")
+    if scene.accuracy.target is not None:
+        raise SceneError(f"gears {command} takes settings as they stand: leave accuracy.target out.")
     return scene, directory
 
 

@@ -62,6 +62,7 @@ class Accuracy:
     """How the scene is computed; None where the program shall choose from the scene.
 
     ``elastic_teeth``: teeth this many pitches apart and further do not feel each other; None: all that can be loaded together do.
+    ``target``: relative error for which a run chooses all settings by measuring; no other field is given beside it.
     """
 
     element: str | None = None
@@ -74,6 +75,7 @@ class Accuracy:
     interpolation: str | None = None
     elastic_teeth: int | None = None
     model: str | None = None
+    target: float | None = None
 
 
 @dataclass(frozen=True)

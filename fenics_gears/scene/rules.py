@@ -12,7 +12,7 @@ from fenics_gears import effects
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
 from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Gears
+from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears
 from fenics_gears.scene.tree import Tree, quantity_in, table, teeth_in
 from fenics_gears.scene.written import as_written
 
@@ -123,6 +123,26 @@ def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
             yield problem(f"cannot stand beside [{section}], which it knows nothing of. Leave one of the two out.")
 
 
+def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
+    accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
+    if "target" not in accuracy:
+        return
+    for name in accuracy:
+        if name in Accuracy.model_fields and name != "target":
+            message = "is chosen by accuracy.target. Leave one of the two out."
+            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
+
+    def problem(message: str) -> Problem:
+        return Problem(("accuracy", "target"), as_written(accuracy["target"]), message)
+
+    if gears and not any(nearest(name, ["material"]) for name in gears):
+        yield problem("needs teeth that give way. Add [gears.material], or leave the target out.")
+    if quantity_in((table(tree, "load") or {}).get("wheel_torque")) == 0.0:
+        yield problem("has no meaning without a load: nothing gives way then. Give load.wheel_torque, or leave the target out.")
+    if "body_meshes" in tree:
+        yield problem("cannot refine the meshes of [body_meshes]. Leave one of the two out.")
+
+
 def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
     if (table(tree, "output") or {}).get("root_stress") is not True:
         return
@@ -145,6 +165,7 @@ _RULES = (
     _remeshing_has_its_own_nodes,
     _root_stress_has_its_teeth,
     _cheaper_models_have_what_they_need,
+    _a_target_chooses_alone,
 )
 
 

@@ -11,7 +11,7 @@ from pydantic import create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText
-from fenics_gears.scene.fields import Section, choice, number, quantity, switch, text, whole_number
+from fenics_gears.scene.fields import Section, choice, number, percentage, quantity, switch, text, whole_number
 
 
 def _diameter(example: str, meaning: str):
@@ -77,6 +77,14 @@ class Motion(Section):
 class Accuracy(Section):
     """``[accuracy]``: how a scene is computed, not what; what is left out is derived from the scene."""
 
+    target: Optional[float] = percentage(
+        0.05,
+        50.0,
+        1.0,
+        meaning="error in the transmission error's curve and its height that no knob of this section, all together, may exceed; the cheapest "
+        "settings that reach it are chosen by test runs",
+        otherwise="nothing is measured, and each setting is as given or by its own default",
+    )
     element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice(
         "P1",
         "P2",

@@ -53,7 +53,8 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
     tasks: dict[tuple, GearTask] = {}
     for case in cases:
         built = model(case.scene)
-        if built.resolution.condensation == EVERY_STEP or not has_gears(built):
+        # A target's gears are known when its settings are chosen.
+        if case.scene.accuracy.target is not None or built.resolution.condensation == EVERY_STEP or not has_gears(built):
             continue
         cycle = cycle_key(built)[:4]  # the reach follows from gears and accuracy
         if cycle not in reaches:

@@ -46,7 +46,7 @@ def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> floa
     first, second = values[-3] - values[-2], values[-2] - values[-1]
     before, after = float(np.linalg.norm(first)), float(np.linalg.norm(second))
     scale = ROUND_OFF * float(np.linalg.norm(values[-1]))
-    if after <= scale or before <= scale or _cosine(first, second) < TURNED_BACK:
+    if after <= scale or before <= scale or cosine(first, second) < TURNED_BACK:
         return None
     coarse, middle, last = sizes[-3:]
 
@@ -58,7 +58,8 @@ def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> floa
     return float(brentq(off, LEAST_ORDER, MOST_ORDER))
 
 
-def _cosine(one: np.ndarray, other: np.ndarray) -> float:
+def cosine(one: np.ndarray, other: np.ndarray) -> float:
+    """Of the angle between two arrays; 0 where one of them is zero."""
     length = float(np.linalg.norm(one) * np.linalg.norm(other))
     return float(np.vdot(one, other)) / length if length else 0.0
 
@@ -71,7 +72,7 @@ def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: f
     if order is None or not LEAST_TRUSTED <= order <= expected + MOST_ABOVE_EXPECTED:
         return Limit(last, order, WITHOUT_ORDER * away, away)
     left = sizes[-1] ** order / (sizes[-2] ** order - sizes[-1] ** order)
-    if _cosine(values[-2] - values[-3], difference) < LEAST_COSINE:
+    if cosine(values[-2] - values[-3], difference) < LEAST_COSINE:
         return Limit(last, order, WITHOUT_ORDER * left * away, left * away)
     return Limit(last + left * difference, order, WITH_ORDER * left * away)
 

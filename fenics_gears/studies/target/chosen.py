@@ -1,0 +1,126 @@
+"""Settings for a target: chosen by measured errors and times, then checked by a run that halves the knob that limits them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from fenics_gears.progress import Progress
+from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.studies.accuracy.ladder import Setting
+from fenics_gears.studies.accuracy.measures import distance
+from fenics_gears.studies.accuracy.whole import MOST_BYTES, dominant
+from fenics_gears.studies.target.choice import Sizes, cheapest, error_together, errors_at
+from fenics_gears.studies.target.error_curve import SAFETY, ErrorCurve
+from fenics_gears.studies.target.errors import TargetNotReached
+from fenics_gears.studies.target.pilot import BODY, FLANK, STEPS, Pilot
+
+# A check corrects a knob's errors by this factor at least.
+LEAST_CORRECTION = 0.5
+MOST_LENGTHENED, MOST_REFINED, MOST_CHECKS = 4, 24, 6
+SIZE_WORDS = {FLANK: "{:.3g} mm", BODY: "default x {:.2g}", STEPS: "{:.2g} of a mesh cycle"}
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """Settings with what they are expected to err by, relative: `parts` by knob, `estimated_error` all together; `runs` that it took."""
+
+    accuracy: Accuracy
+    setting: Setting
+    estimated_error: float
+    parts: dict[str, float]
+    remarks: tuple[str, ...]
+    runs: int
+
+
+def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
+    """The cheapest settings that reach a relative error in T_E (L2, mean removed) and in T_EPP.
+
+    Raises TargetNotReached where none does that fits into memory; ComputationError where a run fails.
+    """
+    progress.stage(f"choose settings for {100.0 * target:g} %")
+    try:
+        return _chosen(scene, target, _told_pilot(scene, progress))
+    except TargetNotReached as reason:
+        raise TargetNotReached(
+            f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings of your own; "
+            "`gears accuracy` shows what each gains."
+        ) from None
+
+
+def _chosen(scene: Scene, target: float, pilot: Pilot) -> Chosen:
+    _lengthen_window(pilot)
+    factors: dict[str, float] = {}
+    for _ in range(MOST_CHECKS):
+        sizes, curves = _refined_until_reached(pilot, target, factors)
+        worst = dominant(errors_at(curves, sizes))
+        _check(pilot, sizes, worst, curves, factors)
+        checked = [_corrected(curve, factors) for curve in curves]
+        together = error_together(checked, sizes)
+        if together <= target:
+            setting = pilot.setting(sizes)
+            remarks = tuple(_remark(curve, sizes[curve.name]) for curve in curves if not curve.trusted)
+            return Chosen(
+                setting.accuracy(scene.gears.module), setting, together, errors_at(checked, sizes), remarks, pilot.runs
+            )  # fmt: skip
+    raise TargetNotReached(f"the {worst}'s errors are still above what its rungs told after {MOST_CHECKS} checks")
+
+
+def _told_pilot(scene: Scene, progress: Progress) -> Pilot:
+    counted = iter(range(1, 1_000_000))
+
+    def begun(words: str) -> None:
+        done = next(counted)
+        # How many there will be is not known: ladders grow as they need to.
+        progress.update(done, max(done + 1, 14), words)
+
+    return Pilot(scene, begun)
+
+
+def _lengthen_window(pilot: Pilot) -> None:
+    """Make the contact window so long that no contact reaches its ends: nothing is left out then."""
+    for _ in range(MOST_LENGTHENED):
+        if not pilot.window_cuts_contact():
+            return
+        pilot.lengthen()
+    raise TargetNotReached("contact reaches the ends of the contact window however long it is")
+
+
+def _refined_until_reached(pilot: Pilot, allowance: float, factors: dict[str, float]) -> tuple[Sizes, list[ErrorCurve]]:
+    """The cheapest sizes, by ladders that were made longer where they had to be."""
+    for _ in range(MOST_REFINED):
+        curves = [_corrected(curve, factors) for curve in pilot.curves()]
+        sizes = cheapest(curves, pilot.cost(), allowance, _allowed(pilot))
+        if sizes is not None:
+            return sizes, curves
+        pilot.refine(dominant({curve.name: curve.largest(curve.finest) for curve in curves}))
+    raise TargetNotReached(f"not after {MOST_REFINED} halvings")
+
+
+def _allowed(pilot: Pilot):
+    """Contact operators that fit into memory."""
+
+    def allowed(sizes):
+        return pilot.operator_bytes(sizes[FLANK], sizes[STEPS]) <= MOST_BYTES
+
+    return allowed
+
+
+def _check(pilot: Pilot, sizes: Sizes, name: str, curves: list[ErrorCurve], factors: dict[str, float]) -> None:
+    """Correct a knob's errors by one run that halves it at the chosen sizes; they are not made less than half of what they were."""
+    curve = next(each for each in curves if each.name == name)
+    finer = {**sizes, name: 0.5 * sizes[name]}
+    chosen, halved = (pilot.run(pilot.setting(each)).answer for each in (sizes, finer))
+    found = max(SAFETY * distance(chosen, halved, measure) / (1.0 - 0.5**fit.used) for measure, fit in curve.fits.items())
+    factors[name] = curve.factor * max(found / curve.largest(sizes[name]), LEAST_CORRECTION)
+
+
+def _corrected(curve: ErrorCurve, factors: dict[str, float]) -> ErrorCurve:
+    return replace(curve, factor=factors.get(curve.name, 1.0))
+
+
+def _remark(curve: ErrorCurve, size: float) -> str:
+    order = "no order" if curve.leading.order is None else f"order {curve.leading.order:.2g}"
+    return (
+        f"{curve.name}: {order} observed where {curve.expected:g} was expected; its error at {SIZE_WORDS[curve.name].format(size)} is "
+        f"taken to fall as h^{curve.leading.used:.2g}, and nothing finer than its finest run is relied on"
+    )

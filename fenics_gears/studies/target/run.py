@@ -1,0 +1,50 @@
+"""A run of a scene with `[accuracy] target`: settings chosen first, the scene run with them, and what is known of its error told."""
+
+from __future__ import annotations
+
+import time
+import tomllib
+from dataclasses import asdict, replace
+
+import xarray as xr
+
+from fenics_gears.progress import Progress
+from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.simulation import simulate
+from fenics_gears.studies.fields import as_toml, changed
+from fenics_gears.studies.target.chosen import Chosen, choose
+
+LENGTHS = ("flank_element_size", "body_element_size", "contact_length")
+
+
+def simulate_to_target(scene: Scene, *, progress: Progress, **arguments) -> xr.Dataset:
+    """As `simulate`, which it calls with `arguments`; attributes `target`, `estimated_error`, and `estimated_error: ...` by knob, all in
+    parts of 1, `time_choose` (s), `target_runs`, `target_remarks`. The scene that the result carries has the settings in place of the
+    target, so that it repeats the run.
+
+    Raises TargetNotReached, and what `simulate` raises.
+    """
+    begun = time.perf_counter()
+    chosen = choose(scene, scene.accuracy.target, progress)
+    seconds = time.perf_counter() - begun
+    result = simulate(with_settings(scene, chosen.accuracy), progress=progress, **arguments)
+    return result.assign_attrs(_told(scene.accuracy.target, chosen), time_choose=seconds)
+
+
+def with_settings(scene: Scene, accuracy: Accuracy) -> Scene:
+    """The scene with settings written out, in its text too where it has one."""
+    text = ""
+    if scene.text:
+        settings = {name: _written(name, value) for name, value in asdict(accuracy).items() if value is not None}
+        text = as_toml(changed(tomllib.loads(scene.text), ("accuracy",), settings))
+    return replace(scene, accuracy=accuracy, text=text)
+
+
+def _written(name: str, value):
+    return f"{value!r} mm" if name in LENGTHS else value
+
+
+def _told(target: float, chosen: Chosen) -> dict:
+    parts = {f"estimated_error: {name}": part for name, part in chosen.parts.items()}
+    remarks = {"target_runs": chosen.runs, "target_remarks": "\n".join(chosen.remarks)}
+    return {"target": target, "estimated_error": chosen.estimated_error, **parts, **remarks}

@@ -1,0 +1,63 @@
+"""The reference that settings are judged by: one fine run and what each knob, refined alone, still adds by Richardson's limit."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fenics_gears.model import model
+from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.studies.accuracy import ladder
+from fenics_gears.studies.accuracy.ladder import Setting
+from fenics_gears.studies.accuracy.measures import JUDGED, Answer, answer
+from fenics_gears.studies.accuracy.reference import richardson, together
+from fenics_gears.studies.accuracy.timing import KeptGears
+
+# Elements in a half-width, contact nodes 0.7 of them apart; body elements in parts of their default; steps in a cycle. Each knob stands
+# at its base while another is refined.
+RUNGS = {"flank": (2.8, 5.6, 11.2), "body": (2.0, 1.0, 0.5), "steps": (320, 640, 1280, 2560)}
+BASE = {"flank": 2.8, "body": 1.0, "steps": 320}
+EXPECTED = {"flank": 1.5, "body": 2.0, "steps": 1.5}
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Answers at all limits, relative uncertainty of each measure, and orders observed by knob."""
+
+    answer: Answer
+    uncertainty: dict[str, float]
+    orders: dict[str, dict[str, float | None]]
+
+
+def reference(scene: Scene, window: float, told=print) -> Reference:
+    """The reference of a scene whose `[accuracy]` is empty; `window` (mm): that of pressures."""
+    unit, gears = ladder.half_width(scene), KeptGears()
+    length = model(scene).resolution.contact_grid.length
+
+    def setting(values) -> Setting:
+        return Setting("P2", unit / values["flank"], NODE_SPACING * unit / values["flank"], length, values["body"], values["steps"])
+
+    def run(values) -> Answer:
+        words = setting(values)
+        told(words.words)
+        return answer(gears.run(replace(scene, accuracy=words.accuracy(scene.gears.module))), window)
+
+    base, limits, orders = run(BASE), {name: [] for name in JUDGED}, {}
+    for knob, rungs in RUNGS.items():
+        answers = [base if rung == BASE[knob] else run({**BASE, knob: rung}) for rung in rungs]
+        sizes = [rung if knob == "body" else 1.0 / rung for rung in rungs]
+        found = {name: richardson([each[name] for each in answers], sizes, EXPECTED[knob]) for name in JUDGED}
+        orders[knob] = {name: limit.order for name, limit in found.items()}
+        for name, limit in found.items():
+            limits[name].append(limit)
+    whole = {name: together(base[name], limits[name]) for name in JUDGED}
+    return Reference(
+        {name: limit.value for name, limit in whole.items()},
+        {name: limit.uncertainty / float(np.linalg.norm(limit.value)) for name, limit in whole.items()},
+        orders,
+    )
+
+
+def without_settings(scene: Scene) -> Scene:
+    """The scene with all of `[accuracy]` left to the program."""
+    return replace(scene, accuracy=Accuracy())

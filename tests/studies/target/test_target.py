@@ -1,0 +1,160 @@
+"""`[accuracy] target` on a real scene: what is chosen reaches it, is told, and repeats; what cannot be reached is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import teeth_alone
+
+from fenics_gears.cli import main
+from fenics_gears.errors import SceneError
+from fenics_gears.progress import SilentProgress
+from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+from fenics_gears.studies.accuracy.ladder import half_width
+from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
+from fenics_gears.studies.target import chosen as choosing
+from fenics_gears.studies.target import pilot as pilots
+from fenics_gears.studies.target.chosen import choose
+from fenics_gears.studies.target.errors import TargetNotReached
+from fenics_gears.summary import summary_rows
+
+TARGET = 0.1
+TEXT_TARGET = '\n[accuracy]\ntarget = "10 %"\n'
+
+
+@pytest.fixture(scope="module")
+def text(paper_scene):
+    """The paper's pair, of which only the teeth give way; one mesh cycle."""
+    plain = paper_scene.text.partition("[accuracy]")[0]
+    for section in ("shafts", "bearings", "inertia", "damping", "friction"):
+        before, _, after = plain.partition(f"[{section}]")
+        plain = before + ("[" + after.partition("\n[")[2] if "\n[" in after else "")
+    return plain.replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1") + TEXT_TARGET
+
+
+@pytest.fixture(scope="module")
+def scene(text):
+    return scene_from_text(text)
+
+
+@pytest.fixture(scope="module")
+def run(scene):
+    return simulate(scene)
+
+
+def test_the_scene_is_the_one_meant(scene, paper_scene):
+    """Identity with the scene made from the paper's."""
+    expected = replace(teeth_alone(paper_scene), friction=None, accuracy=Accuracy(target=TARGET), motion=Motion(200.0, 1, 1))
+    assert replace(scene, text="", name="", title="") == replace(expected, text="", name="", title="")
+
+
+def test_the_true_error_is_within_the_target(scene, run):
+    """Another resolution: elements and steps four times as fine as what was chosen."""
+    size = run.attrs["flank_element_size"] / 4.0
+    length = run.attrs["contact_length"]
+    fine = Accuracy(
+        element="P2", flank_element_size=size, contact_length=length, contact_nodes=round(length / (NODE_SPACING * size)) + 1,
+        steps_per_mesh_cycle=4 * run.attrs["steps_per_mesh_cycle"],
+    )  # fmt: skip
+    reference = answer(simulate(replace(scene, accuracy=fine)), length)
+    errors = {name: distance(answer(run, length), reference, name) for name in JUDGED}
+    assert max(errors.values()) <= run.attrs["estimated_error"] <= TARGET == run.attrs["target"]
+
+
+def test_parts_of_the_error_are_told(run):
+    """Triangle inequality: no part is larger than the whole, and the whole no larger than the sum of its parts."""
+    parts = {name: value for name, value in run.attrs.items() if name.startswith("estimated_error: ")}
+    assert set(parts) == {f"estimated_error: {name}" for name in pilots.KNOBS}
+    assert max(parts.values()) <= run.attrs["estimated_error"] <= sum(parts.values()) * (1.0 + 1e-12)
+    said = "\n".join(" ".join(map(str, row)) for row in summary_rows(run))
+    assert "target 10.000%" in said and "what limits it" in said and "settings chosen" in said
+
+
+def test_the_scene_that_the_result_carries_repeats_it(run):
+    """Identity, to the last bit: settings stand in the result's scene in place of the target, and nothing is measured again."""
+    again = scene_from_text(run.attrs["scene"])
+    assert again.accuracy.target is None and again.accuracy.flank_element_size == run.attrs["flank_element_size"]
+    assert np.array_equal(simulate(again).transmission_error.values, run.transmission_error.values)
+
+
+def test_a_scene_without_text_can_have_a_target(scene, monkeypatch):
+    """A scene made in Python; settings go to its data alone."""
+    monkeypatch.setattr("fenics_gears.studies.target.run.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, 0.05, {"x": 0.05}, (), 1))
+    result = simulate(replace(scene, text=""))
+    assert result.attrs["scene"] == "" and result.attrs["element"] == "P1"
+
+
+def test_a_tighter_target_takes_finer_settings(scene, run):
+    """By definition of a target."""
+    tighter = choose(scene, 0.04, SilentProgress())
+    assert tighter.estimated_error <= 0.04
+    assert tighter.setting.flank < run.attrs["flank_element_size"] or tighter.setting.steps > run.attrs["steps_per_mesh_cycle"]
+    assert tighter.setting.flank <= half_width(scene) / pilots.COARSEST[pilots.FLANK]
+
+
+def test_a_window_that_cuts_contact_off_is_lengthened(scene):
+    """The program's own warning decides: a pilot that begins with too short a window ends with one that is not."""
+    pilot = pilots.Pilot(scene, lambda words: None)
+    pilot.length *= 0.07
+    assert pilot.window_cuts_contact()
+    choosing._lengthen_window(pilot)
+    assert not pilot.window_cuts_contact() and pilot.length > 0.07 * pilots.Pilot(scene, lambda words: None).length
+
+
+def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
+    """With hardly any memory no fine contact operators fit."""
+    for module in (pilots, choosing):
+        monkeypatch.setattr(module, "MOST_BYTES", 3e6)
+    with pytest.raises(TargetNotReached, match=r"accuracy.target = 0.5 %.*contact operators") as failure:
+        choose(scene, 0.005, SilentProgress())
+    assert failure.value.exit_code == 3
+
+
+@pytest.mark.parametrize("line", [
+    'element = "P1"', "contact_nodes = 20", 'model = "rigid teeth"', 'condensation = "once"',
+])  # fmt: skip
+def test_a_setting_beside_a_target_is_refused(text, line):
+    """Two answers to one question."""
+    with pytest.raises(SceneError) as failure:
+        scene_from_text(text + line + "\n")
+    assert f"accuracy.{line}\n    is chosen by accuracy.target. Leave one of the two out." in str(failure.value)
+
+
+@pytest.mark.parametrize("written, reason", [
+    ("1", 'is a number without %. As a percentage it is written "1 %"'),
+    ('"1"', "is not a number and %"), ('"1 mm"', "is not a number and %"), ('"-1 %"', "is not a number and %"),
+    ('"0 %"', "is zero"), ('"0.01 %"', "is too small"), ('"60 %"', "is too large"), ("true", "is not a text with a number and %"),
+    ('"1e999 %"', "is not a finite number"),
+])  # fmt: skip
+def test_a_wrong_percentage_says_what_is_wrong(text, written, reason):
+    """Wording for people."""
+    with pytest.raises(SceneError) as failure:
+        scene_from_text(text.replace('"10 %"', written))
+    assert reason in str(failure.value) and "Allowed: a percentage from 0.05 % to 50 %" in str(failure.value)
+
+
+def test_no_load_and_rigid_teeth_have_no_target(text):
+    """Nothing gives way there."""
+    with pytest.raises(SceneError, match="has no meaning without a load"):
+        scene_from_text(text.replace('"437 N m"', '"0 N m"'))
+    rigid = text.partition("[gears.material]")
+    with pytest.raises(SceneError, match="needs teeth that give way"):
+        scene_from_text(rigid[0] + "[load]" + rigid[2].partition("[load]")[2])
+
+
+def test_commands_that_measure_want_settings_as_they_stand(text, tmp_path, capsys):
+    """`gears accuracy` and `gears effects` turn settings themselves."""
+    (tmp_path / "scene.toml").write_text(text)
+    for command in ("accuracy", "effects"):
+        assert main([command, str(tmp_path / "scene.toml"), "--output", str(tmp_path)]) == 2
+        assert "leave accuracy.target out" in capsys.readouterr().err
+
+
+def test_check_says_that_settings_are_chosen_by_the_run(text, tmp_path, capsys):
+    """`gears check` computes nothing."""
+    (tmp_path / "scene.toml").write_text(text)
+    assert main(["check", str(tmp_path / "scene.toml")]) == 0
+    assert "10.000% a run chooses settings" in capsys.readouterr().out
