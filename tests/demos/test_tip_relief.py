@@ -1,0 +1,125 @@
+"""The demonstration of tip relief: the chosen one is the best, and what its README says of friction and load; on coarse teeth."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from demos.tip_relief import findings, pictures
+from demos.tip_relief.design import LONG, PARABOLIC, SHORT, Bench, Design, conditions, paper_scene, relief
+from demos.tip_relief.optimum import ALLOWED, Optimum, optimum
+from demos.tip_relief.table import table
+from tests.coarse import COARSE
+
+from fenics_gears.studies.workshop import Workshop
+
+
+@pytest.fixture(scope="module")
+def benches():
+    """A bench for every condition of the demonstration, and one of teeth alone without friction."""
+    workshop = Workshop()
+    made = {name: Bench(scene, workshop) for name, scene in conditions(paper_scene(COARSE)).items()}
+    return made | {"teeth alone": Bench(replace(made[findings.STIFF].scene, friction=None), workshop)}
+
+
+@pytest.fixture(scope="module")
+def best(benches):
+    """The best linear relief without friction, by a shorter search."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("demos.tip_relief.optimum.SEARCHED", 60)
+        return optimum(benches["μ = 0"])
+
+
+def test_long_and_short_are_what_the_field_means(benches):
+    """Exact geometry: long begins at HPSTC; short leaves one base pitch of the path of contact to true involutes."""
+    pair = benches["μ = 0"].pair
+    long, short = (relief(pair, Design(30.0, length)) for length in (LONG, SHORT))
+    assert long.pinion.start_roll_angle == pytest.approx(pair.pinion_hpstc_roll_angle, rel=1e-12)
+    assert long.wheel.start_roll_angle == pytest.approx(pair.wheel_hpstc_roll_angle, rel=1e-12)
+    pinion_end = pair.pinion.base_radius * short.pinion.start_roll_angle
+    wheel_end = pair.line_of_action_length - pair.wheel.base_radius * short.wheel.start_roll_angle
+    assert pinion_end - wheel_end == pytest.approx(pair.base_pitch, rel=1e-12)
+
+
+@pytest.mark.parametrize("length", [SHORT, 0.8, LONG])
+def test_without_load_the_relief_is_the_transmission_error(benches, length):
+    """Exact geometry: unloaded, of two pairs the one with less relief touches. A long linear relief then shows half of its depth, a short one nothing."""
+    bench, depth = benches["teeth alone"], 30.0
+    phase, error = bench.error(Design(depth, length), 1e-3)
+    ratio = bench.pair.contact_ratio  # base pitches from start to end of contact
+
+    def removed(place):
+        relieved = length * (ratio - 1.0)
+        return depth * (np.maximum(1.0 - place / relieved, 0.0) + np.maximum(1.0 - (ratio - place) / relieved, 0.0))
+
+    inside = phase % 1.0
+    earlier = np.where(inside + 1.0 <= ratio, removed(inside + 1.0), np.inf)
+    assert error == pytest.approx(np.minimum(removed(inside), earlier), abs=0.6)  # um: what the teeth still give way
+    assert np.ptp(error) == pytest.approx(depth * (1.0 - 0.5 / length), abs=1.5)  # the kink lies between two of 40 steps
+
+
+def test_the_chosen_relief_is_the_best(benches, best):
+    """Definition of a minimum: no relief of a coarse map or beside the chosen one is better; at both ends of its ranges a micrometre more is left."""
+    bench, design, least = benches["μ = 0"], best.design, best.peak_to_peak
+    around = findings.relief_map(bench, np.array([0.0, 15.0, 30.0, 45.0]), np.array([0.5, 0.8, 1.0, 1.3]))
+    assert least < around.left.min()
+    for depth, length in ((1.5, 0.0), (-1.5, 0.0), (0.0, 0.06), (0.0, -0.06), (1.5, -0.05), (-1.5, 0.05)):
+        assert bench.peak_to_peak(Design(design.depth + depth, design.length + length)) > least
+    for depth in best.depths:
+        assert bench.peak_to_peak(replace(design, depth=depth)) == pytest.approx(least + ALLOWED, abs=0.35)
+    # The README's numbers, on coarser teeth.
+    assert 25.0 < design.depth < 36.0 and 0.8 < design.length < 1.15
+    assert least < 0.25 * bench.peak_to_peak(None)
+
+
+def test_friction_matters_by_the_shafts_and_bearings(benches, best):
+    """The README's finding, with the paper's (Section 6, Fig. 9: the optimum may be sought without friction): friction leaves several times as much, and
+    the relief chosen without it is nearly the best with it; on stiff shafts and bearings friction hardly matters."""
+    depths = {name: findings.best_depth(benches[name], 1.0, tolerance=0.5) for name in ("μ = 0.1", findings.STIFF)}
+    left = {name: benches[name].peak_to_peak(Design(depth, LONG)) for name, depth in depths.items()}
+    assert 20.0 < depths["μ = 0.1"] < 32.0 and 26.0 < depths[findings.STIFF] < 32.0
+    assert left["μ = 0.1"] > 3.0 * best.peak_to_peak
+    assert benches["μ = 0.1"].peak_to_peak(best.design) < 1.1 * left["μ = 0.1"]
+    assert left[findings.STIFF] < 0.35 * left["μ = 0.1"]
+
+
+def test_a_relief_suits_one_load(benches, best):
+    """Known behaviour (Harris, Proc. IMechE 172, 1958; Palmer and Fish, AGMA 10FTM10): a long relief is smooth at its load and harms at half of it; a short one harms no light load, and is
+    no better than true involutes at full load; the best depth is proportional to the load."""
+    bench, none, short = benches["μ = 0"], None, Design(best.design.depth, SHORT)
+    left = {load: [bench.peak_to_peak(design, load) for design in (none, short, best.design)] for load in (0.05, 0.5, 1.0, 2.0)}
+    assert left[0.05][1] < 1.5 and left[0.05][2] > 10.0
+    assert left[0.5][2] > left[0.5][0]
+    assert left[1.0][2] < 0.25 * left[1.0][0] and left[1.0][1] == pytest.approx(left[1.0][0], rel=0.1)
+    assert left[2.0][2] < 0.7 * left[2.0][0]
+    half, full = (findings.best_depth(bench, load, tolerance=0.5) for load in (0.5, 1.0))
+    assert half == pytest.approx(0.5 * full, rel=0.1)
+
+
+def test_the_best_depth_is_below_the_deflection_of_one_pair(benches, best):
+    """The rule that relief is deflection (Harris) holds where two pairs are twice as stiff as one; here they are less, so that less will do: the README's bounds."""
+    low, high = findings.single_pair_deflection(benches["teeth alone"])
+    phase, error = benches["teeth alone"].error(None)
+    two_pairs = error[(phase > 0.1) & (phase < 0.4)].mean()
+    assert 2.0 * (low - two_pairs) < findings.best_depth(benches["μ = 0"], 1.0, tolerance=0.5) < low < high
+
+
+def test_pictures_and_table_say_what_was_measured(benches, best):
+    """Authority: what they are made from; axes with units, optima marked where they are."""
+    bench, designs = benches["μ = 0"], findings.compared(best.design)
+    small = findings.Map(np.array([0.0, 20.0, 40.0]), np.array([0.5, 1.0, 1.5]), np.array([[13.0, 13.0, 13.0], [13.0, 2.5, 6.0], [13.0, 8.0, 9.0]]))
+    other = Optimum(Design(25.0, 1.0), 11.0, (20.0, 31.0), (0.8, 1.2))
+    optima = {("μ = 0", "linear"): best, ("μ = 0.1", "linear"): other, ("μ = 0", PARABOLIC): replace(other, design=Design(33.0, 1.3, PARABOLIC))}
+    curves = {(name, which): bench.error(designs[which]) for name in findings.DRAWN for which in ("true involutes", "best relief")}
+    torques = bench.torque(np.array([0.1, 1.0, 2.0]))
+    loads = torques, {(name, which): np.array([3.0, 2.0, 9.0]) for name in findings.DRAWN for which in designs}
+    shown = {name: optima[name, "linear"] for name in findings.DRAWN}
+    figure = pictures.draw_choice(dict.fromkeys(findings.DRAWN, small), shown, curves, loads)
+    maps = [axes for axes in figure.axes if axes.get_xlabel() == pictures.LENGTH]
+    marks = [[(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.get_lines() if line.get_marker() == "o"][0] for axes in maps]
+    assert marks == [(each.design.length, each.design.depth) for each in shown.values()]
+    assert all("(" in axes.get_xlabel() or "µm" in axes.get_ylabel() for axes in figure.axes)
+    harris = pictures.draw_harris_map(bench, designs, (0.5, 1.0))
+    assert [len(axes.get_lines()) for axes in harris.axes] == [2, 2, 2] and "(µm)" in harris.axes[0].get_ylabel()
+    text = table({name: benches[name] for name in findings.DRAWN}, benches["teeth alone"], optima, designs, loads=(1.0,), tolerance=5.0)
+    assert f"| μ = 0 | linear | {best.design.depth:.1f} | {best.design.length:.2f} | {best.peak_to_peak:.1f} |" in text
+    assert "| 0.874 N m | 437 N m |" in text
