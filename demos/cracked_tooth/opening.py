@@ -61,14 +61,19 @@ class CrackedBody:
         moved = moved.T.reshape(len(teeth), -1, 2)
         return 1e3 * (moved[:, self.left] - moved[:, self.right]) @ self.across
 
-    def _load(self, tooth: int) -> np.ndarray:
-        """Forces on all nodes (2 n,) that press on a tooth's flank with 1 N/mm in all."""
-        nodes = nodes_at(self.space, by_radius(self.mesh.edge_nodes(f"flank {tooth}", 2)))
-        rolls = self.gear.roll_angle(np.maximum(np.linalg.norm(self.points[nodes], axis=1), self.gear.base_radius))
+    def on_flank(self, tooth: int) -> np.ndarray:
+        """Forces (2f,) that press on the nodes of a tooth's flank with 1 N/mm in all, in the tooth's frame."""
+        rolls = self.gear.roll_angle(np.maximum(np.linalg.norm(self.points[self._flank(tooth)], axis=1), self.gear.base_radius))
         weight = np.exp(-(((rolls - PLACE) / WIDTH) ** 2)) * np.gradient(rolls**2)
-        normal = np.column_stack([np.cos(rolls), -np.sin(rolls)]) @ rotation(tooth * self.gear.angular_pitch).T
+        return -(weight[:, None] * np.column_stack([np.cos(rolls), -np.sin(rolls)]) / weight.sum()).ravel()
+
+    def _flank(self, tooth: int) -> np.ndarray:
+        return nodes_at(self.space, by_radius(self.mesh.edge_nodes(f"flank {tooth}", 2)))
+
+    def _load(self, tooth: int) -> np.ndarray:
+        """The same as forces on all nodes (2 n,) in space."""
         load = np.zeros(2 * len(self.points))
-        load[dofs_of(nodes)] = -(weight[:, None] * normal / weight.sum()).ravel()
+        load[dofs_of(self._flank(tooth))] = (self.on_flank(tooth).reshape(-1, 2) @ rotation(tooth * self.gear.angular_pitch).T).ravel()
         return load
 
     def _faces(self, mouth: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -90,6 +90,11 @@ class WholeBodyCycle:
         return self._cycles[key]
 
     @property
+    def bodies(self) -> tuple:
+        """Flank compliance of pinion and wheel."""
+        return self._flanks.compliance
+
+    @property
     def kinds(self) -> int:
         """How many cycles with operators of their own have been met."""
         return len(self._cycles)

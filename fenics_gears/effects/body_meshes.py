@@ -127,6 +127,13 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     return 2 * len(element_nodes(_body(meshes, name, model.pair, element).mesh, element_named(element)).points)
 
 
+def findings(meshes: BodyMeshes, cycle, records) -> list[str]:
+    """Sentences on cracks that a run would have closed."""
+    from fenics_gears.contact.crack_openings import closed_cracks
+
+    return closed_cracks(cycle, records)
+
+
 def _body(meshes: BodyMeshes, name: str, pair, element: str):
     from fenics_gears.elasticity.whole_body.given import given_body
 
@@ -150,4 +157,5 @@ EFFECT = Effect(
     warnings=warnings,
     elasticity=elasticity,
     unknowns_of=unknowns_of,
+    findings=findings,
 )

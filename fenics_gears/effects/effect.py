@@ -47,6 +47,7 @@ class Effect:
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
     ``check(data, scene, pair)``: raises SceneError for what only shows in those files.
     ``warnings(data, model)``: sentences that a user should read before the run.
+    ``findings(data, cycle, records)``: sentences on where a run leaves what the effect assumes.
     ``results(data, scene, cycle, records)``: the effect's own variables, name to (dimensions, values).
     """
 
@@ -73,6 +74,7 @@ class Effect:
     located: Callable | None = None
     check: Callable | None = None
     warnings: Callable | None = None
+    findings: Callable | None = None
     results: Callable | None = None
 
     @property

@@ -10,7 +10,7 @@ import numpy as np
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.schur import schur_complement
-from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_matrix
+from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, nodes_in_cells, stiffness_matrix
 
 
 @dataclass(frozen=True)
@@ -37,16 +37,27 @@ class CondensedBody:
 
 
 def condense(
-    mesh: BodyMesh, element: Element, poissons_ratio: float, points: dict[str, np.ndarray], comm=None
+    mesh: BodyMesh,
+    element: Element,
+    poissons_ratio: float,
+    points: dict[str, np.ndarray],
+    comm=None,
+    cells_of: dict[str, np.ndarray] | None = None,
 ) -> CondensedBody:
-    """Schur complement of a body's stiffness onto groups of nodes, disjoint and given by coordinates (mm)."""
+    """Schur complement of a body's stiffness onto groups of nodes, disjoint and given by coordinates (mm).
+
+    cells_of: for groups of which nodes may be in one place, as on the faces of a crack, the centre (k, 2) of a cell of each node.
+    """
     clock = perf_counter()
     compile_ahead(element)
     compiled = perf_counter()
     space = displacement_space(mesh, element, comm)
     matrix = stiffness_matrix(space, element, poissons_ratio)
     assembled = perf_counter()
-    nodes = nodes_at(space, np.vstack(list(points.values())))
+    cells_of = cells_of or {}
+    nodes = np.concatenate([
+        nodes_in_cells(space, places, cells_of[name]) if name in cells_of else nodes_at(space, places) for name, places in points.items()
+    ])
     stiffness = schur_complement(matrix, (2 * nodes[:, None] + [0, 1]).ravel())
     unknowns = matrix.getSize()[0]
     matrix.destroy()

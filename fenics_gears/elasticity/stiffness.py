@@ -73,3 +73,19 @@ def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
             place = f"x = {x:.6f}, y = {y:.6f} in the mesh's unit of length"
             raise ComputationError(f"stiffness: {what} at {place} of a loaded or held boundary")
     return found[:, 0]
+
+
+def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2): told apart where several are in one place.
+
+    Raises ComputationError where there is no such cell or node.
+    """
+    if not len(coordinates):
+        return np.empty(0, dtype=np.int64)
+    nodes, cells = adapter.node_coordinates(space), adapter.cell_nodes(space)
+    tolerance = 1e-9 * np.abs(nodes).max()
+    distance, cell = cKDTree(nodes[cells].mean(axis=1)).query(centres)
+    apart = np.linalg.norm(nodes[cells[cell]] - coordinates[:, None], axis=-1)
+    if max(distance.max(), apart.min(axis=1).max()) > tolerance:
+        raise ComputationError("stiffness: a node on the face of a crack is not among the nodes of its cell")
+    return cells[cell, np.argmin(apart, axis=1)]

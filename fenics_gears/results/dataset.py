@@ -55,7 +55,11 @@ def dataset(
         },
     )
     attributes = _attributes(scene, march, result) | loss_attributes(march.separations, march.steps, clock)
-    attributes["warnings"] = "\n".join([*warnings_of(cycle, drivetrain, march, clock), *warnings_of_energy(scene, result, cycle.steps), *_undetermined_shares(result)])
+    found = [*warnings_of(cycle, drivetrain, march, clock), *warnings_of_energy(scene, result, cycle.steps), *_undetermined_shares(result)]
+    for effect in effects_on(scene):
+        if effect.findings is not None:
+            found += effect.findings(getattr(scene, effect.section), cycle, records)
+    attributes["warnings"] = "\n".join(found)
     return result.assign_attrs(attributes)
 
 

@@ -16,12 +16,14 @@ class WholeBodyCompliance:
 
     Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, strictly increasing. element_order: 1 or 2.
     blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank m pitches ahead of tooth t
-    under forces on tooth t; dofs and components as in `FlankCompliance`. timings: as there.
+    under forces on tooth t; dofs and components as in `FlankCompliance`. openings: of a body with cracks, by the loaded tooth, (k, 2n), mm per
+    N/mm: how far the faces are moved apart at k places; of teeth within `offsets` of a crack. timings: as there.
     """
 
     roll_angles: tuple[np.ndarray, ...]
     element_order: int
     blocks: tuple[tuple[np.ndarray, ...], ...]
+    openings: dict[int, np.ndarray] = field(default_factory=dict)
     timings: dict = field(default_factory=dict, compare=False)
     flanks: int = 1
     alike: ClassVar[bool] = False

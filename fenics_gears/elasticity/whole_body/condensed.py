@@ -28,6 +28,9 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.scene.data import Material
 
+# To be raised by one whenever the same inputs give other numbers, or other arrays.
+WHOLE_BODY_VERSION = 2
+
 
 def whole_body_compliance(
     mesh: BodyMesh,
@@ -62,6 +65,9 @@ def whole_body_compliance(
             tuple(arrays[_block_name(tooth, ahead)] / material.youngs_modulus for ahead in range(tooth_offsets + 1))
             for tooth in range(gear.teeth)
         ),
+        openings={
+            tooth: arrays[f"opening_{tooth}"] / material.youngs_modulus for tooth in range(gear.teeth) if f"opening_{tooth}" in arrays
+        },
         timings={**timings, **counts, "time_condense": perf_counter() - clock - timings["time_compile"]},
     )
 
@@ -74,7 +80,7 @@ def _key(mesh: BodyMesh, gear: Gear, material: Material, element: Element, tooth
     for array in (mesh.points, mesh.cells.astype(np.int64)):
         content.update(np.ascontiguousarray(array).tobytes())
     return content_key({
-        "version": ALGORITHM_VERSION,
+        "version": [ALGORITHM_VERSION, WHOLE_BODY_VERSION],
         "whole body": content.hexdigest(),
         "gear": asdict(gear),
         "poissons_ratio": material.poissons_ratio,
@@ -90,10 +96,10 @@ def _block_name(tooth: int, ahead: int) -> str:
 def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int, comm):
     body = divided_body(mesh, gear, element)
     condensed = [_condensed(part, body, element, poissons_ratio, comm) for part in body.parts]
-    own, to_interface = zip(*(_flank_of(each) for each in condensed))
+    own, to_interface = zip(*(_surface_of(each) for each in condensed))
     joined = _Interface(body, condensed, to_interface)
     try:
-        arrays = _blocks(gear, own, to_interface, joined, tooth_offsets)
+        arrays = _blocks(gear, body, own, to_interface, joined, tooth_offsets)
     finally:
         joined.close()
     for tooth in range(gear.teeth):
@@ -107,20 +113,26 @@ def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Elemen
 
 
 def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float, comm):
-    groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "interface", "hub")}
-    return condense(part.mesh, element, poissons_ratio, groups, comm)
+    groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "faces", "interface", "hub")}
+    return condense(part.mesh, element, poissons_ratio, groups, comm, cells_of={"faces": part.face_cells})
 
 
-def _flank_of(part) -> tuple[np.ndarray, np.ndarray]:
+def _surface(part) -> np.ndarray:
+    """A condensed part's dofs of its flank and its cracks' faces: F of the formula, so that the motion of the faces comes with it."""
+    return np.concatenate([part.dofs("flank"), part.dofs("faces")])
+
+
+def _surface_of(part) -> tuple[np.ndarray, np.ndarray]:
     """A part's S_FF^-1 and X, its interface and hub held."""
-    own = part.between("flank", "flank")
+    surface = _surface(part)
+    own = part.stiffness[np.ix_(surface, surface)]
     try:
         np.linalg.cholesky(own)
     except np.linalg.LinAlgError:
         raise ComputationError("whole body: the stiffness of a flank is not positive definite; is its tooth held by the body?") from None
     inverse = np.linalg.inv(own)
     inverse = 0.5 * (inverse + inverse.T)
-    return inverse, inverse @ part.between("flank", "interface")
+    return inverse, inverse @ part.stiffness[np.ix_(surface, part.dofs("interface"))]
 
 
 class _Interface:
@@ -131,7 +143,7 @@ class _Interface:
         self.size = 2 * len(body.interface)
         entries, rows, columns = [], [], []
         for dofs, part, to in zip(self._dofs, condensed, to_interface):
-            stiffness = part.between("interface", "interface") - part.between("interface", "flank") @ to
+            stiffness = part.between("interface", "interface") - part.stiffness[np.ix_(part.dofs("interface"), _surface(part))] @ to
             entries.append(0.5 * (stiffness + stiffness.T).ravel())
             rows.append(np.repeat(dofs, len(dofs)))
             columns.append(np.tile(dofs, len(dofs)))
@@ -153,9 +165,10 @@ class _Interface:
         self._factor.close()
 
 
-def _blocks(gear: Gear, own, to_interface, joined: _Interface, tooth_offsets: int) -> dict[str, np.ndarray]:
-    """Compliance blocks in the teeth's own frames, Young's modulus 1 MPa, by name."""
-    found = {}
+def _blocks(gear: Gear, body: DividedBody, own, to_interface, joined: _Interface, tooth_offsets: int) -> dict[str, np.ndarray]:
+    """Compliance blocks in the teeth's own frames, and how flank forces open the cracks; Young's modulus 1 MPa, by name."""
+    found, openings = {}, _Openings(body)
+    flank = [2 * len(part.flank) for part in body.parts]
     for tooth in range(gear.teeth):
         response = joined.under_unit_loads(tooth)
         for ahead in range(tooth_offsets + 1):
@@ -163,8 +176,40 @@ def _blocks(gear: Gear, own, to_interface, joined: _Interface, tooth_offsets: in
             block = to_interface[other] @ joined.of_part(response, other) @ to_interface[tooth].T
             if ahead == 0:
                 block = own[tooth] + 0.5 * (block + block.T)
-            found[_block_name(tooth, ahead)] = _in_frames(block, other * gear.angular_pitch, tooth * gear.angular_pitch)
+            between_flanks = block[: flank[other], : flank[tooth]]
+            found[_block_name(tooth, ahead)] = _in_frames(between_flanks, other * gear.angular_pitch, tooth * gear.angular_pitch)
+            openings.add(other, tooth, block[flank[other] :, : flank[tooth]])
+            if ahead:
+                # By reciprocity.
+                openings.add(tooth, other, block[: flank[other], flank[tooth] :].T)
+    for tooth, rows in openings.rows.items():
+        found[f"opening_{tooth}"] = _columns_in_frame(rows, tooth * gear.angular_pitch)
     return found
+
+
+class _Openings:
+    """How far apart the faces of a body's cracks are moved by forces on flanks: `rows` (k, 2f) by the loaded tooth, in space."""
+
+    def __init__(self, body: DividedBody):
+        self.rows: dict[int, np.ndarray] = {}
+        self._body = body
+
+    def add(self, part: int, loaded: int, motion: np.ndarray) -> None:
+        """Add what the faces in a part contribute: their motion (2c, 2f) under unit forces on the flank of a tooth."""
+        faces, cracks = self._body.parts[part].faces, self._body.cracks
+        if not len(faces):
+            return
+        rows = self.rows.setdefault(loaded, np.zeros((len(cracks.one), motion.shape[1])))
+        motion = motion.reshape(len(faces), 2, -1)
+        for nodes, sense in ((cracks.one, -1.0), (cracks.other, 1.0)):
+            place = np.searchsorted(faces, nodes)
+            here = np.flatnonzero(faces[np.minimum(place, len(faces) - 1)] == nodes)
+            rows[here] += sense * np.einsum("kx,kxf->kf", cracks.normals[here], motion[place[here]])
+
+
+def _columns_in_frame(rows: np.ndarray, loaded: float) -> np.ndarray:
+    """Rows (k, 2f) with their columns in the frame of a tooth that stands turned by an angle (rad)."""
+    return np.ascontiguousarray((rows.reshape(len(rows), -1, 2) @ rotation(loaded)).reshape(rows.shape))
 
 
 def _in_frames(block: np.ndarray, responding: float, loaded: float) -> np.ndarray:

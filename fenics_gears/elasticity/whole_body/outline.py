@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
@@ -54,6 +55,7 @@ def whole_body(mesh: BodyMesh, gear: Gear, name: str) -> WholeBody:
     _check_teeth(sides[np.abs(outer - gear.tip_radius).max(axis=1) <= tolerance], gear, name)
     hub = sides[np.abs(outer - gear.bore_radius).max(axis=1) <= tolerance]
     _check_bore(mesh.points, hub, outer, gear, name)
+    _check_whole(mesh.points, np.unique(hub), name)
     turned = mesh.points @ rotation(_standing_angle(mesh.points[np.unique(sides)], gear, name))
     flanks = _flanks(turned, sides, gear, tolerance, name)
     _check_thickness(turned[np.unique(sides)], gear, tolerance, name)
@@ -130,6 +132,15 @@ def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Ge
             f"{name}: no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is {2.0 * gear.bore_radius:.6g} mm): its circle is "
             f"covered to {covered:.0%}; the innermost point of the boundary is {radii.min():.6g} mm from the origin"
         )
+
+
+def _check_whole(points: np.ndarray, bore: np.ndarray, name: str) -> None:
+    """Raise SceneError where a crack opens on the bore: points of it are there twice."""
+    distance, _ = cKDTree(points).query(points[bore], k=2)
+    twice = bore[distance[:, 1] <= 1e-9 * np.abs(points).max()]
+    if len(twice):
+        x, y = points[twice[0]]
+        raise SceneError(f"{name}: a crack opens on the bore near x = {x:.4g} mm, y = {y:.4g} mm; the bore is held as a whole and has each point once")
 
 
 def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:

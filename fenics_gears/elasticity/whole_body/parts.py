@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.whole_body.cracks import CrackNodes, crack_nodes
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 
@@ -23,22 +24,26 @@ from fenics_gears.geometry.outline import centreline_angle
 class Part:
     """One part of a body: its mesh, and nodes of the whole body that are kept of it.
 
-    flank: (f,), by radius; interface: (i,), those shared with other parts, not on the hub; hub: (h,).
+    flank: (f,), by radius; interface: (i,), those shared with other parts, not on the hub; hub: (h,); faces: (c,), those on the faces of
+    cracks, with the centres (c, 2) of a cell of each.
     """
 
     mesh: BodyMesh
     flank: np.ndarray
     interface: np.ndarray
     hub: np.ndarray
+    faces: np.ndarray
+    face_cells: np.ndarray
 
 
 @dataclass(frozen=True)
 class DividedBody:
-    """The nodes of a body, one part for each tooth, and all interface nodes (k,), ascending."""
+    """The nodes of a body, one part for each tooth, all interface nodes (k,), ascending, and its cracks."""
 
     nodes: ElementNodes
     parts: tuple[Part, ...]
     interface: np.ndarray
+    cracks: CrackNodes
 
 
 def divided_body(mesh: BodyMesh, gear: Gear, element: Element) -> DividedBody:
@@ -49,13 +54,28 @@ def divided_body(mesh: BodyMesh, gear: Gear, element: Element) -> DividedBody:
     touched = np.unique(np.column_stack([nodes.cells.ravel(), np.repeat(owner, nodes.cells.shape[1])]), axis=0)
     shared = np.flatnonzero(np.bincount(touched[:, 0], minlength=len(nodes.points)) > 1)
     interface = np.setdiff1d(shared, hub)
+    cracks = crack_nodes(nodes)
     parts = []
     for tooth in range(gear.teeth):
         own = touched[touched[:, 1] == tooth, 0]
         flank = nodes_on(nodes, mesh.edges[f"flank {tooth}"])
         flank = flank[np.argsort(np.linalg.norm(nodes.points[flank], axis=1))]
-        parts.append(Part(_sub_mesh(mesh, owner == tooth), flank, np.intersect1d(own, interface), np.intersect1d(own, hub)))
-    return DividedBody(nodes, tuple(parts), interface)
+        faces = np.setdiff1d(np.intersect1d(own, cracks.both), np.concatenate([interface, hub, flank]))
+        parts.append(
+            Part(
+                _sub_mesh(mesh, owner == tooth), flank, np.intersect1d(own, interface), np.intersect1d(own, hub),
+                faces, _centres_of(nodes, faces),
+            )
+        )  # fmt: skip
+    return DividedBody(nodes, tuple(parts), interface, cracks)
+
+
+def _centres_of(nodes: ElementNodes, chosen: np.ndarray) -> np.ndarray:
+    """Centre (k, 2) of a cell of each of the chosen nodes (k,)."""
+    flat = nodes.cells.ravel()
+    order = np.argsort(flat, kind="stable")
+    cells = order[np.searchsorted(flat, chosen, sorter=order)] // nodes.cells.shape[1]
+    return nodes.points[nodes.cells[cells]].mean(axis=1)
 
 
 def part_of_cells(mesh: BodyMesh, gear: Gear) -> np.ndarray:

@@ -89,6 +89,9 @@ def test_parts_may_meet_anywhere_but_between_the_twins_of_a_crack(monkeypatch):
     for responding, loaded in ((8, 8), (9, 8), (7, 8), (0, 0)):
         reference = expected.between(responding, loaded)
         assert relative(found.between(responding, loaded) - reference, reference) < 1e-9
+    assert set(found.openings) == {7, 8, 9}
+    for tooth, rows in found.openings.items():
+        assert relative(rows - expected.openings[tooth], expected.openings[tooth]) < 1e-9
 
 
 def test_parts_share_nothing_but_their_interface():
@@ -100,6 +103,9 @@ def test_parts_share_nothing_but_their_interface():
         assert not set(part.flank) & set(part.interface) and not set(part.interface) & set(part.hub)
     assert {len(part.flank) for part in divided.parts} == {2 * len(body.mesh.edges["flank 0"]) + 1}
     assert [len(face) > 10 for face in parts.crack_faces(body.mesh)] == [True, True]
+    assert [len(part.faces) > 0 for part in divided.parts] == [tooth == 8 for tooth in range(16)]
+    cracks = divided.cracks
+    assert np.array_equal(divided.nodes.points[cracks.one], divided.nodes.points[cracks.other]) and not set(cracks.one) & set(cracks.other)
 
 
 def test_the_cache_knows_a_body_by_its_mesh(tmp_path):

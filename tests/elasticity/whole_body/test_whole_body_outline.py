@@ -120,6 +120,16 @@ def test_a_crack_that_opens_on_a_flank_is_refused(whole):
         whole_body(BodyMesh(np.vstack([whole.points, whole.points[middle]]), cells, {}), PINION, "gear")
 
 
+def test_a_crack_that_opens_on_the_bore_is_refused(whole):
+    """A point of the bore is there twice; cells counter-clockwise of it have the twin."""
+    bore = whole.edge_points("hub")[3]
+    along = np.array([-whole.points[bore][1], whole.points[bore][0]])
+    ahead = (whole.points[whole.cells].mean(axis=1) - whole.points[bore]) @ along > 0.0
+    cells = np.where(ahead[:, None] & (whole.cells == bore), len(whole.points), whole.cells)
+    with pytest.raises(SceneError, match="a crack opens on the bore near x = "):
+        whole_body(BodyMesh(np.vstack([whole.points, whole.points[bore]]), cells, {}), PINION, "gear")
+
+
 def test_teeth_need_not_be_meshed_alike():
     """A gear whose teeth have two meshes in turn: every flank is found, with as many elements as it has."""
     from fenics_gears.elasticity.element_sizes import ElementSizes

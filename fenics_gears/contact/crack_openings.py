@@ -1,0 +1,54 @@
+"""Whether the faces of cracks stand apart under the contact forces of a run, or would have to pass through each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fenics_gears.contact.flank_forces import flank_rows
+from fenics_gears.contact.whole_body_cycle import GEARS, first_tooth
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.march import Record
+
+NAMES = ("pinion", "wheel")
+# Overlaps (mm) below this are round-off, and no news.
+LEAST_OVERLAP = 1e-6
+
+
+def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
+    """Distances (k,), mm, of facing points of the cracks of the pinion (0) or the wheel (1); negative where they would overlap.
+
+    Of forces on teeth within the reach of the body's compliance; those farther away hardly move a crack.
+    """
+    body, operator, forces = cycle.bodies[gear], record.position.operator, record.solution.forces
+    tangential, start = len(forces) > operator.nodes, 0
+    total = np.zeros(len(next(iter(body.openings.values()))))
+    first = first_tooth(gear, int(record.step // cycle.steps))
+    for pair in operator.pairs:
+        nodes = np.arange(start, start + len(pair.offsets))
+        start = nodes[-1] + 1
+        rows = body.openings.get((first + pair.place.ahead(gear)) % body.teeth)
+        if rows is not None and forces[nodes].any():
+            own = np.concatenate([nodes, nodes + operator.nodes]) if tangential else nodes
+            total += rows @ (flank_rows(gear, pair, tangential) @ forces[own]) / cycle.pair.face_width
+    return total
+
+
+def closed_cracks(cycle, records: Sequence[Record]) -> list[str]:
+    """Sentences on cracks that would be closed at times; their faces are not kept from passing through each other."""
+    found = []
+    for gear in GEARS:
+        if cycle.bodies[gear].alike or not cycle.bodies[gear].openings or not records:
+            continue
+        ends = np.array([(each.min(), each.max()) for each in (openings_of(cycle, gear, record) for record in records)])
+        overlaps = int((ends[:, 0] < -LEAST_OVERLAP).sum())
+        if overlaps:
+            found.append(
+                f"the faces of a crack in the {NAMES[gear]} would pass through each other in {overlaps} of {len(records)} stored steps, by up to "
+                f"{-1e3 * ends[:, 0].min():.3g} um (it opens by up to {1e3 * max(ends[:, 1].max(), 0.0):.3g} um): a real crack is closed there and carries, "
+                "the gear is stiffer then than computed"
+            )
+    return found
