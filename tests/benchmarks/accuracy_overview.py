@@ -36,11 +36,12 @@ class Point:
 
 @dataclass(frozen=True)
 class Overview:
-    """One scene's study; `floor`: the reference's own uncertainty, relative."""
+    """One scene's study; `floor`: the reference's own uncertainty, relative; `timed`: how often every point was."""
 
     points: tuple[Point, ...]
     floor: float
     machine: dict[str, str]
+    timed: int = 1
 
     @property
     def front(self) -> list[Point]:
@@ -68,7 +69,8 @@ def overview(file: Path) -> Overview:
         for line in lines if line["kind"] in ("setting", "model")
     )  # fmt: skip
     reference = next(line for line in lines if line["kind"] == "reference")
-    return Overview(points, float(reference["judged_error"]), {name: lines[0][name] for name in ("processor", "load", "threads", "versions")})
+    timed = min(int(line["timed_runs"]) for line in lines if line["kind"] in ("setting", "model"))
+    return Overview(points, float(reference["judged_error"]), {name: lines[0][name] for name in ("processor", "load", "threads", "versions")}, timed)
 
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
@@ -146,5 +148,5 @@ def readme_section(found: dict[str, Overview]) -> str:
     return "\n".join([
         "![What accuracy of the paper's scene costs in time](docs/pictures/accuracy.png)", "", *table_lines(found), "",
         "Errors: the larger of those of T_E in L2 and of T_EPP, the sum of all settings' own errors or the distance from the reference where that is more. Times: medians of "
-        f"five runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
+        f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip

@@ -166,6 +166,12 @@ def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, m
     assert all((limit.value == study._known[study.base][0][name]).all() for name, limit in result.limits.items())
 
 
+@pytest.mark.parametrize("section", ["coast_flanks", "corner_contact"])
+def test_condensing_anew_is_left_out_where_that_route_lacks_an_effect(section):
+    """Authority: scene/rules.py refuses both together; no effect is ignored silently."""
+    assert "condensation" not in [each.name for each in ladder.knobs(scene_of(TEETH, section))]
+
+
 def test_the_energy_account_closes_to_round_off(report):
     """Authority: the exact account of a quasi-static, frictionless run."""
     assert max(each.errors["energy defect"] for each in report.settings) < 1e-9

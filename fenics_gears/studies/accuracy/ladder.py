@@ -167,7 +167,8 @@ def knobs(scene: Scene, quick: bool = False) -> tuple[Knob, ...]:
     chosen = QUICK_CHOICES if quick else CHOICES
     choices = [Knob(name, name, _choices(base, name, options), None, "a choice") for name, options in chosen.items()]
     choices.append(Knob("elastic teeth", "elastic_teeth", _choices(base, "elastic_teeth", (1, None)), None, "a choice"))
-    if not quick:
+    # The remeshed route has nodes on the drive flanks and on the path of contact alone.
+    if not quick and scene.coast_flanks is None and scene.corner_contact is None:
         choices.append(_condensation(scene))
     return tuple(_with_own(knob, knob.base or base, own(scene), unit) for knob in (*powers, *choices))
 

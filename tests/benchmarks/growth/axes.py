@@ -46,7 +46,7 @@ class Axis:
     @property
     def stages(self) -> set[str]:
         """Stages that theory says something about, which are run several times."""
-        return {"condense" if name.split()[0] in ("assemble", "schur", "ring") else name.split()[0] for name in self.theory}
+        return {"condense" if name.split()[0] in ("assemble", "schur", "ring", "fourier") else name.split()[0] for name in self.theory}
 
 
 def logarithmic(first: float, last: float, points: int = 7) -> tuple[float, ...]:
@@ -136,7 +136,8 @@ AXES = (
         {
             "mesh": Theory(0.0, "one sector, whatever the number of them"),
             "schur": Theory(0.0, "one sector"),
-            "ring": Theory(0.0, "joined by doubling: log z (by its Fourier transform: z)"),
+            "ring": Theory(0.0, "joined by doubling: log z"),
+            "fourier": Theory(1.0, "a dense inverse for every other tooth"),
             "operators": Theory(0.0, NONE),
             "solving": Theory(0.0, NONE),
             "condense arrays": Theory(0.0, NONE),
@@ -147,7 +148,8 @@ AXES = (
         {
             "mesh": Theory(1.0, "a sector becomes a wedge as long as z is large, of elements as wide as itself: cells as z"),
             "schur": Theory(2.0, "cuts of as many nodes as z are kept beside a strip: fronts of as many dofs, squared"),
-            "ring": Theory(3.0, "log z dense eliminations of a cut, of as many nodes as z (by its Fourier transform z of them: z^4)"),
+            "ring": Theory(3.0, "log z dense eliminations of a cut, of as many nodes as z"),
+            "fourier": Theory(4.0, "a dense inverse of a cut for every other tooth"),
             "operators": Theory(0.0, NONE),
             "solving": Theory(0.0, NONE),
             "condense arrays": Theory(2.0, "dense matrices of the cuts' dofs"),

@@ -24,6 +24,8 @@ class Exponent:
 def exponent(x: Sequence[float], y: Sequence[float]) -> Exponent | None:
     """Least squares through the logarithms of the upper decade; None with fewer than three points there, or where y is not positive."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    if not len(x):
+        return None
     # A hair below: the decade's own first point belongs to it, whatever its rounding.
     chosen = x >= UPPER_DECADE * x.max() * (1.0 - 1e-2)
     if chosen.sum() < 3 or (y[chosen] <= 0.0).any():

@@ -10,11 +10,12 @@ from matplotlib.ticker import FuncFormatter
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from tests.benchmarks.growth.axes import AXES, Axis
-from tests.benchmarks.growth.report import MEBI, Points, WORDS, column, exponents
+from tests.benchmarks.growth.report import MEBI, Points, WORDS, column, exponents, known
 
 COLUMNS = 3
 COLOURS = dict(zip(("mesh", "assemble", "schur", "ring", "operators", "solving"), PALETTE))
-MARKS = dict(zip(COLOURS, "os^Dvp"))
+COLOURS["fourier"] = GREY
+MARKS = dict(zip(COLOURS, "os^Dvpx"))
 IDLE = "process, peak of all stages"
 
 
@@ -48,13 +49,13 @@ def growth_picture(found: Mapping[str, Points], machine: Mapping[str, str]) -> F
 
 
 def _times(panel: Axes, axis: Axis, points: Points) -> None:
-    fits, x = exponents(axis, points), [point[axis.counted] for point in points]
+    fits = exponents(axis, points)
     for stage, colour in COLOURS.items():
         if stage not in axis.theory:
             continue
         fit, theory = fits[stage], axis.theory[stage].exponent
         label = f"{WORDS[stage]}: {'-' if fit is None else _rounded(fit.value)}, theory {theory:g}"
-        panel.plot(x, [point[column(stage)] for point in points], "-" + MARKS[stage], color=colour, markersize=5, label=label)
+        panel.plot(*known(axis, points, column(stage)), "-" + MARKS[stage], color=colour, markersize=5, label=label)
     _logarithmic(panel)
     panel.set_title(axis.words if len(axis.words) < 52 else axis.words.replace(", ", ",\n", 1))
     panel.set_ylabel("Processor time (s)")

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.elasticity import condensation, gear_compliance
+from fenics_gears.elasticity import condensation, gear_compliance, ring
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.sector_mesh import sector_mesh
@@ -27,14 +27,16 @@ from tests.benchmarks.growth.axes import axis_named, paper
 from tests.benchmarks.growth.memory import array_bytes, forget_peak, peak, resident
 
 ROUNDS, MOST_SECONDS = 5, 4.0
+# With more dofs on a cut than this the Fourier transform over the sectors takes minutes.
+MOST_CUT_DOFS = 700
 GEARS = ("pinion", "wheel")
 
 
 class Point:
-    """The stages of one scene, measured; `repeated`: those that are timed more than once."""
+    """The stages of one scene, measured; `repeated`: those that are timed more than once; `compares_rings`: by both routes."""
 
-    def __init__(self, built: Model, repeated: set[str]):
-        self.built, self.repeated = built, repeated
+    def __init__(self, built: Model, repeated: set[str], compares_rings: bool = False):
+        self.built, self.repeated, self.compares_rings = built, repeated, compares_rings
         gc.collect()
         self.found = {"idle_bytes": resident()}
 
@@ -42,6 +44,8 @@ class Point:
         """Of every stage its seconds, the process's peak, that above its idle, arrays' bytes; and what was counted."""
         self._stage("mesh", self._mesh, array_bytes)
         compliances = self._condense()
+        if self.compares_rings:
+            self._transformed(compliances)
         cycle = self._stage("operators", lambda: self._operators(compliances), _bytes_of_cycle)
         march = self._stage("solving", lambda: self._march(cycle), lambda march: array_bytes([(each.state, each.solution) for each in march.records]))
         grid, teeth = self.built.resolution.contact_grid, self.built.pair.wheel.teeth
@@ -103,6 +107,17 @@ class Point:
         self.found["condense_s"] = sum(self.found[f"{part}_s"] for part in parts)
         return gears
 
+    def _transformed(self, gears) -> None:
+        """The ring of sectors once more by its Fourier transform, which the program leaves to gears of few teeth."""
+        cut_dofs = max(0.5 * (gear.timings["condensed_unknowns"] - 2 * gear.nodes) for gear in gears)
+        if cut_dofs > MOST_CUT_DOFS:
+            return
+        chosen, ring.chain_is_quicker = ring.chain_is_quicker, lambda teeth, reach: False
+        try:
+            self.found["fourier_s"] = sum(gear.timings["time_ring"] for gear in gear_compliances(self.built, SilentProgress(), None))
+        finally:
+            ring.chain_is_quicker = chosen
+
     def _operators(self, compliances):
         cycle = mesh_cycle(self.built, compliances)
         for step in range(cycle.steps):
@@ -137,7 +152,7 @@ def main() -> None:
         module.perf_counter = time.process_time
     warmed_up()
     axis = axis_named(name)
-    print(json.dumps(Point(model(axis.scene(value)), axis.stages).measured()))
+    print(json.dumps(Point(model(axis.scene(value)), axis.stages, "fourier" in axis.theory).measured()))
 
 
 if __name__ == "__main__":

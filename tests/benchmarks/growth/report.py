@@ -10,9 +10,10 @@ from tests.benchmarks.growth.axes import AXES, Axis
 from tests.benchmarks.growth.fit import Exponent, exponent
 
 Points = Sequence[Mapping[str, float]]
-STAGES = ("mesh", "assemble", "schur", "ring", "condense", "operators", "solving")
+STAGES = ("mesh", "assemble", "schur", "ring", "fourier", "condense", "operators", "solving")
 WORDS = {
     "mesh": "meshing", "assemble": "condensing: assembling", "schur": "condensing: Schur complement", "ring": "condensing: ring of sectors",
+    "fourier": "the ring by its Fourier transform, for comparison",
     "condense": "condensing", "operators": "marching: operators", "solving": "marching: solving",
 }  # fmt: skip
 MEBI = 2.0**20
@@ -32,8 +33,13 @@ def words(quantity: str) -> str:
 
 def exponents(axis: Axis, points: Points) -> dict[str, Exponent | None]:
     """Of every quantity that theory says something about."""
-    x = [point[axis.counted] for point in points]
-    return {quantity: exponent(x, [point[column(quantity)] for point in points]) for quantity in axis.theory}
+    return {quantity: exponent(*known(axis, points, column(quantity))) for quantity in axis.theory}
+
+
+def known(axis: Axis, points: Points, name: str) -> tuple[list[float], list[float]]:
+    """What is counted along an axis, and what was measured, of the points that have it."""
+    having = [point for point in points if name in point]
+    return [point[axis.counted] for point in having], [point[name] for point in having]
 
 
 def section(found: Mapping[str, Points], machine: Mapping[str, str]) -> str:
@@ -71,7 +77,7 @@ def _point_table(axis: Axis, points: Points) -> list[str]:
     for point in points:
         peak = max(value for name, value in point.items() if name.endswith("_peak_bytes"))
         arrays = sum(value for name, value in point.items() if name.endswith("_array_bytes"))
-        cells = [f"{point[axis.counted]:g}", f"{point['unknowns']:.0f}", *(f"{point[stage + '_s']:.2g}" for stage in timed)]
+        cells = [f"{point[axis.counted]:g}", f"{point['unknowns']:.0f}", *(f"{point[stage + '_s']:.2g}" if f"{stage}_s" in point else "-" for stage in timed)]
         lines.append(f"|{'|'.join([*cells, f'{peak / MEBI:.0f}', f'{arrays / MEBI:.3g}'])}|")
     return lines
 
