@@ -5,6 +5,8 @@ from math import cos, radians, tan
 
 from scipy.optimize import brentq
 
+from fenics_gears.effects.relief import LINEAR, Relief
+from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Motion, Scene
 
@@ -13,6 +15,8 @@ PRESSURE_ANGLE = radians(20.0)
 PLAY = 0.02
 # Line load, N/mm, of those that are not the paper's; about its own.
 LINE_LOAD = 300.0
+# Tip relief: depth in mm, from this part of a module below the tip diameter on.
+RELIEF, RELIEVED = 0.03, 0.9
 
 
 def rack_gear(module: float, teeth: int, shift: float, addendum: float = 1.0, dedendum: float = 1.25, rounding: float = 0.38) -> GearData:
@@ -31,7 +35,10 @@ def rack_pair(module: float, teeth: tuple[int, int], shifts=(0.0, 0.0), face_wid
 
 
 def pairs(paper: Scene) -> dict[str, Scene]:
-    """The five scenes by name, quasi-static and without friction, with the paper's shafts and bearings, and defaults for all settings."""
+    """The five scenes by name, quasi-static and without friction, with the paper's shafts and bearings, and defaults for all settings.
+
+    All but the paper's have tip relief, so that no sharp edge presses: what such gears are made with, and what has a limit that can be told.
+    """
     plain = replace(paper, inertia=None, damping=None, friction=None, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))
     material = paper.gears.material
     high = {"addendum": 1.35, "dedendum": 1.6, "rounding": 0.2}
@@ -46,7 +53,8 @@ def pairs(paper: Scene) -> dict[str, Scene]:
 
 def _loaded(plain: Scene, gears: GearPairData) -> Scene:
     torque = LINE_LOAD * gears.face_width * gear_pair(gears).wheel.base_radius
-    return replace(plain, gears=gears, load=replace(plain.load, wheel_torque=torque))
+    reliefs = (Relief(RELIEF, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module) for gear in (gears.pinion, gears.wheel))
+    return replace(plain, gears=gears, load=replace(plain.load, wheel_torque=torque), tip_relief=TipRelief(*reliefs))
 
 
 def _involute(angle: float) -> float:

@@ -98,10 +98,10 @@ def test_a_tighter_target_takes_finer_settings(scene, run):
 def test_a_window_that_cuts_contact_off_is_lengthened(scene):
     """The program's own warning decides: a pilot that begins with too short a window ends with one that is not."""
     pilot = pilots.Pilot(scene, lambda words: None)
-    pilot.length *= 0.07
+    pilot.length *= 0.13
     assert pilot.window_cuts_contact()
     choosing._lengthen_window(pilot)
-    assert not pilot.window_cuts_contact() and pilot.length > 0.07 * pilots.Pilot(scene, lambda words: None).length
+    assert not pilot.window_cuts_contact() and pilot.length > 0.13 * pilots.Pilot(scene, lambda words: None).length
 
 
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
