@@ -67,6 +67,15 @@ def test_a_plot_that_is_drawn_later_has_the_zoom_of_the_others(browser, report):
     assert browser.value(f"{LINKED}.at(-1).layout.xaxis.range[1]") == 0.5 * (first + last)
 
 
+def test_all_plots_are_there_to_be_printed(browser, report):
+    """What the window has not come to is drawn before a page is printed, and folded parts are opened."""
+    browser.open(report, 1300, 900)
+    browser.value("dispatchEvent(new Event('beforeprint'))")
+    browser.wait(f"{PLOTS}.every(plot => plot.querySelector('svg.main-svg .cartesianlayer path'))")
+    assert browser.value("[...document.querySelectorAll('details')].every(each => each.open)")
+    assert browser.console == []
+
+
 @pytest.mark.parametrize("width", [1300, 400])
 def test_a_run_on_a_screen(browser, report, tmp_path, width):
     """On a desk and on a telephone the page is neither blank nor black, from its top to its end, and nothing sticks out."""

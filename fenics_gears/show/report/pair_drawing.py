@@ -80,7 +80,7 @@ def _figure(pair: GearPair, teeth: list[np.ndarray], labels: bool):
     line("path of contact", _on_line(pair, [pair.path_start, pair.path_end]), color=PALETTE[1], width=4)
     places = {name: place for name, place in _points(pair).items() if labels or name == "pitch point"}
     at = _on_line(pair, list(places.values()))
-    marks = {"mode": "markers+text", "text": list(places) if labels else None, "textposition": [*["middle right"] * (len(places) - 1), "middle left"], "hoverinfo": "text", "hovertext": list(places)}
+    marks = {"mode": "markers+text", "text": list(places) if labels else None, "textposition": [*["top right"] * (len(places) - 1), "bottom left"], "hoverinfo": "text", "hovertext": list(places)}
     traces.append(go.Scatter(
         x=numbers(at[:, 0]), y=numbers(at[:, 1]), name="points", showlegend=False, textfont={"size": 12, "color": DARK},
         marker={"size": 9, "color": "white", "line": {"color": DARK, "width": 1.6}}, **marks,

@@ -130,15 +130,16 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
 
 
 def _table(cases: Cases) -> Section:
-    measures = {**{name: (values, unit) for name, (values, unit, _) in cases.measures.items()}, "newton_iterations": (cases.numbers("newton_iterations"), ""), "wall_time": (cases.numbers("wall_time"), "s")}
-    names = ("T_EPP", "Mean error", "Largest force", "Newton iterations", "Wall time")
-    headings = ["Case", *(field.title for field in cases.fields), "State", *(f"{name} ({unit})" if unit else name for name, (_, unit) in zip(names, measures.values()))]
-    rows, states = [], cases.states
+    measures = {name: (values, unit) for name, (values, unit, _) in cases.measures.items()} | {"wall_time": (cases.numbers("wall_time"), "s")}
+    names = ("T_EPP", "Mean error", "Largest force", "Wall time")
+    headings = ["Case", *(field.title for field in cases.fields), "State", *(f"{name} ({unit})" for name, (_, unit) in zip(names, measures.values())), "Newton iterations"]
+    rows, states, iterations = [], cases.states, cases.numbers("newton_iterations")
     for case in range(min(cases.count, MOST_ROWS)):
         swept = [Cell(field.words(case), float(field.values[case]) if field.numeric else None) for field in cases.fields]
         state = Cell(states[case], warns=states[case] in STATES[1:3])
-        numbers = [Cell(f"{values[case]:.5g}" if np.isfinite(values[case]) else "", float(values[case])) for values, _ in measures.values()]
-        rows.append([Cell(str(case), float(case), cases.link(case)), *swept, state, *numbers])
+        numbers = [Cell(f"{values[case]:#.5g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case])) for values, _ in measures.values()]
+        count = Cell(f"{iterations[case]:.0f}" if np.isfinite(iterations[case]) else "", float(iterations[case]))
+        rows.append([Cell(str(case), float(case), cases.link(case)), *swept, state, *numbers, count])
     blocks: list[Block] = [Words("A click on a heading sorts by it. T_EPP: transmission error, peak to peak. Case numbers lead to the case's report where there is one, else to its file, beside this page.")]
     if cases.count > MOST_ROWS:
         blocks.append(Words(f"The first {MOST_ROWS:,} of {cases.count:,} cases; the file {cases.file.name} has all.", warns=True))
