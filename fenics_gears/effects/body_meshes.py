@@ -129,7 +129,7 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
 
 def findings(meshes: BodyMeshes, cycle, records) -> list[str]:
     """Sentences on cracks that a run would have closed."""
-    from fenics_gears.contact.crack_openings import closed_cracks
+    from fenics_gears.results.crack_openings import closed_cracks
 
     return closed_cracks(cycle, records)
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.contact.flank_forces import flank_rows
 from fenics_gears.contact.whole_body_cycle import GEARS, first_tooth
-
-if TYPE_CHECKING:
-    from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.march import Record
 
 NAMES = ("pinion", "wheel")
 # Overlaps (mm) below this are round-off, and no news.
