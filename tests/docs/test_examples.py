@@ -24,7 +24,7 @@ RUN_ELSEWHERE = {"docs/adding_an_effect.md": "tests/effects/test_pages.py"}
 PROMPT = ">>> "
 DEMO = (ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 # What stands for a number or a word in the pages' commands.
-STAND_FOR = {"N": "2", "PHASE": "0.25", "TORQUE": "437 N m", "SPEED": "750 rpm"}
+STAND_FOR = {"N": "2", "SECONDS": "2", "PHASE": "0.25", "TORQUE": "437 N m", "SPEED": "750 rpm"}
 STARTERS = ("mpirun", "srun")
 
 
