@@ -17,9 +17,16 @@ STUDY_FILE, CASES = "study.nc", "cases"
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("report", parents=[shared], help="write one HTML page on a run or a study that needs no network")
-    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc, a study's directory, or the file of one of its cases")
+    command.add_argument(
+        "run", type=Path, metavar="RUN", help="a run's directory or its run.nc, a study's directory, or the file of one of its cases"
+    )
     command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help=f"what to write (default: {REPORT_FILE} beside {RUN_FILE})")
-    command.add_argument("--at", type=float, metavar="PHASE", help="the stress picture's mesh cycles after the first stored step (default: where the force is largest)")
+    command.add_argument(
+        "--at",
+        type=float,
+        metavar="PHASE",
+        help="the stress picture's mesh cycles after the first stored step (default: where the force is largest)",
+    )
     command.add_argument("--no-stress", action="store_true", help="leave the stress picture out: seconds less")
     command.add_argument("--effects", action="store_true", help="measure first what each effect costs and changes, as `gears effects` does")
     command.set_defaults(command=report)
@@ -48,8 +55,13 @@ def found_file(path: Path) -> tuple[Path, bool]:
             if (path / name).is_file():
                 return path / name, name == STUDY_FILE
         if (path / CASES).is_dir():
-            raise SceneError(f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again, it writes the file from what there is.")
-        raise SceneError(f"{path}: there is neither {RUN_FILE} nor {STUDY_FILE} in it. A report is on a directory that `gears run` or `gears study` wrote.")
+            raise SceneError(
+                f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again, it writes the file from what there is."
+            )
+        raise SceneError(
+            f"{path}: there is neither {RUN_FILE} nor {STUDY_FILE} in it. A report is on a directory that `gears run` or `gears study` "
+            "wrote."
+        )
     if not path.is_file():
         raise SceneError(f"{path}: there is no such file or directory. A report is on what `gears run` or `gears study` wrote.")
     return path, path.name == STUDY_FILE
@@ -118,7 +130,9 @@ def _measure_effects(run, progress) -> list[Path]:
     from fenics_gears.studies.effect_lattice.table import write_csv
 
     if run.scene is None:
-        raise SceneError(f"{run.file}: the scene in it is none of this version, so that its effects cannot be measured. Run the scene again.")
+        raise SceneError(
+            f"{run.file}: the scene in it is none of this version, so that its effects cannot be measured. Run the scene again."
+        )
     if communicator() is not None:
         raise SceneError("--effects measures times, which mean nothing while processes share the machine. Start gears without mpirun.")
     return write_report(measure(run.scene, progress), run.file.parent, "effects", write_csv, effect_costs)

@@ -38,7 +38,7 @@ def draw_all(browser):
 
 
 def test_a_run_is_drawn_and_zoomed_without_a_network(browser, report):
-    """Plots are drawn when the window comes to them, each as an svg with lines; those over time are zoomed together and come back together."""
+    """Plots are drawn when the window comes to them, each as an svg with lines; those over time are zoomed together."""
     browser.open(report, 1300, 900)
     drawn = browser.value(f"{PLOTS}.filter(plot => plot.querySelector('svg')).length")
     assert draw_all(browser) == seen(report).plots > 15 > drawn
@@ -99,7 +99,9 @@ def test_a_study_is_sorted_by_a_click(browser, study, tmp_path):
     page = tmp_path / "study.html"
     assert main(["report", str(study), "--quiet", "--output", str(page)]) == 0
     browser.open(page, 1300, 900)
-    column = browser.value("[...document.querySelector('.sortable').tHead.rows[0].cells].findIndex(each => each.textContent.startsWith('T_EPP'))")
+    column = browser.value(
+        "[...document.querySelector('.sortable').tHead.rows[0].cells].findIndex(each => each.textContent.startsWith('T_EPP'))"
+    )
     sorted_values = f"""(() => {{
         const table = document.querySelector('.sortable');
         table.tHead.rows[0].cells[{column}].querySelector('button').click();

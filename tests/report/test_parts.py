@@ -36,7 +36,11 @@ def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
 
 def run_of(scene_text, values, phase, tmp_path):
     """A run with nothing but a curve."""
-    dataset = xr.Dataset({"transmission_error": ("time", values, {"units": "rad"})}, {"mesh_phase": ("time", phase)}, {"scene": scene_text, "base_radius_wheel": 50.0})
+    dataset = xr.Dataset(
+        {"transmission_error": ("time", values, {"units": "rad"})},
+        {"mesh_phase": ("time", phase)},
+        {"scene": scene_text, "base_radius_wheel": 50.0},
+    )
     return Run(dataset, tmp_path / "run.nc")
 
 
@@ -65,12 +69,14 @@ def found_lines(found):
 
 
 def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair):
-    """Authority: at the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do not overlap. Outlines are
-    chords of 14 points a flank, so a few thousandths of a millimetre off."""
+    """Authority: at the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do not overlap.
+    Outlines are chords of 14 points a flank, so a few thousandths of a millimetre off."""
     phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
     outlines = [gear_outline(paper_pair, gear, phase) for gear in (0, 1)]
     pitch = _on_line(paper_pair, [paper_pair.pitch_point])[0]
-    for points, gear, centre in zip(outlines, (paper_pair.pinion, paper_pair.wheel), (np.zeros(2), np.array([0.0, -paper_pair.centre_distance]))):
+    for points, gear, centre in zip(
+        outlines, (paper_pair.pinion, paper_pair.wheel), (np.zeros(2), np.array([0.0, -paper_pair.centre_distance]))
+    ):
         radius = np.linalg.norm(points - centre, axis=1)
         np.testing.assert_allclose([radius.min(), radius.max()], [gear.root_radius, gear.tip_radius], rtol=1e-9)
         turned = np.unwrap(np.arctan2(*(points - centre).T[::-1]))

@@ -89,9 +89,14 @@ class Cases:
     @cached_property
     def states(self) -> list[str]:
         """How each case stands."""
-        done, failed, warned = np.isfinite(self.numbers("peak_to_peak_transmission_error")), self.dataset["failed"].values.ravel(), self.texts("warnings")
+        done, failed, warned = (
+            np.isfinite(self.numbers("peak_to_peak_transmission_error")),
+            self.dataset["failed"].values.ravel(),
+            self.texts("warnings"),
+        )
         return [
-            STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3] for ready, wrong, said in zip(done, failed, warned)
+            STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3]
+            for ready, wrong, said in zip(done, failed, warned)
         ]
 
     def words(self, case: int) -> str:
@@ -131,7 +136,11 @@ class Cases:
         """What is compared between cases: values (n,), unit, name."""
         scale, unit = self.error_scale
         return {
-            "peak_to_peak_transmission_error": (self.numbers("peak_to_peak_transmission_error") * scale, unit, "Transmission error, peak to peak"),
+            "peak_to_peak_transmission_error": (
+                self.numbers("peak_to_peak_transmission_error") * scale,
+                unit,
+                "Transmission error, peak to peak",
+            ),
             "mean_transmission_error": (self.numbers("mean_transmission_error") * scale, unit, "Transmission error, mean"),
             "max_normal_force": (self.numbers("max_normal_force"), "N", "Largest mesh force"),
         }

@@ -27,7 +27,8 @@ def effects(run: Run) -> Section:
     on = [(f"[{state.effect.written}]", state.words, state.adds) for state in states if state.on]
     off = [(f"[{state.effect.written}]", state.words) for state in states if not state.on]
     tables = [
-        Table(("Section", "The model has", "which adds"), on, "● On", numbers=9), Table(("Section", "In its place the model has"), off, "○ Off", numbers=9),
+        Table(("Section", "The model has", "which adds"), on, "● On", numbers=9),
+        Table(("Section", "In its place the model has"), off, "○ Off", numbers=9),
     ]  # fmt: skip
     return Section("effects", "Effects on and off", [*tables, *_measured(run)])
 
@@ -36,12 +37,23 @@ def _measured(run: Run) -> list[Block]:
     """What `gears effects` wrote into the run's directory, where it is of this scene."""
     file = run.file.parent / MEASURED_TABLE
     if not file.is_file():
-        return [Words("What each effect costs and changes was not measured; the report's option `--effects` does it (it runs the scene with and without each).")]
+        return [
+            Words(
+                "What each effect costs and changes was not measured; the report's option `--effects` does it "
+                "(it runs the scene with and without each)."
+            )
+        ]
     lines = _lines(file)
     if lines is None:
         return [Words(f"{MEASURED_TABLE} beside the run is no table of this version's `gears effects`, and is left out.", warns=True)]
     if not _same_scene(run, lines):
-        return [Words(f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; the report's option `--effects` measures anew.", warns=True)]
+        return [
+            Words(
+                f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; "
+                "the report's option `--effects` measures anew.",
+                warns=True,
+            )
+        ]
     blocks: list[Block] = [*_tables(lines)]
     picture = file.with_name(MEASURED_PICTURE)
     if picture.is_file():
@@ -84,10 +96,13 @@ def _tables(lines: list[dict[str, str]]) -> list[Block]:
             skipped.append((line["effects"], line["remarks"]))
             continue
         number = {name: float(line[name]) for name in NUMBERS}
-        changes = [f" ({in_percent(float(line[name]))})" if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")]
+        changes = [
+            f" ({in_percent(float(line[name]))})" if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")
+        ]
         rows.append((
-            line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}", f"{number['newton_iterations_per_step']:.2f}",
-            f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}", f"{number['transmission_error_peak_to_peak_mm'] * MILLI:.3f}{changes[0]}",
+            line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}",
+            f"{number['newton_iterations_per_step']:.2f}", f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}",
+            f"{number['transmission_error_peak_to_peak_mm'] * MILLI:.3f}{changes[0]}",
             f"{number['peak_force_N']:,.0f}{changes[1]}",
         ))  # fmt: skip
     caption = "What each effect costs and changes: one more (changes are from the bare scene), one less (changes are from all)"

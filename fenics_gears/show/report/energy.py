@@ -26,7 +26,11 @@ def energy(run: Run) -> Section:
 
 
 def _rows(run: Run) -> list[tuple[str, str, str]]:
-    last = {name: in_unit(run.dataset[name], UNIT)[-1] for name in ("work_input", "work_output", *TAKEN, "work_contact_changes", "energy_defect") if name in run.dataset}
+    last = {
+        name: in_unit(run.dataset[name], UNIT)[-1]
+        for name in ("work_input", "work_output", *TAKEN, "work_contact_changes", "energy_defect")
+        if name in run.dataset
+    }
     held = in_unit(run.dataset["energy"], UNIT)
     drive = abs(last["work_input"])
 
@@ -40,7 +44,13 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     rows += [row(f"taken by {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
-    rows.append(("not explained by any of these", f"{float(np.abs(in_unit(run.dataset['energy_defect'], UNIT)).max()):.2g}", f"{UNIT} at most, at any stored step"))
+    rows.append(
+        (
+            "not explained by any of these",
+            f"{float(np.abs(in_unit(run.dataset['energy_defect'], UNIT)).max()):.2g}",
+            f"{UNIT} at most, at any stored step",
+        )
+    )
     return rows
 
 

@@ -46,7 +46,15 @@ def _friction(dataset: xr.Dataset) -> list[Plot]:
     curves = [(words, in_unit(dataset[name], "N"), colour) for (name, words), colour in zip(names.items(), PALETTE) if name in dataset]
     if not curves:
         return []
-    return [over_time(dataset, "Friction force of the mesh", "Friction force (N)", curves, least=least(np.concatenate([each for _, each, _ in curves])))]
+    return [
+        over_time(
+            dataset,
+            "Friction force of the mesh",
+            "Friction force (N)",
+            curves,
+            least=least(np.concatenate([each for _, each, _ in curves])),
+        )
+    ]
 
 
 def _pairs(dataset: xr.Dataset) -> list[Plot]:
@@ -59,7 +67,9 @@ def _pairs(dataset: xr.Dataset) -> list[Plot]:
         if names[0] not in dataset:
             continue
         curves = pair_curves(dataset, names[0])
-        note = "Where several rigid pairs touch at once their shares are not determined." if np.isnan(dataset[names[0]].values).any() else ""
+        note = (
+            "Where several rigid pairs touch at once their shares are not determined." if np.isnan(dataset[names[0]].values).any() else ""
+        )
         if names[-1] != names[0] and names[-1] in dataset:
             coast = [(f"coast flank of {name}", -values, colour) for name, values, colour in pair_curves(dataset, names[-1])]
             curves, note = curves + coast, f"{COAST_NOTE} {note}".strip() if coast else note

@@ -28,7 +28,15 @@ def _transmission_error(run: Run) -> Plot:
     else:
         values, unit, note = error * factor("rad", "µrad"), "µrad", ""
     curves = [("transmission error", values, PALETTE[0])]
-    return over_time(run.dataset, "Transmission error", f"Transmission error ({unit})", curves, least=LEAST_SHARE * float(np.abs(values).max()), note=note, height=360)
+    return over_time(
+        run.dataset,
+        "Transmission error",
+        f"Transmission error ({unit})",
+        curves,
+        least=LEAST_SHARE * float(np.abs(values).max()),
+        note=note,
+        height=360,
+    )
 
 
 def _shafts(run: Run) -> list[Plot]:
@@ -41,7 +49,9 @@ def _shafts(run: Run) -> list[Plot]:
         plots.append(_both(run, "rotation", "µrad", "Rotation of the hubs from their nominal motion", "Rotation (µrad)", 1e-3))
     if "shaft_end_rotation" in dataset:
         values = in_unit(dataset["shaft_end_rotation"], "µrad")
-        plots.append(over_time(dataset, "Rotation of the output shaft's end", "Rotation (µrad)", [("shaft end", values, PALETTE[2])], least=1e-3))
+        plots.append(
+            over_time(dataset, "Rotation of the output shaft's end", "Rotation (µrad)", [("shaft end", values, PALETTE[2])], least=1e-3)
+        )
     return plots
 
 
@@ -58,5 +68,9 @@ def _varying(run: Run) -> list[Plot]:
         values = in_unit(dataset["wheel_couple"], "N m")
         plots.append(over_time(dataset, "Couple on the wheel's shaft", "Couple (N m)", [("couple", values, PALETTE[3])], least=1e-6))
     if "mesh_frequency" in dataset:
-        plots.append(over_time(dataset, "Mesh frequency", "Mesh frequency (Hz)", [("mesh frequency", in_unit(dataset["mesh_frequency"], "Hz"), PALETTE[3])]))
+        plots.append(
+            over_time(
+                dataset, "Mesh frequency", "Mesh frequency (Hz)", [("mesh frequency", in_unit(dataset["mesh_frequency"], "Hz"), PALETTE[3])]
+            )
+        )
     return plots

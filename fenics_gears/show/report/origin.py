@@ -36,4 +36,5 @@ def scene_section(text: str, heading: str = "Scene", name: str = "scene") -> Sec
 def made_by() -> str:
     """The page's last line."""
     now = datetime.datetime.now().astimezone()
-    return f"Made by fenics_gears {fenics_gears.__version__} (gears report) on {now:%Y-%m-%d %H:%M}. One file, complete in itself; it loads nothing from a network."
+    made = f"Made by fenics_gears {fenics_gears.__version__} (gears report) on {now:%Y-%m-%d %H:%M}."
+    return f"{made} One file, complete in itself; it loads nothing from a network."

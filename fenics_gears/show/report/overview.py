@@ -32,7 +32,10 @@ def _sentence(words: str) -> str:
 def _tiles(run: Run) -> Iterator[Tile]:
     attributes, dataset = run.dataset.attrs, run.dataset
     part = "" if run.complete else " of what is stored"
-    for name, label in (("peak_to_peak_transmission_error", "Transmission error, peak to peak"), ("mean_transmission_error", "Transmission error, mean")):
+    for name, label in (
+        ("peak_to_peak_transmission_error", "Transmission error, peak to peak"),
+        ("mean_transmission_error", "Transmission error, mean"),
+    ):
         angle = attributes.get(name, math.nan)
         if math.isfinite(angle) and math.isfinite(run.micrometres):
             yield Tile(label + part, digits(angle * run.micrometres), "µm", f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel")
@@ -43,19 +46,34 @@ def _tiles(run: Run) -> Iterator[Tile]:
             note = f"{largest / nominal:.3g} × nominal {digits(nominal)} N"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
-        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", "over five contact nodes" + (", on a sharp edge: see the warnings" if "sharp edge" in attributes.get("warnings", "") else ""))
+        yield Tile(
+            "Peak contact pressure",
+            digits(attributes["peak_contact_pressure"]),
+            "MPa",
+            "over five contact nodes" + (", on a sharp edge: see the warnings" if "sharp edge" in attributes.get("warnings", "") else ""),
+        )
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
         yield Tile("Largest root stress", digits(float(largest.max())), "MPa", f"pinion {digits(largest[0])}, wheel {digits(largest[1])}")
     if "dynamic_factor_by_force" in attributes:
-        yield Tile("Dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f}", "", f"by force; {attributes['dynamic_factor_by_stress']:.3f} by root stress")
+        yield Tile(
+            "Dynamic factor",
+            f"{attributes['dynamic_factor_by_force']:.3f}",
+            "",
+            f"by force; {attributes['dynamic_factor_by_stress']:.3f} by root stress",
+        )
     if "friction_loss" in attributes:
         yield Tile("Friction takes", f"{100.0 * attributes['friction_loss']:.3g}", "%", "of the work of the drive")
     if run.pair is not None:
         yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}")
     if attributes.get("contact_loss_count"):
         share = 100.0 * attributes["contact_loss_share"]
-        yield Tile("Contact lost", f"{attributes['contact_loss_count']}", "times", f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm")
+        yield Tile(
+            "Contact lost",
+            f"{attributes['contact_loss_count']}",
+            "times",
+            f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm",
+        )
 
 
 def _rows(run: Run) -> list[tuple[str, object, str]]:
@@ -65,11 +83,19 @@ def _rows(run: Run) -> list[tuple[str, object, str]]:
         low, high = run.scene.mesh_frequencies
         speed = low / run.scene.gears.pinion.teeth * factor("1/s", "1/min") if low == high else None
         rows.append(("couple on the wheel", run.scene.load.wheel_torque * factor("N mm", "N m"), "N m"))
-        rows.append(("mesh frequency", f"{low:g} Hz, the pinion at {speed:.5g} rpm" if speed is not None else f"{low:g} to {high:g} Hz", ""))
+        rows.append(
+            ("mesh frequency", f"{low:g} Hz, the pinion at {speed:.5g} rpm" if speed is not None else f"{low:g} to {high:g} Hz", "")
+        )
     rows.append(("stored", f"mesh cycles {phase[0]:g} to {phase[-1]:g}, {times[0]:.6g} s to {times[-1]:.6g} s, {run.steps:,} steps", ""))
     if "contact_loss_count" in attributes:
         count = attributes["contact_loss_count"]
-        rows.append(("contact of the drive flanks", f"lost {count} times, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost", ""))
+        rows.append(
+            (
+                "contact of the drive flanks",
+                f"lost {count} times, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost",
+                "",
+            )
+        )
     return rows
 
 

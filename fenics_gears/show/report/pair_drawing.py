@@ -27,7 +27,8 @@ def drawings(pair: GearPair) -> list[Plot]:
     close = _figure(pair, teeth, labels=True)
     _look_at(whole, *_whole(pair), height=620)
     _look_at(close, *_teeth(pair), height=560)
-    note = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres. Drag to zoom, double click to come back."
+    drawn = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres."
+    note = f"{drawn} Drag to zoom, double click to come back."
     return [Plot("The pair", whole, note, 620), Plot("Teeth along the path of contact", close, _points_in_words(pair), 560)]
 
 
@@ -71,7 +72,13 @@ def _figure(pair: GearPair, teeth: list[np.ndarray], labels: bool):
 
     for (name, gear), points, fill, centre in zip(gears, teeth, FILLS, _centres(pair)):
         line(name, points, color=DARK, width=1.2, trace={"fill": "toself", "fillcolor": fill})
-        line("bore", centre + _circle(gear.bore_radius), color=DARK, width=1.2, trace={"fill": "toself", "fillcolor": "white", "showlegend": False})
+        line(
+            "bore",
+            centre + _circle(gear.bore_radius),
+            color=DARK,
+            width=1.2,
+            trace={"fill": "toself", "fillcolor": "white", "showlegend": False},
+        )
     circles = {"base circles": ("base_radius", "dash", GREY), "reference circles": ("reference_radius", "dot", GREY)}
     for name, (radius, dash, colour) in circles.items():
         parts = [centre + _circle(getattr(gear, radius)) for (_, gear), centre in zip(gears, _centres(pair))]
@@ -80,7 +87,13 @@ def _figure(pair: GearPair, teeth: list[np.ndarray], labels: bool):
     line("path of contact", _on_line(pair, [pair.path_start, pair.path_end]), color=PALETTE[1], width=4)
     places = {name: place for name, place in _points(pair).items() if labels or name == "pitch point"}
     at = _on_line(pair, list(places.values()))
-    marks = {"mode": "markers+text", "text": list(places) if labels else None, "textposition": [*["top right"] * (len(places) - 1), "bottom left"], "hoverinfo": "text", "hovertext": list(places)}
+    marks = {
+        "mode": "markers+text",
+        "text": list(places) if labels else None,
+        "textposition": [*["top right"] * (len(places) - 1), "bottom left"],
+        "hoverinfo": "text",
+        "hovertext": list(places),
+    }
     traces.append(go.Scatter(
         x=numbers(at[:, 0]), y=numbers(at[:, 1]), name="points", showlegend=False, textfont={"size": 12, "color": DARK},
         marker={"size": 9, "color": "white", "line": {"color": DARK, "width": 1.6}}, **marks,
@@ -111,7 +124,8 @@ def _points(pair: GearPair) -> dict[str, float]:
 
 def _points_in_words(pair: GearPair) -> str:
     words = "; ".join(f"{name} {place:.3f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in _points(pair).items())
-    return f"From T1 on the line of action, with the pinion's roll angle: {words}. LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
+    meaning = "LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
+    return f"From T1 on the line of action, with the pinion's roll angle: {words}. {meaning if pair.fewest_pairs == 1 else ''}".strip()
 
 
 def _whole(pair: GearPair) -> tuple[np.ndarray, float]:

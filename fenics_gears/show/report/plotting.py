@@ -34,7 +34,15 @@ class Curve:
 
 
 def plot(
-    caption: str, curves: Sequence[Curve], x_title: str, y_title: str, *, least: float = 0.0, note: str = "", height: int = 300, linked: str = ""
+    caption: str,
+    curves: Sequence[Curve],
+    x_title: str,
+    y_title: str,
+    *,
+    least: float = 0.0,
+    note: str = "",
+    height: int = 300,
+    linked: str = "",
 ) -> Plot:
     """Curves over one axis. `least`: the smallest span that the second axis shows."""
     import plotly.graph_objects as go
@@ -55,19 +63,22 @@ def plot(
 def over_time(dataset: xr.Dataset, caption: str, y_title: str, curves: Sequence[tuple[str, np.ndarray, str]], **options) -> Plot:
     """Curves of name, values (time,) and colour over the mesh cycles; plots of this kind are zoomed together."""
     phase = dataset["mesh_phase"].values
-    return plot(caption, [Curve(name, phase, values, colour) for name, values, colour in curves], MESH_CYCLES, y_title, linked=TIME, **options)
+    return plot(
+        caption, [Curve(name, phase, values, colour) for name, values, colour in curves], MESH_CYCLES, y_title, linked=TIME, **options
+    )
 
 
 def layout(x_title: str, y_title: str, *, legend: bool) -> dict:
     """The look that all plots share."""
     axis = {
-        "gridcolor": GRID, "linecolor": GREY, "showline": True, "ticks": "outside", "tickcolor": GREY, "ticklen": 4, "zerolinecolor": "#C4C9CE",
-        "zerolinewidth": 1, "exponentformat": "none", "separatethousands": True,
+        "gridcolor": GRID, "linecolor": GREY, "showline": True, "ticks": "outside", "tickcolor": GREY, "ticklen": 4,
+        "zerolinecolor": "#C4C9CE", "zerolinewidth": 1, "exponentformat": "none", "separatethousands": True,
     }  # fmt: skip
     return {
         "template": "none",
         "font": {"family": FONT, "size": 13, "color": DARK},
-        # One left margin for all plots, so that the time axes of plots below each other match; above, room for plotly's buttons and the legend below them.
+        # One left margin for all plots, so that the time axes of plots below each other match; above, room for plotly's buttons and the
+        # legend below them.
         "margin": {"l": 80, "r": 16, "t": 40 if legend else 26, "b": 46},
         "showlegend": legend,
         "legend": {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom", "font": {"size": 12.5}},

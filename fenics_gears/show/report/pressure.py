@@ -24,7 +24,16 @@ def pressure(run: Run) -> Section:
     """Largest pressure at every step, and the map of the last mesh cycles."""
     heading = "Contact pressure"
     if "contact_pressure" not in run.dataset:
-        return Section("pressure", heading, [Words("There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the flank.")])
+        return Section(
+            "pressure",
+            heading,
+            [
+                Words(
+                    "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the "
+                    "flank."
+                )
+            ],
+        )
     if not run.has_curves:
         return Section("pressure", heading, [Words(TOO_FEW, warns=True)])
     curves = [

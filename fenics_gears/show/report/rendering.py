@@ -60,4 +60,3 @@ def _with_code(text: str):
 
 def _base64(content: bytes) -> str:
     return base64.b64encode(content).decode()
-

@@ -44,7 +44,11 @@ def _over_time(run: Run) -> list[Plot]:
     plots = [over_time(run.dataset, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
     for place, gear in enumerate(gears):
         curves = shared_curves(run.dataset["pair"].values, values[:, place])
-        plots.append(over_time(run.dataset, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)))
+        plots.append(
+            over_time(
+                run.dataset, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)
+            )
+        )
     section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "pair")
     at_section = in_unit(section, "MPa")
     curves = [
@@ -80,7 +84,9 @@ def _along_fillets(run: Run) -> list[Plot]:
             for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)
         ]
         phase = float(own["mesh_phase"].values[time])
-        caption = f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair'].values[pair])}, mesh cycle {phase:.3f}"
+        caption = (
+            f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair'].values[pair])}, mesh cycle {phase:.3f}"
+        )
         note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
         plots.append(plot(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
     return plots

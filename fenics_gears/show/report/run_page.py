@@ -41,5 +41,9 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
 def _alarm(run: Run) -> str:
     if run.complete:
         return ""
-    stopped = f" It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}; numbers are of the {run.steps} steps that are stored." if run.steps else " No step is stored."
+    stopped = (
+        f" It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}; numbers are of the {run.steps} steps that are stored."
+        if run.steps
+        else " No step is stored."
+    )
     return f"INCOMPLETE RUN.{stopped}"

@@ -28,12 +28,21 @@ def spectra(run: Run) -> Section:
     """Amplitudes over mesh orders, their table, and how they change from cycle to cycle in long records."""
     heading = "Spectra by mesh order"
     if not run.has_curves or run.cycles < 1.0 - 1e-9:
-        return Section("spectra", heading, [Words("Less than one mesh cycle is stored; its harmonics are not to be told from one another.", warns=not run.complete)])
+        return Section(
+            "spectra",
+            heading,
+            [Words("Less than one mesh cycle is stored; its harmonics are not to be told from one another.", warns=not run.complete)],
+        )
     signals = _signals(run)
     found = {name: spectrum(run, values) for name, (values, _) in signals.items()}
     blocks: list[Block] = []
     if run.scene is not None and run.scene.speed_ramp is not None:
-        blocks.append(Words("The mesh frequency changes through the record: orders stay in place, resonances pass through them. See the orders cycle by cycle."))
+        blocks.append(
+            Words(
+                "The mesh frequency changes through the record: orders stay in place, resonances pass through them. "
+                "See the orders cycle by cycle."
+            )
+        )
     for name, (_, unit) in signals.items():
         blocks.append(_plot(run, name, unit, found[name]))
     if FORCE not in signals:
@@ -81,10 +90,12 @@ def _plot(run: Run, name: str, unit: str, found: Spectrum) -> Plot:
 def _scales() -> dict:
     """Buttons for a linear and a logarithmic scale."""
     choices = {"linear": "linear", "logarithmic": "log"}
-    buttons = [{"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()]
+    buttons = [
+        {"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()
+    ]
     return {
-        "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03, "yanchor": "bottom", "showactive": True,
-        "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12}, "bgcolor": "white", "bordercolor": "#C4C9CE",
+        "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03, "yanchor": "bottom",
+        "showactive": True, "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12}, "bgcolor": "white", "bordercolor": "#C4C9CE",
     }  # fmt: skip
 
 
@@ -107,11 +118,17 @@ def spectrum(run: Run, values: np.ndarray) -> Spectrum:
         if found is not None and found.exact:
             periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)
             record = f"of {periods} hunting tooth period{'s' if periods > 1 else ''} ({lcm(*teeth)} mesh cycles each)"
-            return Spectrum(replace(found, orders=found.orders / teeth[0]), np.array([origin(order, teeth) for order in found.orders]), record)
+            return Spectrum(
+                replace(found, orders=found.orders / teeth[0]), np.array([origin(order, teeth) for order in found.orders]), record
+            )
     lines = order_lines(values, run.cycles, (1, 1))
     origins = np.where(np.abs(lines.orders - np.round(lines.orders)) < 1e-6, MESH, BETWEEN)
     whole = int(run.cycles * (1 + 1e-9))
-    words = f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}" if lines.exact else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
+    words = (
+        f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}"
+        if lines.exact
+        else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
+    )
     return Spectrum(lines, origins, words)
 
 

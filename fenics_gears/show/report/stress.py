@@ -29,7 +29,8 @@ def stress(run: Run) -> Section:
         return Section("stress", HEADING, [Words(f"It could not be drawn: {error}", warns=True)])
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
     since = float(run.dataset["mesh_phase"].values[index] - run.dataset["mesh_phase"].values[0])
-    note = f"{since:.4g} mesh cycles after the first stored step, {when}; `gears picture RUN --at PHASE` draws other times, `--animate` a turn."
+    others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
+    note = f"{since:.4g} mesh cycles after the first stored step, {when}; {others}"
     return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note)])
 
 

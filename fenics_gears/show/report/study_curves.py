@@ -26,7 +26,11 @@ def result_plots(cases: Cases) -> list[Plot]:
 def effort_plots(cases: Cases) -> list[Plot]:
     """What the cases took."""
     of = {"wall_time": ("s", "Wall time of a case"), "newton_iterations": ("", "Newton iterations of a case")}
-    return [over_parameter(cases, cases.numbers(name), unit, words) for name, (unit, words) in of.items() if np.isfinite(cases.numbers(name)).any()]
+    return [
+        over_parameter(cases, cases.numbers(name), unit, words)
+        for name, (unit, words) in of.items()
+        if np.isfinite(cases.numbers(name)).any()
+    ]
 
 
 def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str) -> Plot:
@@ -52,7 +56,14 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str) -> Pl
         Curve(words, axis.values[places], values[places], PALETTE[turn % len(PALETTE)], DASHES[turn // len(PALETTE)], mode=mode)
         for turn, (words, places) in enumerate(lines)
     ]
-    drawn = plot(f"{name} over {axis.path}", curves, axis.title, y_title, note=note, height=HEIGHT + LEGEND_ROW * _further_rows([words for words, _ in lines]))
+    drawn = plot(
+        f"{name} over {axis.path}",
+        curves,
+        axis.title,
+        y_title,
+        note=note,
+        height=HEIGHT + LEGEND_ROW * _further_rows([words for words, _ in lines]),
+    )
     if logarithmic(axis):
         drawn.figure.update_xaxes(type="log")
     return drawn
@@ -94,7 +105,9 @@ def _lines(cases: Cases, axis: Field, others: list[Field]) -> list[tuple[str, np
         if not axis.numeric or np.isfinite(axis.values[case]):
             groups.setdefault(", ".join(field.setting(case) for field in others), []).append(case)
     in_order = [(words, np.array(places)) for words, places in groups.items()]
-    return [(words or "cases", places[np.argsort(axis.values[places], kind="stable")] if axis.numeric else places) for words, places in in_order]
+    return [
+        (words or "cases", places[np.argsort(axis.values[places], kind="stable")] if axis.numeric else places) for words, places in in_order
+    ]
 
 
 def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str) -> Plot:
@@ -106,7 +119,10 @@ def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str) -
     grid = np.full((len(y), len(x)), np.nan)
     grid[row, column] = values
     colours = {"colorscale": "Viridis", "colorbar": {"title": {"text": escaped(title), "side": "right"}, "thickness": 14}}
-    figure = go.Figure(go.Heatmap(x=numbers(x), y=numbers(y), z=[numbers(each) for each in grid], hoverongaps=False, **colours), layout(axis.title, other.title, legend=False))
+    figure = go.Figure(
+        go.Heatmap(x=numbers(x), y=numbers(y), z=[numbers(each) for each in grid], hoverongaps=False, **colours),
+        layout(axis.title, other.title, legend=False),
+    )
     figure.update_layout(hovermode="closest")
     for field, update in ((axis, figure.update_xaxes), (other, figure.update_yaxes)):
         update(showgrid=False, type="log" if logarithmic(field) else "linear")
