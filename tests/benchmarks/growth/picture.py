@@ -59,7 +59,7 @@ def _times(panel: Axes, axis: Axis, points: Points) -> None:
     _logarithmic(panel)
     panel.set_title(axis.words if len(axis.words) < 52 else axis.words.replace(", ", ",\n", 1))
     panel.set_ylabel("Processor time (s)")
-    panel.legend(fontsize=9, loc="upper left", borderaxespad=0.2)
+    panel.legend(fontsize=9, loc="upper left", borderaxespad=0.2).set_in_layout(False)
     low, high = panel.get_ylim()
     # Room for the legend.
     panel.set_ylim(low, high * (high / low) ** 0.55)
@@ -80,7 +80,7 @@ def _memory(panel: Axes, axis: Axis, points: Points) -> None:
     _logarithmic(panel)
     panel.set_ylabel("Memory (MiB)")
     panel.set_xlabel(axis.name[0].upper() + axis.name[1:])
-    panel.legend(fontsize=8.5, loc="upper left", ncol=2, borderaxespad=0.2, columnspacing=1.0)
+    panel.legend(fontsize=8.5, loc="upper left", ncol=2, borderaxespad=0.2, columnspacing=1.0).set_in_layout(False)
     low, high = panel.get_ylim()
     panel.set_ylim(low, high * (high / low) ** 0.5)
 

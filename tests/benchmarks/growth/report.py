@@ -13,7 +13,7 @@ Points = Sequence[Mapping[str, float]]
 STAGES = ("mesh", "assemble", "schur", "ring", "fourier", "condense", "operators", "solving")
 WORDS = {
     "mesh": "meshing", "assemble": "condensing: assembling", "schur": "condensing: Schur complement", "ring": "condensing: ring of sectors",
-    "fourier": "the ring by its Fourier transform, for comparison",
+    "fourier": "instead: ring by Fourier transform",
     "condense": "condensing", "operators": "marching: operators", "solving": "marching: solving",
 }  # fmt: skip
 MEBI = 2.0**20
