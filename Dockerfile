@@ -5,6 +5,6 @@ RUN /opt/fenics_gears/gears --set-up-only \
     && apt-get clean && rm -rf /var/lib/apt/lists/*
 # mpirun as root, for studies: docker run --entrypoint mpirun gears -n 4 gears study STUDY
 ENV OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-RUN ln -s /opt/fenics_gears/gears /usr/local/bin/gears
+RUN ln -sf /opt/fenics_gears/gears /usr/local/bin/gears
 WORKDIR /scenes
 ENTRYPOINT ["gears"]
