@@ -8,6 +8,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
 from pydantic import BaseModel
 
 from fenics_gears.scene.names import did_you_mean
@@ -95,6 +96,9 @@ def _section_lines(section: Mapping[str, Any], path: Path) -> Iterator[str]:
 
 def toml_value(value: Any) -> str:
     """A value, a table of values included, in TOML's spelling on one line."""
+    if isinstance(value, np.generic):
+        # From numpy 2 on it spells itself np.float64(0.1).
+        value = value.item()
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{name} = {toml_value(inner)}" for name, inner in value.items()) + " }"
     if isinstance(value, list):

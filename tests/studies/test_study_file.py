@@ -119,6 +119,12 @@ def test_a_scene_written_again_says_the_same():
     assert tomllib.loads(fields.as_toml(tree)) == tree
 
 
+@pytest.mark.parametrize("value, spelt", [(np.float64(0.1), "0.1"), (np.int64(3), "3"), (np.bool_(True), "true"), (np.str_("a"), '"a"')])
+def test_numpys_values_are_spelt_as_pythons(value, spelt):
+    """Authority: TOML; numpy 2 spells its own np.float64(0.1)."""
+    assert fields.toml_value(value) == spelt
+
+
 WRONG = {
     "no sweep": ("", ["sweep", "is missing"]),
     "empty sweep": ("[sweep]\n", ["sweep", "is missing"]),

@@ -9,6 +9,7 @@ from dataclasses import asdict, replace
 import xarray as xr
 
 from fenics_gears.progress import Progress
+from fenics_gears.results.attributes import ESTIMATED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.simulation import simulate
 from fenics_gears.studies.fields import as_toml, changed
@@ -41,10 +42,10 @@ def with_settings(scene: Scene, accuracy: Accuracy) -> Scene:
 
 
 def _written(name: str, value):
-    return f"{value!r} mm" if name in LENGTHS else value
+    return f"{float(value)!r} mm" if name in LENGTHS else value
 
 
 def _told(target: float, chosen: Chosen) -> dict:
-    parts = {f"estimated_error: {name}": part for name, part in chosen.parts.items()}
+    parts = {f"{ESTIMATED}{name}": part for name, part in chosen.parts.items()}
     remarks = {"target_runs": chosen.runs, "target_remarks": "\n".join(chosen.remarks)}
     return {"target": target, "estimated_error": chosen.estimated_error, **parts, **remarks}
