@@ -17,6 +17,7 @@ from fenics_gears import results
 from fenics_gears.cli import main
 from fenics_gears.show.report.effects import effects
 from fenics_gears.show.report.run import Run
+from fenics_gears.show.report.stress import stress
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[2]
@@ -135,6 +136,16 @@ def test_a_scene_of_another_version_still_has_its_curves(run, tmp_path):
     page = page_of(results.load(run / "run.nc").assign_attrs(scene="[unheard_of]\n"), tmp_path)
     assert "Transmission error" in captions(page) and "none of this version" in page.sections["geometry"]
     assert "none of this version" in page.sections["effects"]
+
+
+def test_a_scene_whose_meshes_are_elsewhere_has_the_rest_of_its_page(run, tmp_path):
+    """A run's file has its scene's text, not the meshes that it names: the page tells what does not need them."""
+    dataset = results.load(run / "run.nc")
+    meshed = dataset.assign_attrs(scene=dataset.attrs["scene"].replace("root_stress = true", "") + '\n[body_meshes]\npinion = "nowhere.msh"\n')
+    page = page_of(meshed, tmp_path)
+    assert page.faults == [] and list(page.sections) == SECTIONS and "contact ratio" in page.sections["geometry"]
+    assert "cannot be told without" in page.sections["solver"] and "nowhere.msh" in page.sections["solver"]
+    assert "meshed as a whole" in stress(Run(meshed, tmp_path / "run.nc")).blocks[0].text
 
 
 def measured_lines(dataset, error):

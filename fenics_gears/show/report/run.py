@@ -8,11 +8,9 @@ from pathlib import Path
 
 import xarray as xr
 
-from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model import Model, model
 from fenics_gears.scene.data import Scene
-from fenics_gears.show.run_scene import scene_of
+from fenics_gears.show.run_scene import gear_pair_of, scene_of
 from fenics_gears.show.units import factor
 
 NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
@@ -38,17 +36,9 @@ class Run:
         return scene_of(self.dataset)
 
     @cached_property
-    def model(self) -> Model | None:
-        """What follows from the scene; None as for the scene."""
-        try:
-            return None if self.scene is None else model(self.scene)
-        except GearsError:
-            return None
-
-    @property
     def pair(self) -> GearPair | None:
         """The gear pair; None as for the scene."""
-        return None if self.model is None else self.model.pair
+        return gear_pair_of(self.dataset)
 
     @property
     def steps(self) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fenics_gears.description import describe
 from fenics_gears.errors import GearsError
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.page import Beside, Block, Facts, Section, Table
+from fenics_gears.show.report.page import Beside, Block, Facts, Section, Table, Words
 from fenics_gears.show.report.plotting import over_time
 from fenics_gears.show.report.run import Run
 from fenics_gears.summary import solver_rows, stage_rows
@@ -17,7 +17,7 @@ RUNG = "steps_by_rung: "
 
 def solver(run: Run) -> Section:
     """Settings and statistics."""
-    blocks: list[Block] = [Beside([Facts(rows, heading) for heading, rows in _described(run)])]
+    blocks: list[Block] = [_described(run)]
     attributes = run.dataset.attrs
     rungs = [(name.removeprefix(RUNG), int(count)) for name, count in attributes.items() if name.startswith(RUNG)]
     of_run = {"steps": "steps of the whole run", "newton_iterations_total": "Newton iterations of the whole run"}
@@ -37,9 +37,10 @@ def solver(run: Run) -> Section:
     return Section("solver", "Model and solver", blocks)
 
 
-def _described(run: Run) -> list[tuple[str, list]]:
+def _described(run: Run) -> Block:
+    """Model, accuracy and natural frequencies; why not, where the scene needs what is not here, such as files of meshes."""
     try:
         sections = () if run.scene is None else describe(run.scene).sections
-    except GearsError:
-        return []
-    return [(heading, rows) for heading, rows in sections if heading.startswith(DESCRIBED)]
+    except GearsError as error:
+        return Words(f"Model and accuracy cannot be told without what the scene was run with: {str(error).splitlines()[0]}")
+    return Beside([Facts(rows, heading) for heading, rows in sections if heading.startswith(DESCRIBED)])

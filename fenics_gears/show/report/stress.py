@@ -22,6 +22,12 @@ def stress(run: Run) -> Section:
         return Section("stress", HEADING, [Words(NO_SCENE if run.steps else "No step is stored.", warns=True)])
     if not run.scene.resolves_contact:
         return Section("stress", HEADING, [Words("There is none: this run's flanks are rigid or its mesh is one of springs.")])
+    if run.scene.body_meshes is not None:
+        return Section(
+            "stress",
+            HEADING,
+            [Words("There is none: stresses are recovered from gears of equal sectors, and these are meshed as a whole.")],
+        )
     index = _most_loaded(run) if run.at is None else stored_index(run.dataset, run.at)
     try:
         content = _drawn(run, index)
