@@ -6,7 +6,7 @@ import math
 
 from fenics_gears.contact.ladder import LADDER, PUBLISHED
 from fenics_gears.resolution import EVERY_STEP
-from fenics_gears.results.attributes import RUNG
+from fenics_gears.results.attributes import ESTIMATED, RUNG
 
 MICROMETRES = 1e3
 
@@ -72,8 +72,7 @@ def _estimated_error(attributes) -> list[tuple[str, str, str]]:
     """What a target asked for and what is estimated, with the settings and the knob that limits them; nothing without a target."""
     if "target" not in attributes:
         return []
-    start = "estimated_error: "
-    parts = {name.removeprefix(start): error for name, error in attributes.items() if name.startswith(start)}
+    parts = {name.removeprefix(ESTIMATED): error for name, error in attributes.items() if name.startswith(ESTIMATED)}
     worst = max(parts, key=parts.__getitem__)
     settings = (
         f"{attributes['element']}, flank elements {attributes['flank_element_size']:.3g} mm, {attributes['contact_nodes']} contact nodes over "

@@ -1,6 +1,7 @@
 """The attributes of a result: what each is, and when it is there. A test holds the results of runs to this list.
 
-What may be in a result beside them: one attribute for each rung of the solver's ladder, by the prefix ``RUNG``.
+What may be in a result beside them: one attribute for each rung of the solver's ladder, by the prefix ``RUNG``, and one for each knob whose
+error was estimated, by the prefix ``ESTIMATED``.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 RUNG = "steps_by_rung: "
+ESTIMATED = "estimated_error: "
 
 
 @dataclass(frozen=True)
@@ -24,6 +26,7 @@ WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
 WITH_FRICTION = "`[friction]`, and teeth that move and press"
 AFTER_LOSS = "contact was lost"
 WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
+WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
 
 RESULT_ATTRIBUTES = (
@@ -55,8 +58,13 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("steps_per_mesh_cycle", "1", "time steps of a mesh cycle that were used"),
     ResultAttribute("condensation", "", "how often the gears were condensed"),
     ResultAttribute("model", "", "what the mesh was computed as"),
+    ResultAttribute("target", "1", "the error asked for, in parts of 1", WITH_TARGET),
+    ResultAttribute("estimated_error", "1", "estimated error of the transmission error's curve and of its height, the larger, in parts of 1", WITH_TARGET),
+    ResultAttribute("target_runs", "1", "runs by which the settings were chosen", WITH_TARGET),
+    ResultAttribute("target_remarks", "", "knobs whose errors do not fall with the order expected, a line each", WITH_TARGET),
     ResultAttribute("steps", "1", "time steps of the whole run"),
     ResultAttribute("newton_iterations_total", "1", "Newton iterations of the whole run"),
+    ResultAttribute("time_choose", "s", "wall time of choosing settings", WITH_TARGET),
     ResultAttribute("time_mesh", "s", "wall time of meshing; 0 for gears from the cache"),
     ResultAttribute("time_condense", "s", "wall time of assembling and condensing"),
     ResultAttribute("time_compile", "s", "wall time of compiling"),
@@ -71,4 +79,4 @@ RESULT_ATTRIBUTES = (
 def undeclared(attributes) -> set[str]:
     """Names among a result's attributes that are not in the list."""
     declared = {each.name for each in RESULT_ATTRIBUTES}
-    return {name for name in attributes if name not in declared and not name.startswith(RUNG)}
+    return {name for name in attributes if name not in declared and not name.startswith((RUNG, ESTIMATED))}

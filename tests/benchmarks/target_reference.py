@@ -15,9 +15,9 @@ from fenics_gears.studies.accuracy.timing import KeptGears
 
 # Elements in a half-width, contact nodes 0.7 of them apart; body elements in parts of their default; steps in a cycle. What a knob still
 # adds to the base is measured with few steps where it is not the steps'.
-RUNGS = {"flank": (2.8, 5.6, 11.2), "body": (2.0, 1.0, 0.5), "steps": (640, 1280, 2560)}
-BASE = {"flank": 2.8, "body": 1.0, "steps": 640}
-FEW_STEPS = 160
+RUNGS = {"flank": (2.8, 5.6, 11.2), "body": (2.0, 1.0, 0.5), "steps": (1280, 2560, 5120)}
+BASE = {"flank": 2.8, "body": 1.0, "steps": 1280}
+FEW_STEPS = 320
 EXPECTED = {"flank": 1.5, "body": 2.0, "steps": 1.5}
 
 
