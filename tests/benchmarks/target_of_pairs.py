@@ -97,7 +97,8 @@ def in_turns(scene: Scene, settings: tuple[Setting, ...]) -> tuple[Times, ...]:
     times = [Times() for _ in settings]
     for _ in range(ROUNDS):
         for place, setting in enumerate(settings):
-            times[place] = times[place].and_also(run_afresh(replace(scene, accuracy=setting.accuracy(scene.gears.module))))
+            run, _ = run_afresh(replace(scene, accuracy=setting.accuracy(scene.gears.module)))
+            times[place] = times[place].and_also(run)
     return tuple(times)
 
 
@@ -109,7 +110,7 @@ def rows_of(name: str, scene: Scene) -> tuple[list[Row], Reference]:
     candidates, rows = searched(scene, known, window), []
     for target in TARGETS:
         chosen = choose(scene, target, SilentProgress())
-        run = run_afresh(replace(scene, accuracy=chosen.accuracy))
+        run, _ = run_afresh(replace(scene, accuracy=chosen.accuracy))
         _, error, cheapest = next(each for each in candidates if each[1] <= target)
         times = in_turns(scene, (chosen.setting, cheapest))
         rows.append(

@@ -39,7 +39,7 @@ def numbers(section):
         ("inertia", [4.9e-3, 24.5]),
         ("damping", [0.4e-3, 0.5e-3]),
         ("friction", [0.1]),
-        ("accuracy", ["P2", 0.08, 1.5, 20, 100, "once", None, None, None, None]),
+        ("accuracy", ["P2", 0.08, 1.5, 20, 100, "once", None, None, None, None, None]),
     ],
 )
 def test_the_demo_has_the_papers_numbers(section, by_hand):

@@ -167,7 +167,7 @@ def test_all_accuracy_is_that_of_the_whole_scene():
     assert "[accuracy]" not in text and "[gears.material]" in text
     scene = measured.at_one_accuracy(scene_from_text(text))
     # What these leave out is the same in every scene of the same gears.
-    alike = ("body_element_size", "interpolation", "elastic_teeth", "model")
+    alike = ("body_element_size", "interpolation", "elastic_teeth", "model", "target")
     assert None not in [value for name, value in vars(scene.accuracy).items() if name not in alike]
     assert {subset.scene.accuracy for subset in lattice(scene)[0]} == {scene.accuracy}
 
