@@ -34,10 +34,10 @@ def main(arguments, description) -> int:
     trials = []
     for suite in options.suites or SUITES:
         root = Root(suite, options.roots / suite)
-        trial = Trial(suite, options.logs / suite)
+        trial = Trial(suite, options.logs / suite, options.quick)
         trials.append(trial)
         trial.logs.mkdir(parents=True, exist_ok=True)
-        try_out(trial, root, git("archive", "HEAD"), CHECKOUT, reuse=options.reuse, expired=options.expired, quick=options.quick, own=own)
+        try_out(trial, root, git("archive", "HEAD"), CHECKOUT, reuse=options.reuse, expired=options.expired, own=own)
         if not options.keep and not options.reuse and trial.is_green:
             root.remove()
     text = table(trials)

@@ -49,7 +49,7 @@ class Root:
         return (self.folder / "etc/apt/sources.list").exists()
 
     def make(self, log: Path, expired=False) -> Call:
-        """Make it anew, as small as Docker's slim images. expired: take lists of packages past their date, as snapshots of a mirror have."""
+        """Make it anew, as small as Docker's slim images. expired: take package lists past their date, as snapshots have."""
         self.remove()
         self.folder.parent.mkdir(parents=True, exist_ok=True)
         as_docker = ["--dpkgopt=force-unsafe-io", '--aptopt=Acquire::Languages "none"']

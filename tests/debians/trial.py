@@ -54,6 +54,8 @@ class Trial:
 
     suite: str
     logs: Path
+    quick: bool = False
+    """Whether only a few tests are tried."""
     versions: dict[str, str] = field(default_factory=dict)
     set_up_seconds: dict[str, float] = field(default_factory=dict)
     calls: dict[str, Call] = field(default_factory=dict)
@@ -79,7 +81,7 @@ class Trial:
         return self.logs / f"{name.replace(' ', '_')}.log"
 
 
-def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=False, expired=False, quick=False, own=()) -> None:
+def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=False, expired=False, own=()) -> None:
     """Try everything on a fresh system (with `reuse` on the one that is there), or the command `own` after the set-up; fills the trial."""
     docker = read_dockerfile(checkout / "Dockerfile")
     if not (reuse and root.is_there()) and not trial.note("system", root.make(trial.log("system"), expired)):
@@ -98,7 +100,7 @@ def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=Fals
         call("command", *own, environment=AS_ROOT)
     elif call("set-up of the tests", "./gears", "--set-up-only", "--test"):
         trial.set_up_seconds["tests"] = _seconds_of_set_up(trial.calls["set-up of the tests"].output)
-        _run_tests(trial, root, call, quick)
+        _run_tests(trial, root, call)
     else:
         return
     trial.is_whole = True
@@ -124,14 +126,14 @@ def _seconds_of_set_up(output):
     return float(told[1]) if told else 0.0
 
 
-def _run_tests(trial, root, call, quick):
+def _run_tests(trial, root, call):
     """The suite alone, then what ranks can run by themselves with caches of their own, cold as on a cluster's first job."""
     folder = root.empty_folder(RESULTS)
-    call("tests", "./gears", "test", "-rfEs", f"--junitxml={RESULTS}/tests.xml", *(QUICK if quick else ()))
+    call("tests", "./gears", "test", "-rfEs", f"--junitxml={RESULTS}/tests.xml", *(QUICK if trial.quick else ()))
     trial.tests[1] = counted([folder / "tests.xml"])
     for ranks in RANKS:
         each = f"rank={RESULTS}/{ranks}.$OMPI_COMM_WORLD_RANK\n" + OF_EACH_RANK
-        which = ["-m", "not nightly and not ranks", *(QUICK_OF_RANKS if quick else OF_RANKS)]
+        which = ["-m", "not nightly and not ranks", *(QUICK_OF_RANKS if trial.quick else OF_RANKS)]
         mpirun = ["mpirun", "--oversubscribe", "-n", str(ranks)]
         call(f"{ranks} ranks", *mpirun, "sh", "-c", each, "sh", *which, environment={**AS_ROOT, "XDG_CACHE_HOME": f"/tmp/cache_of_{ranks}"})
         for log in folder.glob(f"{ranks}.*.log"):

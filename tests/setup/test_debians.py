@@ -93,7 +93,7 @@ def test_one_column_for_each_debian_and_one_verdict(tmp_path):
     cells = {line.split("|")[1].strip(): [cell.strip() for cell in line.split("|")[2:-1]] for line in lines}
     assert cells[""] == ["Debian 13", "unstable", "Debian 12"]
     assert cells["DOLFINx"] == ["0.9.0", "0.9.0", "-"]
-    assert cells["suite: passed, failed, skipped"] == ["10, 0, 1", "10, 0, 1", "-"]
+    assert cells["the suite: passed, failed, skipped"] == ["10, 0, 1", "10, 0, 1", "-"]
     assert cells["all green"] == ["yes", "NO", "NO"]
     assert len({len(line) for line in lines}) == 1
 
@@ -103,6 +103,13 @@ def test_why_tests_were_skipped_is_told(tmp_path):
     trial = green("trixie", tmp_path)
     trial.tests[1] = Counts(10, 0, 2, 2.0, complete=True, reasons=("no CalculiX",))
     assert table([trial, green("sid", tmp_path)]).splitlines()[-1] == "Skipped on Debian 13: no CalculiX."
+
+
+def test_few_tests_are_not_called_the_suite(tmp_path):
+    """The table of --quick says so."""
+    trial = green("trixie", tmp_path)
+    trial.quick = True
+    assert "a few of the suite: passed" in table([trial]) and "| the suite" not in table([trial])
 
 
 def test_a_call_that_fails_is_not_green(tmp_path):
