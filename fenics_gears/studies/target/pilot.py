@@ -34,7 +34,7 @@ LADDER_NAMES = {FLANK: "contact node spacing", BODY: BODY, STEPS: STEPS}
 COARSEST = {FLANK: 0.7, BODY: 4.0, STEPS: 20}
 RUNGS = 3
 # The rung on which the others stand while one knob is turned.
-BASE_RUNG = {FLANK: 1, BODY: 2, STEPS: 2}
+BASE_RUNG = {FLANK: 2, BODY: 2, STEPS: 2}
 # By how much the contact window is lengthened where it cuts contact off.
 LONGER = 1.25
 
