@@ -1,19 +1,20 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
 Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (what was done is kept, marked
-incomplete), 130 interrupted by Ctrl-C (likewise).
+incomplete), 130 interrupted by Ctrl-C (likewise), 141 the reader of its output closed it.
 """
 
 from __future__ import annotations
 
 import argparse
 import logging
+import os
 import sys
 from collections.abc import Sequence
 
 from fenics_gears import __version__, environment
 from fenics_gears.commands import accuracy, check, effects, export, import_rexs, picture, plot, report, run, study, tests
-from fenics_gears.commands.exit_codes import INTERRUPTED
+from fenics_gears.commands.exit_codes import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 
 
@@ -32,10 +33,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _reported(command) -> int:
     """The command's exit code, with errors said in words."""
     try:
-        return command()
+        code = command()
+        sys.stdout.flush()
+        return code
     except GearsError as error:
         print(error, file=sys.stderr)
         return error.exit_code
+    except BrokenPipeError:
+        # Nobody reads on, as in `gears check SCENE | head`; what Python writes when it ends goes nowhere too.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return NOBODY_READS
     except (KeyboardInterrupt, SystemError) as error:
         # Compiled code that Ctrl-C hits in the middle turns it into a SystemError.
         if not isinstance(error, KeyboardInterrupt) and not isinstance(error.__cause__, KeyboardInterrupt):

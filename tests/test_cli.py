@@ -360,3 +360,14 @@ def test_a_bar_stops_where_the_work_stopped():
     bar.close()
     last = console.file.getvalue().rpartition("march")[2]
     assert "30/100" in last and "100/100" not in last
+
+
+def test_a_reader_that_goes_away_is_no_error():
+    """A shell's convention: `gears check SCENE | true` ends with 128 + SIGPIPE and says nothing."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(
+        [sys.executable, "-m", "fenics_gears", "check", str(DEMO)], stdout=writing, stderr=subprocess.PIPE, text=True
+    )
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, "")
