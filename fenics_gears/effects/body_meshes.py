@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.scene.fields import Section, text
+from fenics_gears.scene.fields import Section, file_name
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree, table
 from fenics_gears.scene.written import as_written
@@ -38,8 +38,12 @@ class BodyMeshes:
 class BodyMeshesText(Section):
     """``[body_meshes]``: files of gmsh, from the scene file's folder on; lengths in mm."""
 
-    pinion: Optional[str] = text(4000, meaning="mesh file of the whole pinion, from the scene file's folder on", otherwise="a ring of equal sectors")
-    wheel: Optional[str] = text(4000, meaning="mesh file of the whole wheel, from the scene file's folder on", otherwise="a ring of equal sectors")
+    pinion: Optional[str] = file_name(
+        ".msh", "pinion.msh", meaning="mesh file of the whole pinion, from the scene file's folder on", otherwise="a ring of equal sectors"
+    )
+    wheel: Optional[str] = file_name(
+        ".msh", "wheel.msh", meaning="mesh file of the whole wheel, from the scene file's folder on", otherwise="a ring of equal sectors"
+    )
 
 
 def read(written: BodyMeshesText) -> BodyMeshes:

@@ -138,6 +138,9 @@ class AllowedEither(Allowed):
         return Measured(number, kind)
 
 
+# The longest path that Linux takes.
+LONGEST_FILE_NAME = 4096
+
 _PERCENTAGE = re.compile(r"\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*%\s*")
 
 
@@ -160,6 +163,23 @@ class AllowedPercentage(Allowed):
         if reason:
             raise refused(reason)
         return 0.01 * float(found[1])
+
+
+@dataclass(frozen=True)
+class AllowedFile(Allowed):
+    """The name of a file with a certain ``ending``, such as ".msh"."""
+
+    ending: str = ""
+
+    def convert(self, value: Any) -> str:
+        """The name as it is. Raises PydanticCustomError for what cannot be one."""
+        if not isinstance(value, str):
+            raise refused("is not a text.")
+        if not value.strip():
+            raise refused("is empty.")
+        if not value.endswith(self.ending) or value == self.ending:
+            raise refused(f"is not the name of a file that ends in {self.ending}.")
+        return value
 
 
 class Section(BaseModel):
@@ -263,6 +283,12 @@ def choice(*names: str, meaning: str, otherwise: str) -> Any:
 def text(longest: int, *, meaning: str, otherwise: str) -> Any:
     """A text, optional."""
     return _field(Allowed(f"a text of at most {longest} characters", meaning=meaning, otherwise=otherwise), max_length=longest)
+
+
+def file_name(ending: str, example: str, *, meaning: str, otherwise: str) -> Any:
+    """The name of a file that ends in ``ending``, optional."""
+    description = f'the name of a file that ends in {ending}, of at most {LONGEST_FILE_NAME} characters, such as "{example}"'
+    return _field(AllowedFile(description, meaning=meaning, otherwise=otherwise, ending=ending), max_length=LONGEST_FILE_NAME)
 
 
 def switch(*, meaning: str) -> Any:
