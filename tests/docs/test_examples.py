@@ -85,7 +85,15 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
             (tmp_path / "study.toml").write_text(block.code, encoding="utf-8")
             assert load_study(tmp_path / "study.toml").cases
         else:
-            scene_from_text(as_toml(merged(tomllib.loads(DEMO), tree)), f"{name_of(page)}:{block.line}")
+            scene_from_text(as_toml(merged(around(tree), tree)), f"{name_of(page)}:{block.line}")
+
+
+def around(piece):
+    """The demo, without the settings that a target chooses where the piece has one."""
+    scene = tomllib.loads(DEMO)
+    if "target" in piece.get("accuracy", {}):
+        del scene["accuracy"]
+    return scene
 
 
 def merged(scene, piece):
@@ -99,7 +107,7 @@ def merged(scene, piece):
 def calls_of_gears(text):
     """Arguments of each call of the program in lines of a shell, or in code in a sentence."""
     for line in text.splitlines():
-        words = shlex.split(line.replace("`", ""), comments=True)
+        words = shlex.split(line.partition(" | ")[0].replace("`", ""), comments=True)
         places = [i for i, word in enumerate(words) if word in ("gears", "./gears")]
         if places and (places[0] == 0 or words[0] in STARTERS):
             yield [STAND_FOR.get(word, word) for word in (word.strip("[]") for word in words[places[0] + 1 :]) if word != "..."]
