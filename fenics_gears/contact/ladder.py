@@ -90,7 +90,7 @@ def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 4
 
 
 def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[int, Callable]]:
-    """The rungs that apply, each with its place in LADDER; without friction the first and the sixth.
+    """The rungs that apply, each with its place in LADDER; without friction the first and the last two.
 
     Murty's rule stands before Tresca's fixed point since it costs about a hundredth, and finds what it finds exactly.
     """
@@ -101,11 +101,10 @@ def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Ite
         yield 3, lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
         yield 4, lambda: _friction_from_zero(problem, status, max_iterations)
     yield 5, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
-    if len(problem.slip_before):
-        # Few frictional runs, and no others, come this far.
-        from fenics_gears.contact.tresca import tresca
+    # Few runs come this far.
+    from fenics_gears.contact.tresca import tresca
 
-        yield 6, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
+    yield 6, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
 
 
 def run_newton(

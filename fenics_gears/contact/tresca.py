@@ -5,7 +5,8 @@ With frozen bounds the step is the minimum of the energy (model.md section 4): o
     1/2 p^T C p + 1/2 z^T z + gap . p_n - w_old . p_t   subject to   L z + G^T p = F,  p_n >= 0,  |p_t| <= s
 
 whose multipliers of the equality are the centre coordinates q, also where K is singular and only contact holds the load. The sets
-that the programme settles on are handed to Newton, so that the answer is as exact as any other rung's.
+that the programme settles on are handed to Newton, so that the answer is as exact as any other rung's. Without friction there are no bounds, and
+one programme is enough: it also solves contact nodes so close that elasticity hardly tells them apart, where sets alternate for ever.
 """
 
 from __future__ import annotations
@@ -100,7 +101,7 @@ def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
     if found["status"] != "optimal" and not found["primal infeasibility"] < 1e-6:
         return None
     primal, pressed, slack = (np.array(found[name]).ravel() for name in ("x", "z", "s"))
-    forces = np.zeros(2 * n)
+    forces = np.zeros(len(problem.compliance))
     forces[rows] = primal[:size] * force
     # The equality's multiplier has the sign that adds it to the energy.
     coordinates = -np.array(found["y"]).ravel() * force * soft
@@ -111,8 +112,10 @@ def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
 def _sets(problem, forces: np.ndarray, coordinates: np.ndarray, rubbing: np.ndarray, active: np.ndarray) -> np.ndarray:
     """What each node does; `active`: bounds that hold it, lower normals, then upper and lower tangents of the nodes `rubbing`."""
     n, tangents = len(problem.gap), len(rubbing)
-    slip = problem.rigid[n:] @ coordinates - problem.compliance[n:] @ forces + problem.slip_before
-    sets = np.where(slip >= 0.0, SLIP_FORWARD, SLIP_BACKWARD).astype(np.int8)
+    sets = np.full(n, SLIP_FORWARD, dtype=np.int8)
+    if len(problem.slip_before):
+        slip = problem.rigid[n:] @ coordinates - problem.compliance[n:] @ forces + problem.slip_before
+        sets[slip < 0.0] = SLIP_BACKWARD
     upper, lower = active[n : n + tangents], active[n + tangents :]
     sets[rubbing] = np.where(upper, SLIP_FORWARD, np.where(lower, SLIP_BACKWARD, STICK))
     sets[active[:n]] = OPEN

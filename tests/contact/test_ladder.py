@@ -16,8 +16,8 @@ from tests.contact.problems import all_open, random_problem, reversing_problem
 from tests.contact.sliding_block import block_at_rest
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
-from fenics_gears.contact.ladder import HALVED, LADDER, RUNGS, _rungs, cold_start, run_newton, solve_step
-from fenics_gears.contact.laws import SLIP_FORWARD
+from fenics_gears.contact.ladder import HALVED, LADDER, RUNGS, StepProblem, _rungs, cold_start, run_newton, solve_step
+from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.tresca import frozen_friction
@@ -67,6 +67,33 @@ def test_every_rung_is_needed_by_some_step(rung, problem):
     solution = solve_step(problem, all_open(problem))
     assert RUNGS[solution.rung] == rung
     check_laws(problem, solution)
+
+
+def close_nodes(nodes=40, elements=15):
+    """Frictionless contact nodes of which several stand on each element: elasticity hardly tells them apart."""
+    places, known = np.linspace(0.0, 1.0, nodes), np.linspace(0.0, 1.0, elements)
+    hats = np.maximum(0.0, 1.0 - np.abs(places[:, None] - known) * (elements - 1))
+    compliance = 1e-5 * hats @ np.exp(-8.0 * np.abs(known[:, None] - known)) @ hats.T
+    compliance += 1e-10 * compliance.max() * np.eye(nodes)
+    load = 3000.0
+    return StepProblem(
+        np.zeros((1, 1)), np.array([load]), compliance, np.ones((nodes, 1)), 2e-3 * (places - 0.5) ** 2, np.zeros(0), 0.0, np.ones(1),
+        Tolerance.of_load(load),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("nodes, elements", [(40, 15), (120, 50)])
+def test_nodes_that_elasticity_hardly_tells_apart_are_solved(nodes, elements):
+    """Newton and Murty's rule repeat their sets; the convex programme finds those that obey the laws."""
+    problem = close_nodes(nodes, elements)
+    outcomes = [attempt()[0][0] for index, attempt in _rungs(problem, all_open(problem), 40) if index < LADDER.index("Tresca fixed point")]
+    assert len(outcomes) == 2 and CONVERGED not in outcomes
+    solution = solve_step(problem, all_open(problem))
+    assert RUNGS[solution.rung] == "Tresca fixed point"
+    opening = problem.gap - (problem.rigid @ solution.coordinates - problem.compliance @ solution.forces)
+    assert solution.forces.sum() == pytest.approx(3000.0, rel=1e-9)
+    assert opening.min() >= -problem.tolerance.length and solution.forces.min() >= -problem.tolerance.force
+    assert np.abs(opening * solution.forces).max() <= problem.tolerance.length * 3000.0
 
 
 def test_slip_that_reverses_all_at_once_goes_through_stick():
