@@ -30,10 +30,11 @@ def gear_pair_of(dataset: xr.Dataset) -> GearPair | None:
 
 
 def conditions(scene: Scene) -> str:
-    """Load, speed, friction, modifications and errors of a scene: what tells apart two pictures of the same gears."""
+    """Load, speed, friction, modifications, errors and ripple of a scene: what tells apart two pictures of the same gears."""
     torque = scene.load.wheel_torque * factor("N mm", "N m")
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
     friction = "no friction" if scene.friction is None else f"friction coefficient {scene.friction.coefficient:g}"
     shapes = "".join(f", {each.section.replace('_', ' ')}" for each in effects_on(scene) if each.removal or each.gaps)
-    return f"{torque:g} N m on the wheel, {speed}, {friction}{shapes}"
+    ripple = "" if scene.torque_ripple is None else ", torque ripple"
+    return f"{torque:g} N m on the wheel, {speed}, {friction}{shapes}{ripple}"

@@ -33,6 +33,8 @@ FINER = 2
 ROOTS_IN_COLOURS = 3.0
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
 CLOSE_UP_HALF_WIDTHS = 5.0
+# Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
+LEAST_BORE, LEAST_ARROW = 28.0, 12.0
 
 
 @dataclass(frozen=True)
@@ -213,12 +215,16 @@ def _note(axes: Axes, words: str, point, offset) -> None:
 
 
 def _name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
-    """Names in the bores, which gear drives, and the sense in which either turns."""
+    """Names in the bores, or beside gears whose bores are too small; which gear drives, and the sense in which either turns."""
+    (bottom, top), height = axes.get_ylim(), axes.get_position().height * axes.figure.get_figheight() * 72.0
+    point = (top - bottom) / height
     for number, (gear, name, turns) in enumerate(((mesh.pair.pinion, "pinion", 1), (mesh.pair.wheel, "wheel", -1))):
         name += "\ndrives" if number == driving else ""
         centre = np.zeros(2) if turns > 0 else np.array([0.0, -mesh.pair.centre_distance])
-        axes.text(*centre, name, ha="center", va="center", fontsize=11.5, color=DARK)
-        radius = 0.78 * gear.bore_radius
+        small = gear.bore_radius < LEAST_BORE * point
+        beside = np.array([-gear.tip_radius - 4.0 * point, 0.0]) if small else np.zeros(2)
+        axes.text(*(centre + beside), name, ha="right" if small else "center", va="center", fontsize=11.5, color=DARK)
+        radius = max(0.78 * gear.bore_radius, LEAST_ARROW * point)
         start, end = 200.0, 340.0
         axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
         tip = np.radians(end if turns > 0 else start)
@@ -271,9 +277,9 @@ def exceeds(mesh: GearsInMesh, limit: float) -> bool:
 
 def _colour_bar(figure: Figure, limit: float, beyond: bool) -> None:
     colours = ScalarMappable(Normalize(0.0, limit), COLOURS)
-    axes = figure.add_axes((0.937, 0.08, 0.013, 0.72))
+    axes = figure.add_axes((0.931, 0.08, 0.013, 0.72))
     bar = figure.colorbar(colours, cax=axes, extend="max" if beyond else "neither")
-    bar.set_label("von Mises stress (MPa), plane strain", labelpad=3.0)
+    bar.set_label("von Mises stress (MPa), plane strain", labelpad=8.0)
     axes.grid(False)
 
 
@@ -282,9 +288,13 @@ def _heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     complete = bool(dataset.attrs.get("complete", 1))
     scene = scene_of(dataset)
     figure.text(0.015, 0.955, f"Stress in the gears: {title}", fontsize=18, color=DARK if complete else WARNING, parse_math=False)
-    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start), time {1e3 * mesh.time:.4g} ms"
+    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start), time {_time(mesh.time)}"
     words = f"{conditions(scene)}  ·  {said}" if scene is not None else said
     figure.text(0.015, 0.917, words if complete else f"{words}  ·  INCOMPLETE RUN", fontsize=13, color=DARK if complete else WARNING, parse_math=False)
+
+
+def _time(seconds: float) -> str:
+    return f"{1e3 * seconds:.4g} ms" if abs(seconds) < 1.0 else f"{seconds:.6g} s"
 
 
 def save_picture(figure: Figure, path: Path | BinaryIO) -> None:

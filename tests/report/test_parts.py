@@ -10,10 +10,13 @@ from matplotlib.path import Path
 from scipy.spatial import cKDTree
 from tests.show.synthetic import made_up_run
 
+from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.forces import shared_curves
+from fenics_gears.show.report.overview import counted, digits, summary
 from fenics_gears.show.report.pair_drawing import _on_line, gear_outline
+from fenics_gears.show.report.plotting import Curve, plot
 from fenics_gears.show.report.run import Run
-from fenics_gears.show.report.spectra import spectrum
+from fenics_gears.show.report.spectra import spectra, spectrum
 from fenics_gears.show.report.thinning import thinned
 
 
@@ -66,6 +69,78 @@ def test_turns_of_the_gears_stand_apart_in_a_hunting_tooth_period(paper_scene, t
 def found_lines(found):
     """Orders and amplitudes of a spectrum."""
     return found.lines.orders, found.lines.amplitudes
+
+
+def ramp_of(paper_scene, cycles):
+    """A made-up run whose scene falls from 200 to 50 Hz."""
+    text = f"{paper_scene.text}\n[speed_ramp]\nend_frequency = \"50 Hz\"\n"
+    return made_up_run(scene=text, cycles=cycles, steps=int(20 * cycles) + 1)
+
+
+def test_a_ramp_points_to_orders_cycle_by_cycle_only_where_they_are_drawn(paper_scene, tmp_path):
+    """They are drawn from eight stored mesh cycles on."""
+    for cycles in (2.0, 9.0):
+        section = spectra(Run(ramp_of(paper_scene, cycles), tmp_path / "run.nc"))
+        drawn = [block.caption for block in section.blocks if "cycle by cycle" in getattr(block, "caption", "")]
+        assert ("See the orders cycle by cycle." in section.blocks[0].text) == bool(drawn) == (cycles > 8.0)
+
+
+def test_the_largest_order_is_named_where_the_picture_ends_before_it(paper_scene, tmp_path):
+    """Authority: the made-up curve: its 14th harmonic is larger than the 2nd."""
+    phase = np.linspace(28.0, 30.0, 201)
+    for amplitude, said in ((3e-6, True), (1e-6, False)):
+        values = 2e-6 * np.cos(4 * pi * phase) + amplitude * np.cos(28 * pi * phase)
+        section = spectra(run_of(paper_scene.text, values, phase, tmp_path))
+        assert ("at order 14, beyond the picture" in section.blocks[0].note) == said
+
+
+def tiles_and_rows(dataset, tmp_path):
+    """The summary's tiles by their labels, and its rows."""
+    tiles, facts = summary(Run(dataset, tmp_path / "run.nc")).blocks
+    return {tile.label: tile for tile in tiles.tiles}, {name: value for name, value, _ in facts.rows}
+
+
+def test_a_ramp_is_told_from_its_first_frequency_to_its_last(paper_scene, tmp_path):
+    """Down is not up: 200 to 50 Hz, as the scene says."""
+    assert tiles_and_rows(ramp_of(paper_scene, 2.0), tmp_path)[1]["mesh frequency"] == "200 to 50 Hz"
+
+
+def test_contact_loss_is_said_of_the_flanks_that_lose_it(paper_scene, tmp_path):
+    """A wheel that drives presses on the coast flanks all the time: what is lost is the contact of the drive flanks."""
+    lost = {"contact_loss_count": 1, "contact_loss_share": 1.0, "contact_loss_opening": 0.2, "contact_loss_longest": 0.15}
+    tiles, rows = tiles_and_rows(made_up_run(scene=paper_scene.text, **lost), tmp_path)
+    assert (tiles["Contact lost"].value, tiles["Contact lost"].unit) == ("1", "time") and "wheel drives" not in tiles["Contact lost"].note
+    assert rows["contact of the drive flanks"] == "lost 1 time, for up to 0.15 s"
+    backwards = made_up_run(scene=paper_scene.text.replace('"437 N m"', '"-437 N m"') + "\n[coast_flanks]\n", **lost)
+    backwards["coast_normal_force"] = backwards["normal_force"]
+    assert "the wheel drives, on the coast flanks" in tiles_and_rows(backwards, tmp_path)[0]["Contact of the drive flanks lost"].note
+
+
+def test_numbers_of_a_tile_fit_into_it():
+    """A tile has room for eight digits; larger numbers have powers of ten."""
+    assert [digits(value) for value in (0.19084, 4489.2, 60574.0, -330019.0, 6.8278e9, -1.3555e6)] == [
+        "0.1908", "4489", "60,574", "-330,019", "6.83e9", "-1.36e6",
+    ]  # fmt: skip
+    assert [counted(number, "case") for number in (1, 30, 2000)] == ["1 case", "30 cases", "2,000 cases"]
+
+
+def test_large_and_small_values_have_powers_of_ten_on_their_axis():
+    """Their tick labels would else run into the axis' title."""
+    for size, wanted in ((1e-5, "e"), (1.0, "none"), (9e5, "none"), (4e7, "e")):
+        figure = plot("", [Curve("", np.arange(2.0), size * np.arange(2.0))], "", "").figure
+        assert figure.layout.yaxis.exponentformat == wanted and figure.layout.yaxis.title.standoff
+
+
+def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
+    """A plot of one curve has no legend to say what it is."""
+    dataset = made_up_run(scene=paper_scene.text)
+    for name in ("energy", "work_input", "work_output", "work_contact_changes", "energy_defect"):
+        dataset[name] = dataset["normal_force"].assign_attrs(units="N mm")
+    captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
+    assert "Work taken since the first stored step: contact changes, by the time stepping" in captions
+    dataset["work_friction"] = dataset["energy"]
+    captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
+    assert "Work taken since the first stored step" in captions
 
 
 def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair):

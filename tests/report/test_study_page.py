@@ -11,7 +11,7 @@ from tests.report.pages import seen
 from fenics_gears.cli import main
 from fenics_gears.show.report.cases import Cases
 from fenics_gears.show.report.study_curves import over_parameter
-from fenics_gears.show.report.study_page import standing_out
+from fenics_gears.show.report.study_page import _summary, standing_out
 from fenics_gears.studies.combine import load_combined, save_study
 
 SECTIONS = ["summary", "failures", "warnings", "results", "outstanding", "cases", "effort", "versions", "study", "scene"]
@@ -129,6 +129,12 @@ def drawn(tmp_path, **axes):
     """The plot of the largest mesh force of a made-up study."""
     cases = Cases(made_up(**axes), tmp_path / "study.nc", tmp_path / "report.html")
     return over_parameter(cases, *cases.measures["max_normal_force"])
+
+
+def test_a_study_of_one_case_has_no_ranges(tmp_path):
+    """One value is neither a range nor its own median."""
+    tiles = {tile.label: tile for tile in _summary(Cases(made_up(torque=[1.0]), tmp_path / "study.nc", tmp_path / "report.html")).blocks[0].tiles}
+    assert (tiles["Largest mesh force"].value, tiles["Largest mesh force"].note) == ("1", "")
 
 
 def test_many_lines_become_a_map_or_a_choice(tmp_path):

@@ -73,6 +73,9 @@ def test_the_heading_names_scene_and_conditions(paper_scene):
         heading = figure._suptitle.get_text()
         assert paper_scene.title in heading
         assert "437 N m on the wheel, 200 Hz mesh frequency, friction coefficient 0.1" in heading
+    ripple = '\n[torque_ripple]\nharmonics = [{ order = 1, amplitude = "20 N m" }]\n'
+    for figure in run_figures(made_up_run(scene=paper_scene.text + ripple)).values():
+        assert "friction coefficient 0.1, torque ripple" in figure._suptitle.get_text()
 
 
 def test_any_title_is_drawn_as_it_is(tmp_path):

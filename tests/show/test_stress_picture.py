@@ -2,15 +2,19 @@
 
 import subprocess
 import sys
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from matplotlib.image import imread
 from tests.coarse import coarse_scene
 
 from fenics_gears import environment, results
 from fenics_gears.cli import main
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.show.stress_picture import _name_gears, _time, whole_view
 
 environment.prepare()
 
@@ -86,6 +90,23 @@ def test_no_tooth_is_missing(run):
         corners = (body := mesh.gears[number]).points[body.cells]
         along, across = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
+
+
+def test_names_stand_beside_gears_whose_bores_are_too_small(paper_pair):
+    """A name in a bore of a few pixels would lie over the teeth; the paper's bores have room for theirs."""
+    for bore, inside in ((paper_pair.pinion.bore_radius, True), (1.0, False)):
+        pair = replace(paper_pair, pinion=replace(paper_pair.pinion, bore_radius=bore))
+        axes = Figure(figsize=(16.0, 9.0)).add_axes((0.015, 0.06, 0.30, 0.79))
+        axes.set_ylim(whole_view(SimpleNamespace(pair=pair)).extent[2:])
+        _name_gears(axes, SimpleNamespace(pair=pair), driving=0)
+        pinion, wheel = axes.texts
+        assert (pinion.get_position()[0] == 0.0) == inside and wheel.get_position()[0] == 0.0
+        assert inside or pinion.get_position()[0] < -pair.pinion.tip_radius and pinion.get_ha() == "right"
+
+
+def test_times_have_readable_units():
+    """Slow quasi-static runs last minutes."""
+    assert [_time(seconds) for seconds in (0.0, 0.3051, 600.0)] == ["0 ms", "305.1 ms", "600 s"]
 
 
 def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):

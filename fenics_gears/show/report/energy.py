@@ -62,8 +62,10 @@ def _curves(run: Run) -> list:
     taken.append(("contact changes, by the time stepping", -in_unit(dataset["work_contact_changes"], UNIT), PALETTE[3]))
     defect = in_unit(dataset["energy_defect"], UNIT)
     spans = [least(np.concatenate([each for _, each, _ in curves])) * 1e-6 for curves in (held, taken)]
+    # A plot of one curve has no legend.
+    alone = f": {taken[0][0]}" if len(taken) == 1 else ""
     return [
         over_time(dataset, "Energy held", "Energy (N m)", held, least=spans[0]),
-        over_time(dataset, "Work taken since the first stored step", "Work (N m)", taken, least=spans[1]),
+        over_time(dataset, f"Work taken since the first stored step{alone}", "Work (N m)", taken, least=spans[1]),
         over_time(dataset, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
     ]

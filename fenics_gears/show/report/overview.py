@@ -68,11 +68,12 @@ def _tiles(run: Run) -> Iterator[Tile]:
         yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}")
     if attributes.get("contact_loss_count"):
         share = 100.0 * attributes["contact_loss_share"]
+        wheel_drives = run.scene is not None and run.scene.load.wheel_torque < 0.0
         yield Tile(
-            "Contact lost",
-            f"{attributes['contact_loss_count']}",
-            "times",
-            f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm",
+            "Contact of the drive flanks lost" if "coast_normal_force" in dataset else "Contact lost",
+            *counted(attributes["contact_loss_count"], "time").split(),
+            f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm"
+            + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
         )
 
 
@@ -80,11 +81,11 @@ def _rows(run: Run) -> list[tuple[str, object, str]]:
     dataset, attributes, rows = run.dataset, run.dataset.attrs, []
     times, phase = dataset["time"].values, dataset["mesh_phase"].values
     if run.scene is not None:
-        low, high = run.scene.mesh_frequencies
-        speed = low / run.scene.gears.pinion.teeth * factor("1/s", "1/min") if low == high else None
+        first, ramp = run.scene.motion.mesh_frequency, run.scene.speed_ramp
+        speed = first / run.scene.gears.pinion.teeth * factor("1/s", "1/min")
         rows.append(("couple on the wheel", run.scene.load.wheel_torque * factor("N mm", "N m"), "N m"))
         rows.append(
-            ("mesh frequency", f"{low:g} Hz, the pinion at {speed:.5g} rpm" if speed is not None else f"{low:g} to {high:g} Hz", "")
+            ("mesh frequency", f"{first:g} to {ramp.end_frequency:g} Hz" if ramp else f"{first:g} Hz, the pinion at {speed:.5g} rpm", "")
         )
     rows.append(("stored", f"mesh cycles {phase[0]:g} to {phase[-1]:g}, {times[0]:.6g} s to {times[-1]:.6g} s, {run.steps:,} steps", ""))
     if "contact_loss_count" in attributes:
@@ -92,7 +93,7 @@ def _rows(run: Run) -> list[tuple[str, object, str]]:
         rows.append(
             (
                 "contact of the drive flanks",
-                f"lost {count} times, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost",
+                f"lost {counted(count, 'time')}, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost",
                 "",
             )
         )
@@ -100,5 +101,13 @@ def _rows(run: Run) -> list[tuple[str, object, str]]:
 
 
 def digits(value: float) -> str:
-    """Four digits, as measurements have them."""
+    """Four digits, as measurements have them; three and a power of ten where a tile is too narrow for the number."""
+    if abs(value) >= 1e6:
+        mantissa, _, exponent = f"{value:.2e}".partition("e")
+        return f"{mantissa}e{int(exponent)}"
     return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
+
+
+def counted(number: int, thing: str) -> str:
+    """A number of things, "1 case" and "30 cases"."""
+    return f"{number:,} {thing}{'' if number == 1 else 's'}"

@@ -55,7 +55,7 @@ def plot(
     values = np.concatenate([np.asarray(curve.y, dtype=float) for curve in curves]) if curves else np.zeros(0)
     if np.isfinite(values).any():
         figure.update_yaxes(range=list(limits(values, least or 1e-300)))
-        if np.nanmax(np.abs(values)) < 1e-3:
+        if not 1e-3 <= np.nanmax(np.abs(values)) < 1e6:
             figure.update_yaxes(exponentformat="e")
     return Plot(caption, figure, note, height, linked)
 
@@ -86,7 +86,7 @@ def layout(x_title: str, y_title: str, *, legend: bool) -> dict:
         "paper_bgcolor": "white",
         "plot_bgcolor": "white",
         "xaxis": axis | {"title": {"text": escaped(x_title), "font": {"size": 13.5}, "standoff": 8}, "hoverformat": ".5~g"},
-        "yaxis": axis | {"title": {"text": escaped(y_title), "font": {"size": 13.5}}, "hoverformat": ",.5~g"},
+        "yaxis": axis | {"title": {"text": escaped(y_title), "font": {"size": 13.5}, "standoff": 6}, "hoverformat": ",.5~g"},
     }
 
 

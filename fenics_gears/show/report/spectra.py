@@ -15,7 +15,7 @@ from fenics_gears.show.report.run import Run
 from fenics_gears.show.spectrum import COLOURS, MESH, OrderLines, order_lines, origin
 from fenics_gears.show.units import in_unit
 
-MESH_ORDERS, LISTED_ORDERS, FOLLOWED_ORDERS = 10.5, 8, 4
+MESH_ORDERS, LISTED_ORDERS, FOLLOWED_ORDERS = 10.5, 10, 4
 CYCLES_TO_FOLLOW = 8
 # Lines below this part of the largest are the solver's tolerance.
 LEAST_PART = 1e-5
@@ -36,11 +36,16 @@ def spectra(run: Run) -> Section:
     signals = _signals(run)
     found = {name: spectrum(run, values) for name, (values, _) in signals.items()}
     blocks: list[Block] = []
+    followed = _cycle_by_cycle(run, signals)
     if run.scene is not None and run.scene.speed_ramp is not None:
         blocks.append(
             Words(
                 "The mesh frequency changes through the record: orders stay in place, resonances pass through them. "
-                "See the orders cycle by cycle."
+                + (
+                    "See the orders cycle by cycle."
+                    if followed
+                    else f"Records of {CYCLES_TO_FOLLOW} mesh cycles and more have the orders cycle by cycle."
+                )
             )
         )
     for name, (_, unit) in signals.items():
@@ -48,7 +53,7 @@ def spectra(run: Run) -> Section:
     if FORCE not in signals:
         blocks.append(Words("The force of the mesh does not vary: nothing but a constant couple acts on it."))
     blocks.append(_table(signals, {name: each.lines for name, each in found.items()}))
-    blocks += _cycle_by_cycle(run, signals)
+    blocks += followed
     return Section("spectra", heading, blocks)
 
 
@@ -134,7 +139,15 @@ def spectrum(run: Run, values: np.ndarray) -> Spectrum:
 
 def _note(run: Run, name: str, found: Spectrum) -> str:
     sides = ", drive flanks positive, coast flanks negative" if "coast_normal_force" in run.dataset and name == FORCE else ""
-    return f"Amplitudes of the harmonics, without the mean{sides}; {found.record}."
+    return f"Amplitudes of the harmonics, without the mean{sides}; {found.record}.{_beyond(found.lines)}"
+
+
+def _beyond(lines: OrderLines) -> str:
+    """A sentence where the largest line is not in the picture."""
+    if not len(lines.orders):
+        return ""
+    order = lines.orders[np.argmax(lines.amplitudes)]
+    return f" The largest of all is at order {order:.4g}, beyond the picture: {lines.amplitudes.max():.4g}." if order > MESH_ORDERS else ""
 
 
 def _table(signals: dict, lines: dict[str, OrderLines]) -> Table:

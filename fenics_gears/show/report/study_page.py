@@ -12,7 +12,7 @@ from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.report.cases import STATES, Cases
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
-from fenics_gears.show.report.overview import digits
+from fenics_gears.show.report.overview import counted, digits
 from fenics_gears.show.report.page import Block, Cell, Facts, Fold, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.report.plotting import Curve, plot
 from fenics_gears.show.report.study_curves import effort_plots, result_plots
@@ -36,8 +36,8 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
         scene_section(str(attributes.get("scene", "")), "Base scene"),
     ]  # fmt: skip
     title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
-    swept = ", ".join(f"{field.path} ({len(set(map(str, field.values.tolist())))} values)" for field in cases.fields)
-    return Page("Gear pair: report on a study", title, f"{cases.count:,} cases over {swept}", sections, made_by(), _alarm(cases))
+    swept = ", ".join(f"{field.path} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields)
+    return Page("Gear pair: report on a study", title, f"{counted(cases.count, 'case')} over {swept}", sections, made_by(), _alarm(cases))
 
 
 def _alarm(cases: Cases) -> str:
@@ -59,7 +59,9 @@ def _summary(cases: Cases) -> Section:
     for values, unit, name in cases.measures.values():
         known = values[np.isfinite(values)]
         if len(known):
-            tiles.append(Tile(name, f"{digits(known.min())} – {digits(known.max())}", unit, f"median {digits(np.median(known))} {unit}"))
+            least, largest = digits(known.min()), digits(known.max())
+            median = f"median {digits(np.median(known))} {unit}" if least != largest else ""
+            tiles.append(Tile(name, f"{least} – {largest}" if median else least, unit, median))
     rows = []
     for field in cases.fields:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
