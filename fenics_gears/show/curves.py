@@ -99,10 +99,18 @@ def _draw_normal_force(axes: Axes, dataset: xr.Dataset) -> None:
 
 def _draw_friction_force(axes: Axes, dataset: xr.Dataset) -> None:
     axes.axhline(0.0, color=GREY, linewidth=0.8)
-    _draw_force(axes, dataset, "friction_force", PALETTE[1])
-    alone = "coast_normal_force" not in dataset
-    axes.set_title("Off the line of action: friction force of the mesh = reaction of either shaft" if alone else "Friction force of the drive flanks")
     axes.set_ylabel("Friction force (N)")
+    if "coast_friction_force" not in dataset:
+        _draw_force(axes, dataset, "friction_force", PALETTE[1])
+        alone = "coast_normal_force" not in dataset
+        axes.set_title("Off the line of action: friction force of the mesh = reaction of either shaft" if alone else "Friction force of the drive flanks")
+        return
+    both = [in_unit(dataset[name], "N") for name in ("friction_force", "coast_friction_force")]
+    for force, colour, label in zip(both, PALETTE, ("drive flanks", "coast flanks")):
+        axes.plot(dataset["mesh_phase"].values, force, color=colour, label=label)
+    axes.set_title("Friction force of the mesh")
+    axes.set_ylim(*limits(np.concatenate(both), _least(np.concatenate(both))))
+    legend(axes, columns=2)
 
 
 def _draw_force(axes: Axes, dataset: xr.Dataset, name: str, colour: str) -> None:

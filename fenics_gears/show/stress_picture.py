@@ -215,15 +215,14 @@ def _note(axes: Axes, words: str, point, offset) -> None:
 
 
 def _name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
-    """Names in the bores, or beside gears whose bores are too small; which gear drives, and the sense in which either turns."""
+    """Names in the bores, or above or beside too small ones; which gear drives, and the sense in which either turns."""
     (bottom, top), height = axes.get_ylim(), axes.get_position().height * axes.figure.get_figheight() * 72.0
     point = (top - bottom) / height
     for number, (gear, name, turns) in enumerate(((mesh.pair.pinion, "pinion", 1), (mesh.pair.wheel, "wheel", -1))):
         name += "\ndrives" if number == driving else ""
         centre = np.zeros(2) if turns > 0 else np.array([0.0, -mesh.pair.centre_distance])
-        small = gear.bore_radius < LEAST_BORE * point
-        beside = np.array([-gear.tip_radius - 4.0 * point, 0.0]) if small else np.zeros(2)
-        axes.text(*(centre + beside), name, ha="right" if small else "center", va="center", fontsize=11.5, color=DARK)
+        place, ha, va = _place_of_name(gear, point)
+        axes.text(*(centre + place), name, ha=ha, va=va, fontsize=11.5, color=DARK)
         radius = max(0.78 * gear.bore_radius, LEAST_ARROW * point)
         start, end = 200.0, 340.0
         axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
@@ -231,6 +230,15 @@ def _name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
         head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
         back = centre + radius * np.array([np.cos(tip - turns * 0.06), np.sin(tip - turns * 0.06)])
         axes.add_patch(FancyArrowPatch(back, head, arrowstyle="-|>", mutation_scale=14, color=DARK, shrinkA=0, shrinkB=0))
+
+
+def _place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
+    """Where a gear's name stands from its centre (mm), with its alignment: in the bore, above it in the body, or left of the teeth."""
+    if gear.bore_radius >= LEAST_BORE * point:
+        return np.zeros(2), "center", "center"
+    if gear.root_radius - gear.bore_radius > 2.0 * LEAST_BORE * point:
+        return np.array([0.0, gear.bore_radius + 6.0 * point]), "center", "bottom"
+    return np.array([-gear.tip_radius - 4.0 * point, 0.0]), "right", "center"
 
 
 def _frame_in(axes: Axes, enlarged: Axes, moved: np.ndarray | None = None) -> None:

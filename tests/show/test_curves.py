@@ -88,6 +88,16 @@ def test_mesh_forces():
     assert [text.get_text() for text in couples.get_legend().get_texts()] == ["pinion", "wheel"]
 
 
+def test_friction_of_both_flanks_is_drawn_where_both_have_it():
+    """A wheel that drives rubs on the coast flanks alone: their friction must not be left out."""
+    run = made_up_run()
+    for name in ("normal_force", "friction_force"):
+        run[f"coast_{name}"] = (2.0 * run[name]).assign_attrs(units="N")
+    drawn = {line.get_label(): line.get_ydata() for line in mesh_forces(run).get_axes()[1].get_lines()}
+    np.testing.assert_array_equal(drawn["drive flanks"], run["friction_force"].values)
+    np.testing.assert_array_equal(drawn["coast flanks"], run["coast_friction_force"].values)
+
+
 def test_load_sharing():
     """Authority: each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
     run = made_up_run()

@@ -2,19 +2,17 @@
 
 import subprocess
 import sys
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 from matplotlib.image import imread
 from tests.coarse import coarse_scene
 
 from fenics_gears import environment, results
 from fenics_gears.cli import main
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.show.stress_picture import _name_gears, _time, whole_view
+from fenics_gears.show.stress_picture import _place_of_name, _time
 
 environment.prepare()
 
@@ -92,16 +90,20 @@ def test_no_tooth_is_missing(run):
         assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
 
 
-def test_names_stand_beside_gears_whose_bores_are_too_small(paper_pair):
-    """A name in a bore of a few pixels would lie over the teeth; the paper's bores have room for theirs."""
-    for bore, inside in ((paper_pair.pinion.bore_radius, True), (1.0, False)):
-        pair = replace(paper_pair, pinion=replace(paper_pair.pinion, bore_radius=bore))
-        axes = Figure(figsize=(16.0, 9.0)).add_axes((0.015, 0.06, 0.30, 0.79))
-        axes.set_ylim(whole_view(SimpleNamespace(pair=pair)).extent[2:])
-        _name_gears(axes, SimpleNamespace(pair=pair), driving=0)
-        pinion, wheel = axes.texts
-        assert (pinion.get_position()[0] == 0.0) == inside and wheel.get_position()[0] == 0.0
-        assert inside or pinion.get_position()[0] < -pair.pinion.tip_radius and pinion.get_ha() == "right"
+@pytest.mark.parametrize(("bore", "place", "alignment"), [
+    (40.0, (0.0, 0.0), ("center", "center")),
+    (10.0, (0.0, 16.0), ("center", "bottom")),
+])  # fmt: skip
+def test_names_stand_in_the_bores_or_above_those_too_small(bore, place, alignment):
+    """A name in a bore of a few points would lie over its edge; a large body has room for it, beside a small gear there is some."""
+    found, *aligned = _place_of_name(SimpleNamespace(bore_radius=bore, root_radius=100.0, tip_radius=120.0), point=1.0)
+    assert tuple(found) == place and tuple(aligned) == alignment
+
+
+def test_names_stand_beside_small_gears():
+    """The gear's teeth end where its name does."""
+    found, *aligned = _place_of_name(SimpleNamespace(bore_radius=10.0, root_radius=30.0, tip_radius=40.0), point=1.0)
+    assert found[0] < -40.0 and aligned == ["right", "center"]
 
 
 def test_times_have_readable_units():
