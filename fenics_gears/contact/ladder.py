@@ -101,10 +101,11 @@ def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Ite
         yield 3, lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
         yield 4, lambda: _friction_from_zero(problem, status, max_iterations)
     yield 5, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
-    # Few runs come this far.
-    from fenics_gears.contact.tresca import tresca
+    if len(problem.gap):
+        # Few runs come this far.
+        from fenics_gears.contact.tresca import tresca
 
-    yield 6, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
+        yield 6, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
 
 
 def run_newton(

@@ -31,13 +31,14 @@ def main(arguments, description) -> int:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     commit = git("log", "-1", "--format=%h %s").decode().strip()
     say(f"trying {commit}" + (" (what is uncommitted is left out)" if git("status", "--porcelain", "--untracked-files=no") else ""))
-    trials = []
+    # Once for all suites: the checkout may go on meanwhile.
+    archive, trials = git("archive", "HEAD"), []
     for suite in options.suites or SUITES:
         root = Root(suite, options.roots / suite)
         trial = Trial(suite, options.logs / suite, options.quick)
         trials.append(trial)
         trial.logs.mkdir(parents=True, exist_ok=True)
-        try_out(trial, root, git("archive", "HEAD"), CHECKOUT, reuse=options.reuse, expired=options.expired, own=own)
+        try_out(trial, root, archive, CHECKOUT, reuse=options.reuse, expired=options.expired, own=own)
         if not options.keep and not options.reuse and trial.is_green:
             root.remove()
     text = table(trials)
