@@ -7,12 +7,12 @@ from math import lcm
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import pair_places
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, result_variables
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.effects import effects_on
+from fenics_gears.memory import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model import Model, model
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
@@ -77,9 +77,7 @@ def _tangential(built: Model) -> int:
 
 def _contact_rows(built: Model) -> float:
     """Rows of the contact operator, on the average over the mesh cycle."""
-    grid = built.resolution.contact_grid
-    pairs = [len(pair_places(built.pair, grid, phase / 16, built.scene.coast_flanks is not None, built.corner)) for phase in range(16)]
-    return _tangential(built) * grid.nodes * sum(pairs) / len(pairs)
+    return _tangential(built) * built.resolution.contact_grid.nodes * loaded_pairs(built)
 
 
 def _model_rows(built: Model) -> Rows:
@@ -118,7 +116,7 @@ def _accuracy_rows(built: Model) -> Rows:
     ]
     condensation: Rows = [("condensation", resolution.condensation, origin(asked.condensation).lstrip(", "))]
     return [
-        *([("target", f"{asked.target:.3%}", "a run chooses settings by test runs first; what follows is without a target")] if asked.target else []),
+        *([("target", f"{asked.target:.3%}", "a run chooses settings first, by ten to sixteen test runs; what follows is without a target")] if asked.target else []),
         *([("model of the mesh", asked.model, "from the scene")] if asked.model else []),
         *(elastic if built.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
@@ -165,11 +163,10 @@ def _cost(built: Model) -> Rows:
     unknowns, flank_dofs, of = [], [], []
     for name in ("pinion", "wheel"):
         gear, meshed = getattr(built.pair, name), _meshed(built, name)
-        arc = 0.5 * gear.base_radius * (gear.tip_roll_angle**2 - gear.form_roll_angle**2)
-        nodes = order * arc / built.resolution.flank_element_size + 1
-        unknowns.append(body + per_node * nodes if meshed is None else meshed)
+        dofs = flank_unknowns(gear, order, built.resolution.flank_element_size)
+        unknowns.append(body + per_node * 0.5 * dofs if meshed is None else meshed)
         # Of all teeth, where each has a compliance of its own: memory goes by the square.
-        flank_dofs.append(2.0 * nodes * (1.0 if meshed is None else np.sqrt(gear.teeth)))
+        flank_dofs.append(dofs * (1.0 if meshed is None else np.sqrt(gear.teeth)))
         of.append(f"a {name} sector" if meshed is None else f"the whole {name}")
     if built.resolution.condensation == EVERY_STEP:
         condensing, marching, memory = _reference_cost(built, unknowns, order)
@@ -201,13 +198,12 @@ def _fast_cost(built: Model, unknowns: list[float], flank_dofs: list[float]) -> 
     """Seconds of condensing and of marching, bytes."""
     rows = _contact_rows(built)
     positions = min(_unlike_cycles(built) * built.resolution.steps_per_mesh_cycle, built.steps + 2)
-    operator_parts = 1.5 if built.scene.friction is not None else 1.0
     condensing = sum(
         SECONDS_PER_GEAR + SECONDS_PER_UNKNOWN * n + SECONDS_PER_FLANK_CUBE * dofs**3 for n, dofs in zip(unknowns, flank_dofs)
     )
     marching = positions * SECONDS_PER_CONTACT_SQUARE * rows**2 + built.steps * SECONDS_PER_STEP
-    memory = BYTES_OF_PROGRAM + built.stored_bytes + 8.0 * (positions * operator_parts * rows**2 + 10.0 * sum(dofs**2 for dofs in flank_dofs))
-    return condensing, marching, memory
+    operators = operator_bytes(positions, rows, built.scene.friction is not None)
+    return condensing, marching, BYTES_OF_PROGRAM + built.stored_bytes + operators + sum(map(flank_bytes, flank_dofs))
 
 
 def _reference_cost(built: Model, unknowns: list[float], order: int) -> tuple[float, float, float]:

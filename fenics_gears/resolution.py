@@ -161,7 +161,7 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
         if size > resolution.half_width > 0.0:
             found.append(
                 f"{name} is {size:.3g} mm, more than the Hertz half-width of {resolution.half_width:.3g} mm at full load: contact is not "
-                "resolved, and neither pressure nor deflection is right"
+                "resolved; pressures are not right, and the transmission error may be off by per cents"
             )
     node_distance = resolution.flank_element_size / (2 if resolution.element.endswith("2") else 1)
     if spacing < CLOSEST_NODES * node_distance:

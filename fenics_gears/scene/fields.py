@@ -141,7 +141,7 @@ class AllowedEither(Allowed):
 # The longest path that Linux takes.
 LONGEST_FILE_NAME = 4096
 
-_PERCENTAGE = re.compile(r"\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*%\s*")
+_PERCENTAGE = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*%\s*")
 
 
 @dataclass(frozen=True)
@@ -155,7 +155,7 @@ class AllowedPercentage(Allowed):
         if isinstance(value, bool) or not isinstance(value, (str, int, float)):
             raise refused("is not a text with a number and %.")
         if not isinstance(value, str):
-            raise refused(f'is a number without %. As a percentage it is written "{as_written(value)} %".')
+            raise refused(self._without_sign(value))
         found = _PERCENTAGE.fullmatch(value)
         if found is None:
             raise refused("is not a number and %.")
@@ -163,6 +163,12 @@ class AllowedPercentage(Allowed):
         if reason:
             raise refused(reason)
         return 0.01 * float(found[1])
+
+    def _without_sign(self, value: float) -> str:
+        """What a bare number could mean: so many per cent, or a part of 1."""
+        meant = [number for number in (f"{as_written(value)}", f"{100.0 * value:.6g}") if not out_of_range(float(number), *self.bounds)]
+        written = " or ".join(f'"{number} %"' for number in meant)
+        return "is a number without %." + (f" As a percentage it is written {written}." if meant else "")
 
 
 @dataclass(frozen=True)

@@ -123,13 +123,21 @@ def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
             yield problem(f"cannot stand beside [{section}], which it knows nothing of. Leave one of the two out.")
 
 
+_NOT_BESIDE_A_TARGET = {
+    "model": "cannot stand beside accuracy.target, which is for the full contact of elastic teeth",
+    "condensation": "cannot stand beside accuracy.target, which condenses once",
+    "elastic_teeth": "cannot stand beside accuracy.target, which keeps all teeth elastic",
+    "interpolation": "cannot stand beside accuracy.target, which averages",
+}
+
+
 def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
     accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
     if "target" not in accuracy:
         return
     for name in accuracy:
         if name in Accuracy.model_fields and name != "target":
-            message = "is chosen by accuracy.target. Leave one of the two out."
+            message = f"{_NOT_BESIDE_A_TARGET.get(name, 'is chosen by accuracy.target')}. Leave one of the two out."
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
     def problem(message: str) -> Problem:

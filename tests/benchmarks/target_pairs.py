@@ -1,4 +1,7 @@
-"""Five gear pairs on which `[accuracy] target` is judged: the paper's, equal, slow, of high contact ratio, of large profile shift."""
+"""Five gear pairs on which `[accuracy] target` is judged: the paper's, equal, slow, of high contact ratio, of large profile shift.
+
+All with tip relief, as such gears are made; the paper's own tips, whose sharp edges press, are the sixth.
+"""
 
 from dataclasses import replace
 from math import cos, radians, tan
@@ -17,6 +20,7 @@ PLAY = 0.02
 LINE_LOAD = 300.0
 # Tip relief: depth in mm, from this part of a module below the tip diameter on.
 RELIEF, RELIEVED = 0.03, 0.9
+SHARP = "16/24, sharp tips"
 
 
 def rack_gear(module: float, teeth: int, shift: float, addendum: float = 1.0, dedendum: float = 1.25, rounding: float = 0.38) -> GearData:
@@ -35,10 +39,7 @@ def rack_pair(module: float, teeth: tuple[int, int], shifts=(0.0, 0.0), face_wid
 
 
 def pairs(paper: Scene) -> dict[str, Scene]:
-    """The five scenes by name, quasi-static and without friction, with the paper's shafts and bearings, and defaults for all settings.
-
-    All but the paper's have tip relief, so that no sharp edge presses: what such gears are made with, and what has a limit that can be told.
-    """
+    """The scenes by name, quasi-static and without friction, with the paper's shafts and bearings, and defaults for all settings."""
     plain = replace(paper, inertia=None, damping=None, friction=None, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))
     material = paper.gears.material
     high = {"addendum": 1.35, "dedendum": 1.6, "rounding": 0.2}
@@ -48,13 +49,17 @@ def pairs(paper: Scene) -> dict[str, Scene]:
         "40/60, high contact ratio": rack_pair(3.0, (40, 60), material=material, **high),
         "14/30, shifts 0.6 and 0.5": rack_pair(4.0, (14, 30), (0.6, 0.5), material=material),
     }
-    return {"16/24 of the paper": plain, **{name: _loaded(plain, data) for name, data in gears.items()}}
+    relieved = replace(plain, tip_relief=_relief(plain.gears))
+    return {"16/24": relieved, **{name: _loaded(plain, data) for name, data in gears.items()}, SHARP: plain}
 
 
 def _loaded(plain: Scene, gears: GearPairData) -> Scene:
     torque = LINE_LOAD * gears.face_width * gear_pair(gears).wheel.base_radius
-    reliefs = (Relief(RELIEF, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module) for gear in (gears.pinion, gears.wheel))
-    return replace(plain, gears=gears, load=replace(plain.load, wheel_torque=torque), tip_relief=TipRelief(*reliefs))
+    return replace(plain, gears=gears, load=replace(plain.load, wheel_torque=torque), tip_relief=_relief(gears))
+
+
+def _relief(gears: GearPairData) -> TipRelief:
+    return TipRelief(*(Relief(RELIEF, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module) for gear in (gears.pinion, gears.wheel)))
 
 
 def _involute(angle: float) -> float:

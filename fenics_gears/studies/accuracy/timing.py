@@ -10,7 +10,7 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.model import Model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
@@ -57,14 +57,18 @@ def run_afresh(scene: Scene) -> tuple[xr.Dataset, Cycle]:
 
 
 class KeptGears:
-    """Gears condensed once for all runs that share them, without the cache; each keeps the times that it took."""
+    """Gears condensed once for all runs that share them, without the cache; each keeps the times that it took.
 
-    def __init__(self):
+    `most`: how many gears are kept, those last used; all without it.
+    """
+
+    def __init__(self, most: int | None = None):
         self._gears: dict = {}
+        self._most = most
 
-    def run(self, scene: Scene) -> xr.Dataset:
-        """A run of the full contact; its times are those of a run of its own."""
-        return self.run_with_cycle(scene)[0]
+    def run(self, scene: Scene, progress: Progress | None = None) -> xr.Dataset:
+        """A run of the full contact; its times are those of a run of its own. KeyboardInterrupt from `progress` ends all."""
+        return _run(scene, self._prepared, progress)[0]
 
     def run_with_cycle(self, scene: Scene) -> tuple[xr.Dataset, Cycle]:
         """The same, and its mesh cycle."""
@@ -76,13 +80,15 @@ class KeptGears:
         reach = tooth_reach(built)
         for name in GEARS:
             key = gear_key(built, name, reach)
-            if key not in self._gears:
-                self._gears[key] = gear_compliance(built, name, reach, None)
+            # Last in the dictionary, last to be given up.
+            self._gears[key] = self._gears.pop(key, None) or gear_compliance(built, name, reach, None)
         compliances = tuple(self._gears[gear_key(built, name, reach)] for name in GEARS)
+        while self._most is not None and len(self._gears) > self._most:
+            del self._gears[next(iter(self._gears))]
         return compliances, mesh_cycle(built, compliances)
 
 
-def _run(scene: Scene, prepare: Callable[[Model], tuple]) -> tuple[xr.Dataset, Cycle]:
+def _run(scene: Scene, prepare: Callable[[Model], tuple], progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
     """A complete run of a scene whose gears and mesh cycle `prepare(model)` makes."""
     cycles = []
 
@@ -91,7 +97,7 @@ def _run(scene: Scene, prepare: Callable[[Model], tuple]) -> tuple[xr.Dataset, C
         cycles.append(cycle)
         return gears, cycle
 
-    result = simulate(scene, preparation=preparation)
+    result = simulate(scene, progress=progress, preparation=preparation)
     if not result.attrs["complete"]:
         raise KeyboardInterrupt
     return result, cycles[0]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from fenics_gears.progress import Progress
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.ladder import Setting
 from fenics_gears.studies.accuracy.measures import distance
-from fenics_gears.studies.accuracy.whole import MOST_BYTES, dominant
+from fenics_gears.studies.accuracy.whole import dominant
 from fenics_gears.studies.target.choice import Sizes, cheapest, error_together, errors_at
 from fenics_gears.studies.target.error_curve import SAFETY, ErrorCurve
 from fenics_gears.studies.target.errors import TargetNotReached
@@ -18,6 +20,12 @@ from fenics_gears.studies.target.pilot import BODY, FLANK, STEPS, Pilot
 LEAST_CORRECTION = 0.5
 # Where a check leaves more of the target than this unused, cheaper settings are looked for once more.
 WELL_USED = 0.75
+# A knob with less than this part of the error needs no remark.
+NOTABLE_PART = 0.1
+# Runs until settings are chosen, about.
+USUAL_RUNS = 14
+# Larger targets are tried in these steps where one is not reached.
+REACHABLE = 1.2
 MOST_LENGTHENED, MOST_REFINED, MOST_CHECKS = 4, 24, 6
 SIZE_WORDS = {FLANK: "{:.3g} mm", BODY: "default x {:.2g}", STEPS: "{:.2g} of a mesh cycle"}
 
@@ -79,19 +87,24 @@ def _cheaper(pilot: Pilot, sizes: Sizes, setting: Setting) -> bool:
 
 def _told(scene: Scene, pilot: Pilot, sizes: Sizes, curves: list[ErrorCurve], together: float) -> Chosen:
     setting = pilot.setting(sizes)
-    remarks = tuple(_remark(curve, sizes[curve.name]) for curve in curves if not curve.trusted)
-    return Chosen(setting.accuracy(scene.gears.module), setting, together, errors_at(curves, sizes), remarks, pilot.runs)
+    parts = errors_at(curves, sizes)
+    matters = (curve for curve in curves if not curve.trusted and parts[curve.name] >= NOTABLE_PART * together)
+    remarks = tuple(_remark(curve, sizes[curve.name]) for curve in matters)
+    return Chosen(setting.accuracy(scene.gears.module), setting, together, parts, remarks, pilot.runs)
 
 
 def _told_pilot(scene: Scene, progress: Progress) -> Pilot:
-    counted = iter(range(1, 1_000_000))
+    """A pilot that tells how far it is: how many runs there will be is not known, for ladders grow as they need to."""
+    at = [-1, USUAL_RUNS, ""]
 
     def begun(words: str) -> None:
-        done = next(counted)
-        # How many there will be is not known: ladders grow as they need to.
-        progress.update(done, max(done + 1, 14), words)
+        at[:] = at[0] + 1, max(at[0] + 2, USUAL_RUNS), words
+        tick()
 
-    return Pilot(scene, begun)
+    def tick() -> None:
+        progress.update(*at)
+
+    return Pilot(scene, begun, tick)
 
 
 def _lengthen_window(pilot: Pilot) -> None:
@@ -110,25 +123,36 @@ def _refined_until_reached(pilot: Pilot, allowance: float, factors: dict[str, fl
         sizes = cheapest(curves, pilot.cost(), allowance, _allowed(pilot))
         if sizes is not None:
             return sizes, curves
-        pilot.refine(dominant({curve.name: curve.largest(curve.finest) for curve in curves}))
+        try:
+            pilot.refine(dominant({curve.name: curve.largest(curve.finest) for curve in curves}))
+        except TargetNotReached as reason:
+            raise TargetNotReached(f"{reason}; {_reachable(pilot, curves, allowance)}") from None
     raise TargetNotReached(f"not after {MOST_REFINED} halvings")
 
 
+def _reachable(pilot: Pilot, curves: list[ErrorCurve], target: float) -> str:
+    """What the same runs say can be reached."""
+    for larger in target * REACHABLE ** np.arange(1, 30):
+        if cheapest(curves, pilot.cost(), larger, _allowed(pilot)) is not None:
+            return f"{100.0 * larger:.2g} % can be"
+    return "nothing near it can be"
+
+
 def _allowed(pilot: Pilot):
-    """Contact operators that fit into memory."""
-
-    def allowed(sizes):
-        return pilot.operator_bytes(sizes[FLANK], sizes[STEPS]) <= MOST_BYTES
-
-    return allowed
+    """Settings that stay within memory, their result too."""
+    return lambda sizes: pilot.may_run(sizes, stored=True)
 
 
 def _check(pilot: Pilot, sizes: Sizes, name: str, curves: list[ErrorCurve], factors: dict[str, float]) -> None:
-    """Correct a knob's errors by one run that halves it at the chosen sizes; they are not made less than half of what they were."""
+    """Correct a knob's errors by one run that halves it at the chosen sizes; they are not made less than half of what they were.
+
+    Where that run is beyond the limits, by one that doubles it.
+    """
     curve = next(each for each in curves if each.name == name)
     finer = {**sizes, name: 0.5 * sizes[name]}
-    chosen, halved = (pilot.run(pilot.setting(each)).answer for each in (sizes, finer))
-    found = max(SAFETY * distance(chosen, halved, measure) / (1.0 - 0.5**fit.used) for measure, fit in curve.fits.items())
+    factor = 0.5 if pilot.may_run(finer) else 2.0
+    chosen, other = (pilot.run(pilot.setting(each)).answer for each in (sizes, {**sizes, name: factor * sizes[name]}))
+    found = max(SAFETY * distance(chosen, other, measure) / abs(1.0 - factor**fit.used) for measure, fit in curve.fits.items())
     factors[name] = curve.factor * max(found / curve.largest(sizes[name]), LEAST_CORRECTION)
 
 
@@ -137,7 +161,7 @@ def _corrected(curve: ErrorCurve, factors: dict[str, float]) -> ErrorCurve:
 
 
 def _remark(curve: ErrorCurve, size: float) -> str:
-    order = "no order" if curve.leading.order is None else f"order {curve.leading.order:.2g}"
+    order = "no order" if curve.leading.order is None else f"order {curve.leading.order:.3g}"
     return (
         f"{curve.name}: {order} observed where {curve.expected:g} was expected; its error at {SIZE_WORDS[curve.name].format(size)} is "
         f"taken to fall as h^{curve.leading.used:.2g}, and nothing finer than its finest run is relied on"

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import ceil
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import ComputationError, GearsError
@@ -19,11 +18,12 @@ from fenics_gears.studies.accuracy import ladder
 from fenics_gears.studies.accuracy.ladder import Setting
 from fenics_gears.studies.accuracy.measures import Answer, answer
 from fenics_gears.studies.accuracy.timing import KeptGears
-from fenics_gears.studies.accuracy.whole import MOST_BYTES
 from fenics_gears.studies.target.choice import Sizes
 from fenics_gears.studies.target.cost import STAGES, Cost, cost_exponent
 from fenics_gears.studies.target.error_curve import ErrorCurve, error_curve
 from fenics_gears.studies.target.errors import TargetNotReached
+from fenics_gears.studies.target.limits import Limits
+from fenics_gears.studies.work import Ticking
 from fenics_gears.validity import WINDOW_REACHED
 
 ELEMENT = "P2"
@@ -35,6 +35,8 @@ COARSEST = {FLANK: 0.7, BODY: 4.0, STEPS: 20}
 RUNGS = 3
 # The rung on which the others stand while one knob is turned.
 BASE_RUNG = {FLANK: 2, BODY: 2, STEPS: 2}
+# Condensed gears that are kept: pinion and wheel of the base, and of one more rung.
+KEPT_GEARS = 4
 # By how much the contact window is lengthened where it cuts contact off.
 LONGER = 1.25
 
@@ -51,15 +53,16 @@ class Ran:
 class Pilot:
     """Runs rungs as they are asked for, each setting once; gears are condensed once for all runs that share them.
 
-    `begun`: called with a run's words before it.
+    `begun`: called with a run's words before it; `tick`: often while it goes on, and may raise KeyboardInterrupt.
     """
 
-    def __init__(self, scene: Scene, begun: Callable[[str], None]):
+    def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
+        self._tick = tick
         self.scene = replace(scene, accuracy=Accuracy(), output=Output(), motion=replace(scene.motion, recorded_cycles=1))
-        self._begun, self._gears, self._ran = begun, KeptGears(), {}
+        self._begun, self._gears, self._ran = begun, KeptGears(KEPT_GEARS), {}
+        self._limits = Limits(replace(scene, accuracy=Accuracy()), order=2)
         self._unit = ladder.half_width(self.scene)
         self.length = model(self.scene).resolution.contact_grid.length
-        self._contact_ratio = model(self.scene).pair.contact_ratio
         expected = {knob.name: knob.expected for knob in ladder.knobs(self.scene)}
         self._expected = {name: expected[LADDER_NAMES[name]] for name in KNOBS}
         self._rungs = dict.fromkeys(KNOBS, RUNGS)
@@ -74,11 +77,16 @@ class Pilot:
         return Setting(ELEMENT, sizes[FLANK], NODE_SPACING * sizes[FLANK], self.length, sizes[BODY], round(1.0 / sizes[STEPS]), AVERAGED)
 
     def refine(self, name: str) -> None:
-        """Give a knob's ladder one rung more. Raises TargetNotReached where that run would not fit into memory."""
+        """Give a knob's ladder one rung more. Raises TargetNotReached where that run is beyond the limits."""
+        finer = {**self._base_sizes(), name: self._size(name, self._rungs[name])}
+        if not self.may_run(finer):
+            reason = self._limits.why_not(finer[FLANK], finer[BODY], finer[STEPS], self.length)
+            raise TargetNotReached(f"the next halving of the {name} {reason}{self._why_slow}")
         self._rungs[name] += 1
-        finest = self._turned(name)[-1]
-        if self.operator_bytes(finest.flank, 1.0 / finest.steps) > MOST_BYTES:
-            raise TargetNotReached(f"the next halving of the {name} takes more than {MOST_BYTES / 1e9:g} GB for contact operators")
+
+    def may_run(self, sizes: Sizes, stored: bool = False):
+        """Whether a run of the pilot stays within the limits; `stored`: one of the whole scene. Arrays of sizes are broadcast."""
+        return self._limits.allowed(sizes[FLANK], sizes[BODY], sizes[STEPS], self.length, stored)
 
     def curves(self) -> list[ErrorCurve]:
         """Every knob's errors, by runs of all its rungs."""
@@ -101,11 +109,6 @@ class Pilot:
         """Take the longer contact window from now on."""
         self.length *= LONGER
 
-    def operator_bytes(self, element, step):
-        """Memory of a mesh cycle of contact operators; arrays of flank element sizes (mm) and steps (mesh cycles) are broadcast."""
-        rows = ceil(self._contact_ratio) * (self.length / (NODE_SPACING * element) + 2.0) * (1 if self.scene.friction is None else 2)
-        return 8.0 * rows**2 / step
-
     def run(self, setting: Setting) -> Ran:
         """A run of a setting, or what it gave before. Raises ComputationError."""
         if setting not in self._ran:
@@ -114,13 +117,22 @@ class Pilot:
         return self._ran[setting]
 
     @property
+    def _why_slow(self) -> str:
+        """What makes errors fall slowly, in words; empty where nothing is known to."""
+        if self.scene.tip_relief is not None:
+            return ""
+        return ", for errors fall slowly where the sharp edges of unrelieved tips press ([tip_relief] takes that away)"
+
+    @property
     def runs(self) -> int:
         """How many runs there were."""
         return len(self._ran)
 
     def _run(self, setting: Setting) -> Ran:
         try:
-            run = self._gears.run(replace(self.scene, accuracy=setting.accuracy(self.scene.gears.module)))
+            run = self._gears.run(replace(self.scene, accuracy=setting.accuracy(self.scene.gears.module)), Ticking(self._tick))
+        except MemoryError:
+            raise TargetNotReached(f"there is not enough memory for the run with {setting.words}") from None
         except GearsError as error:
             raise ComputationError(f"while accuracy.target was choosing settings, the run with {setting.words} failed: {error}") from error
         seconds = {"gears": float(run.attrs["time_mesh"] + run.attrs["time_condense"]), "march": float(run.attrs["time_march"])}

@@ -15,6 +15,8 @@ from fenics_gears.simulation import simulate
 from fenics_gears.studies.fields import as_toml, changed
 from fenics_gears.studies.target.chosen import Chosen, choose
 
+# What to do about a warning that names settings: they may not stand beside a target.
+OTHER_SETTINGS = "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene has, and change them"
 LENGTHS = ("flank_element_size", "body_element_size", "contact_length")
 
 
@@ -29,7 +31,7 @@ def simulate_to_target(scene: Scene, *, progress: Progress, **arguments) -> xr.D
     chosen = choose(scene, scene.accuracy.target, progress)
     seconds = time.perf_counter() - begun
     result = simulate(with_settings(scene, chosen.accuracy), progress=progress, **arguments)
-    return result.assign_attrs(_told(scene.accuracy.target, chosen), time_choose=seconds)
+    return result.assign_attrs(_told(scene.accuracy.target, chosen, result.attrs["warnings"]), time_choose=seconds)
 
 
 def with_settings(scene: Scene, accuracy: Accuracy) -> Scene:
@@ -45,7 +47,8 @@ def _written(name: str, value):
     return f"{float(value)!r} mm" if name in LENGTHS else value
 
 
-def _told(target: float, chosen: Chosen) -> dict:
+def _told(target: float, chosen: Chosen, warnings: str) -> dict:
+    remarks = chosen.remarks + ((OTHER_SETTINGS,) if "accuracy." in warnings else ())
     parts = {f"{ESTIMATED}{name}": part for name, part in chosen.parts.items()}
-    remarks = {"target_runs": chosen.runs, "target_remarks": "\n".join(chosen.remarks)}
-    return {"target": target, "estimated_error": chosen.estimated_error, **parts, **remarks}
+    how = {"target_runs": chosen.runs, "target_remarks": "\n".join(remarks)}
+    return {"target": target, "estimated_error": chosen.estimated_error, **parts, **how}

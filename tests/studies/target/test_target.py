@@ -1,5 +1,7 @@
 """`[accuracy] target` on a real scene: what is chosen reaches it, is told, and repeats; what cannot be reached is refused."""
 
+import contextlib
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +18,7 @@ from fenics_gears.simulation import simulate
 from fenics_gears.studies.accuracy.ladder import half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
 from fenics_gears.studies.target import chosen as choosing
+from fenics_gears.studies.target import limits
 from fenics_gears.studies.target import pilot as pilots
 from fenics_gears.studies.target.chosen import choose
 from fenics_gears.studies.target.errors import TargetNotReached
@@ -105,29 +108,84 @@ def test_a_window_that_cuts_contact_off_is_lengthened(scene):
 
 
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
-    """With hardly any memory no fine contact operators fit."""
-    for module in (pilots, choosing):
-        monkeypatch.setattr(module, "MOST_BYTES", 3e6)
-    with pytest.raises(TargetNotReached, match=r"accuracy.target = 0.5 %.*contact operators") as failure:
-        choose(scene, 0.005, SilentProgress())
+    """With little memory no fine settings fit, and the target named instead is one that the same runs reach."""
+    monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
+    with pytest.raises(TargetNotReached, match=r"accuracy.target = 0.1 %.*contact operators and gears.*sharp edges.*; [\d.]+ % can be") as failure:
+        choose(scene, 0.001, SilentProgress())
     assert failure.value.exit_code == 3
+    reachable = 0.01 * float(re.search(r"; ([\d.]+) % can be", str(failure.value))[1])
+    assert 0.001 < choose(scene, 1.05 * reachable, SilentProgress()).estimated_error <= 1.05 * reachable
 
 
-@pytest.mark.parametrize("line", [
-    'element = "P1"', "contact_nodes = 20", 'model = "rigid teeth"', 'condensation = "once"',
+def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
+    """The check, which halves a knob at settings that just fit, least of all."""
+    tried, run = [], pilots.Pilot._run
+    monkeypatch.setattr(limits, "MOST_BYTES", 1.5e8)
+
+    def noted(pilot, setting):
+        tried.append(limits.Limits(scene, 2).bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
+        return run(pilot, setting)
+
+    monkeypatch.setattr(pilots.Pilot, "_run", noted)
+    with contextlib.suppress(TargetNotReached):
+        choose(scene, 0.01, SilentProgress())
+    assert len(tried) >= 7 and max(tried) <= 1.5e8
+
+
+def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
+    """What the estimate did not foresee."""
+    def no_memory(kept, scene, progress):
+        raise MemoryError
+
+    monkeypatch.setattr(pilots.KeptGears, "run", no_memory)
+    with pytest.raises(TargetNotReached, match="not enough memory for the run with P2"):
+        choose(scene, TARGET, SilentProgress())
+
+
+def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
+    """The schema's own bounds: the chosen settings are written into a scene."""
+    bounds, module = limits.Limits(scene, 2), scene.gears.module
+    assert bounds.allowed(0.01 * module, 1.0, 0.05, 1.0) and not bounds.allowed(0.9e-3 * module, 1.0, 0.05, 1.0)
+    assert "finer than a scene may ask for" in bounds.why_not(0.9e-3 * module, 1.0, 0.05, 1.0)
+    many_cycles = replace(scene, motion=Motion(200.0, 50, 50))
+    assert limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 5e-3, 1.0)
+    assert not limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 1e-4, 1.0)
+    assert limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
+
+
+def test_choosing_can_be_interrupted_within_a_run(scene):
+    """Ctrl-C becomes a KeyboardInterrupt at a step of the first run, not at its end."""
+    class Interrupted(SilentProgress):
+        said = 0
+
+        def update(self, done, total, note=""):
+            self.said += 1
+            if self.said == 5:
+                raise KeyboardInterrupt
+
+    progress = Interrupted()
+    with pytest.raises(KeyboardInterrupt):
+        choose(scene, TARGET, progress)
+    assert progress.said == 5
+
+
+@pytest.mark.parametrize("line, reason", [
+    ('element = "P1"', "is chosen by accuracy.target"), ("contact_nodes = 20", "is chosen by accuracy.target"),
+    ('model = "rigid teeth"', "cannot stand beside accuracy.target, which is for the full contact of elastic teeth"),
+    ('condensation = "once"', "cannot stand beside accuracy.target, which condenses once"),
 ])  # fmt: skip
-def test_a_setting_beside_a_target_is_refused(text, line):
+def test_a_setting_beside_a_target_is_refused(text, line, reason):
     """Two answers to one question."""
     with pytest.raises(SceneError) as failure:
         scene_from_text(text + line + "\n")
-    assert f"accuracy.{line}\n    is chosen by accuracy.target. Leave one of the two out." in str(failure.value)
+    assert f"accuracy.{line}\n    {reason}. Leave one of the two out." in str(failure.value)
 
 
 @pytest.mark.parametrize("written, reason", [
     ("1", 'is a number without %. As a percentage it is written "1 %"'),
-    ('"1"', "is not a number and %"), ('"1 mm"', "is not a number and %"), ('"-1 %"', "is not a number and %"),
+    ('"1"', "is not a number and %"), ('"1 mm"', "is not a number and %"), ('"-1 %"', "is negative"),
     ('"0 %"', "is zero"), ('"0.01 %"', "is too small"), ('"60 %"', "is too large"), ("true", "is not a text with a number and %"),
-    ('"1e999 %"', "is not a finite number"),
+    ('"1e999 %"', "is not a finite number"), ("0.01", 'As a percentage it is written "1 %"'), ("0.2", 'written "0.2 %" or "20 %"'),
 ])  # fmt: skip
 def test_a_wrong_percentage_says_what_is_wrong(text, written, reason):
     """Wording for people."""

@@ -1,0 +1,64 @@
+"""What settings a target may choose: those that memory holds and that a scene file could ask for itself."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+
+from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.memory import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
+from fenics_gears.model import MOST_STORED_BYTES, Model, model
+from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
+
+# Contact operators and condensed flanks of a run.
+MOST_BYTES = 4e9
+# As scene files have it.
+MOST_NODES = 1000
+
+Size = float | np.ndarray
+
+
+class Limits:
+    """Of a scene whose `[accuracy]` is empty; sizes are of flank elements (mm), body elements (parts of their default), steps (mesh cycles)."""
+
+    def __init__(self, scene: Scene, order: int):
+        self._built: Model = model(scene)
+        self._friction, self._order, self._module = scene.friction is not None, order, scene.gears.module
+        self._pairs = loaded_pairs(self._built)
+
+    def bytes_of(self, flank: Size, step: Size, length: float) -> Size:
+        """Memory of contact operators over one mesh cycle, and of both gears."""
+        rows = self._pairs * self._nodes(flank, length) * (2 if self._friction else 1)
+        gears = (self._built.pair.pinion, self._built.pair.wheel)
+        return operator_bytes(1.0 / step, rows, self._friction) + sum(flank_bytes(flank_unknowns(gear, self._order, flank)) for gear in gears)
+
+    def stored_bytes(self, flank: Size, step: Size, length: float) -> Size:
+        """Size of the scene's own result, all its recorded cycles."""
+        resolution = self._built.resolution
+        as_built = resolution.contact_grid.nodes * resolution.steps_per_mesh_cycle
+        return self._built.stored_bytes * self._nodes(flank, length) / (step * as_built)
+
+    def too_fine(self, flank: Size, body: Size, length: float) -> Size:
+        """Whether elements or contact nodes are finer than a scene file may ask for."""
+        body_size = body * DEFAULT_SIZES[self._order].body * self._module
+        too_fine = (flank < FINEST_ELEMENT * self._module) | (body_size < FINEST_BODY * self._module)
+        return too_fine | (body_size < flank) | (self._nodes(flank, length) > MOST_NODES)
+
+    def allowed(self, flank: Size, body: Size, step: Size, length: float, stored: bool = True) -> Size:
+        """Whether a run may have these sizes; `stored`: with the whole of its result, as the run that is asked for has it."""
+        held = (self.bytes_of(flank, step, length) <= MOST_BYTES) & ~np.asarray(self.too_fine(flank, body, length))
+        return held & (self.stored_bytes(flank, step, length) <= (MOST_STORED_BYTES if stored else inf))
+
+    def why_not(self, flank: float, body: float, step: float, length: float) -> str:
+        """What is beyond the limits, in words that follow "the next halving of ..."."""
+        if self.too_fine(flank, body, length):
+            return f"takes elements or contact nodes finer than a scene may ask for ({FINEST_ELEMENT:g} modules on the flank, {MOST_NODES} nodes)"
+        if self.bytes_of(flank, step, length) > MOST_BYTES:
+            return f"takes more than {MOST_BYTES / 1e9:g} GB for contact operators and gears"
+        return f"makes a result of more than {MOST_STORED_BYTES / 1e9:g} GB (motion.recorded_cycles: fewer make it smaller)"
+
+    def _nodes(self, flank: Size, length: float) -> Size:
+        return length / (NODE_SPACING * flank) + 2.0
