@@ -17,7 +17,7 @@ from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.resolution import Resolution, locking_warnings, mesh_stiffness, resolution_warnings, resolve
-from fenics_gears.scene.data import Scene
+from fenics_gears.scene.data import LAST_CYCLES, Scene
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -95,7 +95,7 @@ class Model:
     @property
     def warnings(self) -> list[str]:
         """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
-        found = [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
+        found = [*self._unrecorded(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.material)
         for effect in effects_on(self.scene):
             if effect.warnings is not None:
@@ -112,6 +112,17 @@ class Model:
             found += time_step_warnings(self.vibrations, judged, steps, self.pace, self.time_step)
         return found
 
+    def _unrecorded(self) -> list[str]:
+        """A sentence where cycles are not stored that differ from those that are, and nobody has asked for so few."""
+        motion = self.scene.motion
+        if not motion.fewer_where_too_large or motion.recorded_cycles == motion.mesh_cycles:
+            return []
+        return [
+            f"only the last {motion.recorded_cycles} of {motion.mesh_cycles} mesh cycles, which are not alike, are stored, and the transmission error is "
+            f"theirs: a result of all would hold more than {MOST_STORED_BYTES / 1e9:g} GB; motion.recorded_cycles says how many to store, fewer "
+            "accuracy.steps_per_mesh_cycle leave room for more"
+        ]
+
 
 MOST_STORED_BYTES = 4e9
 # Of one tooth pair at one time: both gears, both fillets, 25 points.
@@ -127,6 +138,9 @@ def model(scene: Scene) -> Model:
     check_files(scene, pair)
     shafts = drivetrain(scene, pair)
     built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
+    if scene.motion.fewer_where_too_large and built.stored_bytes > MOST_STORED_BYTES:
+        last = replace(scene.motion, recorded_cycles=min(LAST_CYCLES, scene.motion.mesh_cycles))
+        built = replace(built, scene=replace(scene, motion=last))
     if built.stored_bytes > MOST_STORED_BYTES:
         raise SceneError(
             f"motion.recorded_cycles = {scene.motion.recorded_cycles}: the result would hold {built.stored_bytes / 1e9:.3g} GB, at most "

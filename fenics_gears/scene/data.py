@@ -44,13 +44,21 @@ class Load:
     wheel_torque: float
 
 
+# As many are kept where nothing is said of it and all are alike, or all would be too many.
+LAST_CYCLES = 2
+
+
 @dataclass(frozen=True)
 class Motion:
-    """Mesh frequency in Hz (mesh cycles a second) and how many cycles are run and kept."""
+    """Mesh frequency in Hz (mesh cycles a second) and how many cycles are run and kept.
+
+    ``fewer_where_too_large``: where the result could not hold the recorded cycles, only the last two are; the scene does not ask for them by number.
+    """
 
     mesh_frequency: float
     mesh_cycles: int
     recorded_cycles: int
+    fewer_where_too_large: bool = False
 
 
 # What a mesh is computed as: the full contact of elastic flanks, and the cheaper models.

@@ -79,7 +79,7 @@ def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
         title=checked.title or name,
         gears=_gears(checked.gears),
         load=same_names(data.Load, checked.load),
-        motion=_motion(checked.motion, checked.gears),
+        motion=_motion(checked.motion, checked.gears, ramped=checked.speed_ramp is not None),
         accuracy=same_names(data.Accuracy, checked.accuracy),
         output=same_names(data.Output, checked.output),
         text=text,
@@ -100,12 +100,18 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     )
 
 
-def _motion(motion: schema.Motion, gears: schema.Gears) -> data.Motion:
-    """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth."""
+def _motion(motion: schema.Motion, gears: schema.Gears, ramped: bool) -> data.Motion:
+    """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth.
+
+    Where it is not said how many cycles are recorded: the last two, of a speed ramp or of a whole hunting tooth period all that fit.
+    """
     frequency = motion.mesh_frequency
     if frequency is None:
         frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
     whole_period = math.lcm(gears.pinion.teeth, gears.wheel.teeth)
     cycles = motion.mesh_cycles or whole_period
-    default = whole_period if "recorded_cycles" in motion.model_fields_set else min(2, cycles)
-    return data.Motion(frequency, cycles, motion.recorded_cycles or default)
+    if "recorded_cycles" in motion.model_fields_set:
+        return data.Motion(frequency, cycles, motion.recorded_cycles or whole_period)
+    if ramped or motion.mesh_cycles is None:
+        return data.Motion(frequency, cycles, cycles, fewer_where_too_large=True)
+    return data.Motion(frequency, cycles, min(data.LAST_CYCLES, cycles))

@@ -70,7 +70,12 @@ class Motion(Section):
     )
     mesh_cycles: Optional[int] = whole_number(1, 1_000_000, 30, meaning="how many mesh cycles are run", words=WHOLE_PERIOD)
     recorded_cycles: Optional[int] = whole_number(
-        1, 1_000_000, 2, meaning="how many of them, the last, are stored", otherwise="all", words=WHOLE_PERIOD
+        1,
+        1_000_000,
+        2,
+        meaning="how many of them, the last, are stored",
+        otherwise="2; all of them with `[speed_ramp]`, or where `\"hunting tooth period\"` are run, unless the result would be larger than 4 GB",
+        words=WHOLE_PERIOD,
     )
 
 

@@ -8,6 +8,8 @@ import pytest
 import fenics_gears
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.errors import SceneError
+from fenics_gears.model import model
 from fenics_gears.scene import data
 from fenics_gears.scene.read import load_scene, scene_from_text
 
@@ -33,7 +35,7 @@ def numbers(section):
             + [2.06e5, 0.3],
         ),
         ("load", [0.437e6]),
-        ("motion", [200.0, 30, 2]),
+        ("motion", [200.0, 30, 2, False]),
         ("shafts", [0.203e9]),
         ("bearings", [0.155e6, None, None, None, None]),
         ("inertia", [4.9e-3, 24.5]),
@@ -113,6 +115,28 @@ def test_what_is_left_out_has_its_default():
     assert scene.motion.recorded_cycles == 2
     assert scene_from_text(text.replace("mesh_cycles = 30", "mesh_cycles = 1")).motion.recorded_cycles == 1
     assert scene_from_text(text.replace('title = "Lundvall, Strömberg, Klarbring 2004"\n', ""), "pair").title == "pair"
+
+
+RAMP = '[speed_ramp]\nend_frequency = "260 Hz"\n'
+
+
+@pytest.mark.parametrize(("cycles", "section", "recorded"), [("30", "", 2), ("30", RAMP, 30), ('"hunting tooth period"', "", 48)])
+def test_cycles_that_are_not_alike_are_all_recorded(cycles, section, recorded):
+    """Authority: docs/scene.md, which has the field's own words; a number that is given holds for all of them."""
+    text = DEMO.replace("mesh_cycles = 30 ", f"mesh_cycles = {cycles} ") + section
+    assert scene_from_text(text.replace("recorded_cycles = 2\n", "")).motion.recorded_cycles == recorded
+    assert scene_from_text(text).motion.recorded_cycles == 2
+
+
+def test_of_cycles_that_a_result_cannot_hold_the_last_two_are_recorded():
+    """Authority: the same; the run says so. So many that are asked for by number are refused."""
+    text = DEMO.replace("mesh_cycles = 30 ", "mesh_cycles = 3000 ") + RAMP
+    built = model(scene_from_text(text.replace("recorded_cycles = 2\n", "")))
+    assert built.scene.motion.recorded_cycles == 2 and built.stored_steps == 2 * built.resolution.steps_per_mesh_cycle + 1
+    assert "only the last 2 of 3000 mesh cycles" in built.warnings[0]
+    assert not any("only the last" in words for words in model(scene_from_text(text)).warnings)
+    with pytest.raises(SceneError, match="the result would hold"):
+        model(scene_from_text(text.replace("recorded_cycles = 2\n", "recorded_cycles = 3000\n")))
 
 
 @pytest.mark.parametrize(
