@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import March, Marcher, Record
 from fenics_gears.effects import effects_on, missing_needs, without
@@ -89,11 +89,6 @@ def dynamic_factors(built: Model, cycle: Cycle, march: March, stress: RootStress
 
 
 def largest_pair_force(record: Record) -> float:
-    """Largest normal force (N) of a tooth pair's drive flanks at a step."""
-    largest, start = 0.0, 0
-    for pair in record.position.operator.pairs:
-        end = start + len(pair.offsets)
-        if pair.place.flank == DRIVE:
-            largest = max(largest, float(record.solution.forces[start:end].sum()))
-        start = end
-    return largest
+    """Largest normal force (N) of a tooth pair, on drive or coast flanks, at a step."""
+    ends = np.cumsum([len(pair.offsets) for pair in record.position.operator.pairs])
+    return max((float(force.sum()) for force in np.split(record.solution.forces, ends)[: len(ends)]), default=0.0)
