@@ -117,7 +117,7 @@ class GearRecovery:
     def _turned(self, vectors: np.ndarray, pitches: int) -> np.ndarray:
         """Interleaved plane vectors (..., 2 k) turned counter-clockwise by pitches."""
         turn = rotation(pitches * self.gear.angular_pitch)
-        return (vectors.reshape(*vectors.shape[:-1], -1, 2) @ turn.T).reshape(vectors.shape)
+        return (vectors.reshape(*vectors.shape[:-1], vectors.shape[-1] // 2, 2) @ turn.T).reshape(vectors.shape)
 
     def cut_motion(self, loads: np.ndarray) -> np.ndarray:
         """Displacement (teeth, 2 c, k) of the sectors' lower cuts under loads (teeth, 2 c, k) on them, Young's modulus 1 MPa.

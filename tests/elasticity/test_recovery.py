@@ -53,6 +53,14 @@ def test_flanks_move_as_their_compliance_says(name, flanks):
         assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
 
 
+def test_a_gear_that_nothing_touches_is_at_rest():
+    """Exact identity: no forces, no displacement and no stress; the teeth have parted at such a step."""
+    with gear_recovery(PINION, STEEL, element="P1", flank_element_size=SIZE) as recovery:
+        body, nodes = recovery.recovered({}), len(recovery.points)
+    assert body.displacement.shape == (PINION.teeth, nodes, 2) and body.stress.shape == (PINION.teeth, nodes, 3)
+    assert not body.displacement.any() and not body.stress.any() and not body.hub_force.any()
+
+
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_every_node_of_the_gear_is_in_equilibrium(name):
     """Exact identity: K u = f with the stiffness of the whole gear meshed as one body, at all nodes but the held hub's."""
