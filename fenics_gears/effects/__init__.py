@@ -58,8 +58,8 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
     ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
-    ResultVariable("work_input", "N mm", "work of the drive"),
-    ResultVariable("work_output", "N mm", "work done on the load"),
+    ResultVariable("work_input", "N mm", "work that the pinion's shaft puts in, of the drive; negative where the wheel drives"),
+    ResultVariable("work_output", "N mm", "work that the wheel's shaft takes out, done on the load; negative where the wheel drives"),
     ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
     ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
 )

@@ -22,7 +22,7 @@ from fenics_gears.dynamics.march import March, Record, VaryingLoad
 from fenics_gears.effects import effects_on, result_variables
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_variables, pair_variables
-from fenics_gears.results.energy_variables import energy_variables, work_variables
+from fenics_gears.results.energy_variables import energy_variables, transmitted, work_variables
 from fenics_gears.scene.data import Scene
 from fenics_gears.validity import warnings_of, warnings_of_energy
 
@@ -123,7 +123,7 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
 
 def _friction_loss(result: xr.Dataset) -> dict[str, float]:
     """The share of the drive's work that friction takes; nothing where the drive does no work."""
-    drive = abs(float(result["work_input"].values[-1]))
+    drive = abs(transmitted(result).drive)
     return {"friction_loss": float(result["work_friction"].values[-1]) / drive} if drive else {}
 
 

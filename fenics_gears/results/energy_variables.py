@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import pi
 
 import numpy as np
+import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
@@ -58,6 +60,26 @@ def work_variables(
     if scene.friction is not None:
         values["work_friction"] = work.friction
     return {name: (("time",), value) for name, value in values.items()}
+
+
+@dataclass(frozen=True)
+class Transmitted:
+    """Work over the stored steps, N mm: of whichever gear's shaft drives, and done on the other's."""
+
+    drive: float
+    load: float
+    wheel_drives: bool
+
+
+def transmitted(result: xr.Dataset) -> Transmitted:
+    """Which side drives and what work it does, by the last stored step of a result's account.
+
+    A wheel that drives takes work out of the pinion and negative work out of itself.
+    """
+    at_pinion, at_wheel = (float(result[name].values[-1]) for name in ("work_input", "work_output"))
+    if at_pinion + at_wheel < 0.0:
+        return Transmitted(-at_wheel, -at_pinion, True)
+    return Transmitted(at_pinion, at_wheel, False)
 
 
 def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], records: list[Record], angle: float) -> np.ndarray:

@@ -3,6 +3,7 @@
 from math import pi
 
 import numpy as np
+import pytest
 import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,8 +13,9 @@ from tests.show.synthetic import made_up_run
 
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.forces import shared_curves
+from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.overview import counted, digits, summary
-from fenics_gears.show.report.pair_drawing import _on_line, gear_outline
+from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
 from fenics_gears.show.report.plotting import Curve, plot
 from fenics_gears.show.report.run import Run
 from fenics_gears.show.report.spectra import spectra, spectrum
@@ -143,12 +145,49 @@ def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
     assert "Work taken since the first stored step" in captions
 
 
-def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair):
+def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
+    """Authority: conservation of energy: a wheel that drives does the larger work, of which shares are; what is taken from it is positive."""
+    dataset = made_up_run(scene=paper_scene.text)
+    work = {"work_input": -96.0, "work_output": -100.0, "work_friction": 3.0, "work_contact_changes": -1.0, "energy": 0.0, "energy_defect": 0.0}
+    for name, last in work.items():
+        dataset[name] = ("time", np.linspace(0.0, 1e3 * last, dataset.sizes["time"]), {"units": "N mm"})
+
+    def rows():
+        facts = energy(Run(dataset, tmp_path / "run.nc")).blocks[0]
+        return {label: f"{value} {unit}" for label, value, unit in facts.rows}
+
+    wheel = rows()
+    assert wheel["work of the drive, the wheel's shaft"] == "100 N m"
+    assert wheel["work done on the load, the pinion's shaft"] == "96 N m (96 % of the drive's work)"
+    assert wheel["taken by friction"] == "3 N m (3 % of the drive's work)"
+    assert wheel["put in by the time stepping where contact changes"] == "-1 N m (-1 % of the drive's work)"
+    for name, last in {"work_input": 100.0, "work_output": 96.0}.items():
+        dataset[name] = ("time", np.linspace(0.0, 1e3 * last, dataset.sizes["time"]), {"units": "N mm"})
+    assert rows()["work of the drive, the pinion's shaft"] == "100 N m"
+
+
+def test_the_teeth_are_drawn_on_the_line_of_action_of_the_flanks_that_carry(paper_scene, paper_pair, tmp_path):
+    """Mirror at the line of centres; coast flanks go from the pinion's tip, which is furthest from T1, to its root."""
+    drive, coast = (
+        {trace.name: (np.array(trace.x, dtype=float), trace.hovertext) for trace in drawings(paper_pair, side)[1].figure.data} for side in (False, True)
+    )
+    for name in ("line of action", "path of contact", "points"):
+        np.testing.assert_allclose(coast[name][0], -drive[name][0], atol=1e-12)
+    assert drive["points"][1][0] == coast["points"][1][-1] == "start of contact"
+    run = made_up_run(scene=paper_scene.text)
+    assert not Run(run, tmp_path / "run.nc").on_coast_flanks
+    run["coast_normal_force"], run["normal_force"] = run["normal_force"], 0.0 * run["normal_force"]
+    captions = [block.caption for block in geometry(Run(run, tmp_path / "run.nc")).blocks[1:]]
+    assert captions == ["The pair", "Teeth along the path of contact of the coast flanks, which carry"]
+
+
+@pytest.mark.parametrize("coast", [False, True])
+def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair, coast):
     """Authority: at the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do not overlap.
     Outlines are chords of 14 points a flank, so a few thousandths of a millimetre off."""
     phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
-    outlines = [gear_outline(paper_pair, gear, phase) for gear in (0, 1)]
-    pitch = _on_line(paper_pair, [paper_pair.pitch_point])[0]
+    outlines = [gear_outline(paper_pair, gear, phase, coast) for gear in (0, 1)]
+    pitch = _on_line(paper_pair, [paper_pair.pitch_point], coast)[0]
     for points, gear, centre in zip(
         outlines, (paper_pair.pinion, paper_pair.wheel), (np.zeros(2), np.array([0.0, -paper_pair.centre_distance]))
     ):

@@ -72,6 +72,16 @@ def test_numbers_of_a_run_are_those_of_the_flanks_that_carry(both_flanks):
     assert "lose contact" not in backward.attrs["warnings"]
 
 
+def test_friction_takes_its_share_of_the_wheels_work_where_the_wheel_drives(both_flanks):
+    """Conservation of energy over a mesh cycle: the wheel's work is what the pinion's shaft takes and what friction takes."""
+    load = replace(both_flanks.load, wheel_torque=-both_flanks.load.wheel_torque)
+    driven = simulate(quasi_static(both_flanks, load=load, friction=Friction(0.1)))
+    wheel, pinion, friction = (float(driven[name].values[-1]) for name in ("work_output", "work_input", "work_friction"))
+    assert wheel < pinion < 0.0 < friction
+    assert driven.attrs["friction_loss"] == pytest.approx(friction / -wheel, rel=1e-12)
+    assert driven.attrs["friction_loss"] == pytest.approx(1.0 - pinion / wheel, abs=1e-3)
+
+
 def test_a_pair_without_load_says_nothing_of_friction_and_pressure(both_flanks):
     """Authority: zero. What rounding leaves on the closed node is neither a friction loss nor pressure on a sharp edge."""
     idle = simulate(quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=0.0), friction=Friction(0.1), coast_flanks=None))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.report.forces import least
 from fenics_gears.show.report.page import Facts, Section, Words
 from fenics_gears.show.report.plotting import over_time
 from fenics_gears.show.report.run import TOO_FEW, Run
-from fenics_gears.show.units import in_unit
+from fenics_gears.show.units import factor, in_unit
 
 PARTS = {"energy_teeth": "teeth", "energy_shafts": "shafts", "energy_bearings": "bearings", "energy_kinetic": "motion (kinetic)"}
 TAKEN = {"work_friction": "friction", "work_damping": "damping"}
@@ -28,19 +29,21 @@ def energy(run: Run) -> Section:
 def _rows(run: Run) -> list[tuple[str, str, str]]:
     last = {
         name: in_unit(run.dataset[name], UNIT)[-1]
-        for name in ("work_input", "work_output", *TAKEN, "work_contact_changes", "energy_defect")
-        if name in run.dataset
-    }
+        for name in (*TAKEN, "work_contact_changes") if name in run.dataset
+    }  # fmt: skip
     held = in_unit(run.dataset["energy"], UNIT)
-    drive = abs(last["work_input"])
+    work, to_unit = transmitted(run.dataset), factor("N mm", UNIT)
+    drive = abs(work.drive) * to_unit
 
     def row(label: str, value: float) -> tuple[str, str, str]:
         # What rounding leaves of two equal numbers is none.
         shown = value if abs(value) > 1e-9 * drive else 0.0
-        share = f" ({100.0 * abs(shown) / drive:.4g} % of the drive's work)" if drive and label != "work of the drive" else ""
+        share = f" ({100.0 * shown / drive:.4g} % of the drive's work)" if drive else ""
         return label, f"{shown:.6g}", UNIT + share
 
-    rows = [row("work of the drive", last["work_input"]), row("work done on the load", last["work_output"])]
+    sides = ("the wheel's shaft", "the pinion's shaft") if work.wheel_drives else ("the pinion's shaft", "the wheel's shaft")
+    rows = [(f"work of the drive, {sides[0]}", f"{work.drive * to_unit:.6g}", UNIT)]
+    rows.append(row(f"work done on the load, {sides[1]}", work.load * to_unit))
     rows += [row(f"taken by {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))

@@ -23,7 +23,7 @@ def geometry(run: Run) -> Section:
     ]  # fmt: skip
     of_pair += [row for row in rows if not row[0].startswith(GEARS)]
     return Section(
-        "geometry", "Geometry of the pair", [Beside([_both(run, rows), Facts(of_pair, "Both gears together")]), *drawings(run.pair)]
+        "geometry", "Geometry of the pair", [Beside([_both(run, rows), Facts(of_pair, "Both gears together")]), *drawings(run.pair, run.on_coast_flanks)]
     )
 
 

@@ -17,28 +17,33 @@ from fenics_gears.show.report.plotting import layout, numbers
 
 FILLET_POINTS, INVOLUTE_POINTS, CIRCLE_POINTS = 9, 14, 181
 FILLS = ("#DCE9F3", "#F3E6DA")
+MIRROR = np.array([-1.0, 1.0])
 
 
-def drawings(pair: GearPair) -> list[Plot]:
-    """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point."""
+def drawings(pair: GearPair, coast: bool = False) -> list[Plot]:
+    """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point with its drive or coast flanks."""
     phase = (pair.pitch_point - pair.path_start) / pair.base_pitch
-    teeth = [gear_outline(pair, gear, phase) for gear in (0, 1)]
-    whole = _figure(pair, teeth, labels=False)
-    close = _figure(pair, teeth, labels=True)
+    teeth = [gear_outline(pair, gear, phase, coast) for gear in (0, 1)]
+    whole = _figure(pair, teeth, coast, labels=False)
+    close = _figure(pair, teeth, coast, labels=True)
     _look_at(whole, *_whole(pair), height=620)
-    _look_at(close, *_teeth(pair), height=560)
+    _look_at(close, *_teeth(pair, coast), height=560)
     drawn = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres."
     note = f"{drawn} Drag to zoom, double click to come back."
-    return [Plot("The pair", whole, note, 620), Plot("Teeth along the path of contact", close, _points_in_words(pair), 560)]
+    caption = "Teeth along the path of contact" + (" of the coast flanks, which carry" if coast else "")
+    return [Plot("The pair", whole, note, 620), Plot(caption, close, _points_in_words(pair, coast), 560)]
 
 
-def gear_outline(pair: GearPair, gear: int, phase: float) -> np.ndarray:
-    """Outline (n, 2), mm, of a gear where it stands at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright."""
+def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -> np.ndarray:
+    """Outline (n, 2), mm, of a gear where it stands at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright.
+
+    coast: with the coast flanks where the drive flanks are at that phase, which is the mirror image at the line of centres.
+    """
     centre, angles = standing(pair, gear, phase)
     tooth = _tooth((pair.pinion, pair.wheel)[gear])
     # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
     points = np.vstack([centre + tooth @ rotation(angle).T for angle in np.sort(angles)[::-1]])
-    return _upright(pair, np.vstack([points, points[:1]]))
+    return _upright(pair, np.vstack([points, points[:1]]), coast)
 
 
 def _tooth(gear: Gear) -> np.ndarray:
@@ -57,11 +62,12 @@ def _arc(radius: float, start: float, end: float, points: int = 4) -> np.ndarray
     return radius * np.column_stack([np.cos(angles), np.sin(angles)])
 
 
-def _upright(pair: GearPair, points: np.ndarray) -> np.ndarray:
-    return points @ rotation(-pair.operating_pressure_angle).T
+def _upright(pair: GearPair, points: np.ndarray, coast: bool) -> np.ndarray:
+    upright = points @ rotation(-pair.operating_pressure_angle).T
+    return upright * MIRROR if coast else upright
 
 
-def _figure(pair: GearPair, teeth: list[np.ndarray], labels: bool):
+def _figure(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool):
     import plotly.graph_objects as go
 
     gears, traces = (("pinion", pair.pinion), ("wheel", pair.wheel)), []
@@ -83,14 +89,14 @@ def _figure(pair: GearPair, teeth: list[np.ndarray], labels: bool):
     for name, (radius, dash, colour) in circles.items():
         parts = [centre + _circle(getattr(gear, radius)) for (_, gear), centre in zip(gears, _centres(pair))]
         line(name, np.vstack([parts[0], [[np.nan, np.nan]], parts[1]]), color=colour, dash=dash, width=1)
-    line("line of action", _on_line(pair, [0.0, pair.line_of_action_length]), color=PALETTE[1], width=1.2)
-    line("path of contact", _on_line(pair, [pair.path_start, pair.path_end]), color=PALETTE[1], width=4)
-    places = {name: place for name, place in _points(pair).items() if labels or name == "pitch point"}
-    at = _on_line(pair, list(places.values()))
+    line("line of action", _on_line(pair, [0.0, pair.line_of_action_length], coast), color=PALETTE[1], width=1.2)
+    line("path of contact", _on_line(pair, [pair.path_start, pair.path_end], coast), color=PALETTE[1], width=4)
+    places = {name: place for name, place in _points(pair, coast).items() if labels or name == "pitch point"}
+    at = _on_line(pair, list(places.values()), coast)
     marks = {
         "mode": "markers+text",
         "text": list(places) if labels else None,
-        "textposition": [*["top right"] * (len(places) - 1), "bottom left"],
+        "textposition": [*["top left" if coast else "top right"] * (len(places) - 1), "bottom right" if coast else "bottom left"],
         "hoverinfo": "text",
         "hovertext": list(places),
     }
@@ -109,21 +115,25 @@ def _circle(radius: float) -> np.ndarray:
     return _arc(radius, 0.0, 2.0 * np.pi, CIRCLE_POINTS)
 
 
-def _on_line(pair: GearPair, positions: list[float]) -> np.ndarray:
-    """Points (n, 2) of the picture at positions (mm from T1) on the line of action."""
-    return _upright(pair, np.column_stack([positions, np.full(len(positions), -pair.pinion.base_radius)]))
+def _on_line(pair: GearPair, positions: list[float], coast: bool = False) -> np.ndarray:
+    """Points (n, 2) of the picture at positions (mm from T1) on the line of action of drive or coast flanks."""
+    return _upright(pair, np.column_stack([positions, np.full(len(positions), -pair.pinion.base_radius)]), coast)
 
 
-def _points(pair: GearPair) -> dict[str, float]:
-    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever alone."""
+def _points(pair: GearPair, coast: bool) -> dict[str, float]:
+    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever alone.
+
+    Coast flanks go along their path the other way, from the pinion's tip to its root.
+    """
     alone = pair.fewest_pairs == 1
-    names = ("start of contact", "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", "end of contact")
+    ends = ("end of contact", "start of contact") if coast else ("start of contact", "end of contact")
+    names = (ends[0], "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", ends[1])
     places = (pair.path_start, pair.start_of_fewest_pairs, pair.pitch_point, pair.end_of_fewest_pairs, pair.path_end)
     return {name: place for name, place in zip(names, places) if name}
 
 
-def _points_in_words(pair: GearPair) -> str:
-    words = "; ".join(f"{name} {place:.3f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in _points(pair).items())
+def _points_in_words(pair: GearPair, coast: bool) -> str:
+    words = "; ".join(f"{name} {place:.3f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in _points(pair, coast).items())
     meaning = "LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
     return f"From T1 on the line of action, with the pinion's roll angle: {words}. {meaning if pair.fewest_pairs == 1 else ''}".strip()
 
@@ -134,9 +144,9 @@ def _whole(pair: GearPair) -> tuple[np.ndarray, float]:
     return np.array([0.0, 0.5 * (low + high)]), 0.53 * (high - low)
 
 
-def _teeth(pair: GearPair) -> tuple[np.ndarray, float]:
+def _teeth(pair: GearPair, coast: bool) -> tuple[np.ndarray, float]:
     """Middle and half height of a view of the path of contact, with the teeth's roots."""
-    middle = _on_line(pair, [0.5 * (pair.path_start + pair.path_end)])[0]
+    middle = _on_line(pair, [0.5 * (pair.path_start + pair.path_end)], coast)[0]
     depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 3.0 * pair.pinion.module
     return middle, 0.5 * depth
 

@@ -62,6 +62,12 @@ class Run:
         return float(phase[-1] - phase[0])
 
     @property
+    def on_coast_flanks(self) -> bool:
+        """Whether the coast flanks carry more than the drive flanks, over the stored steps."""
+        carried = [float(self.dataset[name].sum()) if name in self.dataset else 0.0 for name in ("coast_normal_force", "normal_force")]
+        return carried[0] > carried[1]
+
+    @property
     def micrometres(self) -> float:
         """What a transmission error in rad is multiplied with to be micrometres on the wheel's base circle."""
         radius = self.dataset.attrs.get("base_radius_wheel")
