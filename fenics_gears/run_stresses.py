@@ -13,7 +13,7 @@ from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.errors import ComputationError
+from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model import Model, model
 from fenics_gears.progress import SilentProgress
@@ -66,7 +66,7 @@ class GearsInMesh:
 class RunStresses:
     """Displacement and stress of both gears at any stored step of a result. Use it in a `with`, or `close` it.
 
-    scene: the one that was run. Raises ComputationError where the run has no elastic teeth, or met its contact by remeshing.
+    scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """
 
     def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None):
@@ -88,7 +88,8 @@ class RunStresses:
             recovery.close()
 
     def at(self, index: int) -> GearsInMesh:
-        """Both gears at a stored step."""
+        """Both gears at a stored step. Raises SceneError where they stand further than a pitch from their places."""
+        self._check_place(index)
         stored = stored_forces(self.result, self.built, self.cycle, index)
         motion = hub_motion(self.result, index)
         pair, coast = self.built.pair, stored.on_coast_flanks
@@ -98,6 +99,14 @@ class RunStresses:
         gears = tuple(self._gear(gear, stored, motion[gear]) for gear in (0, 1))
         phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
         return GearsInMesh(time, phase, gears, pair, approach, coast)
+
+    def _check_place(self, index: int) -> None:
+        error, pitch = abs(float(self.result["transmission_error"].values[index])), self.built.pair.wheel.angular_pitch
+        if error > pitch:
+            raise SceneError(
+                f"the transmission error at mesh phase {float(self.result['mesh_phase'].values[index]):.3f} is {error:.3g} rad, more than the pitch of "
+                f"the wheel's teeth ({pitch:.3g} rad): gears that have gone through each other are not drawn; the run's warnings say why"
+            )
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
         recovery = self.recoveries[gear]
@@ -115,16 +124,16 @@ class RunStresses:
 
     def _check(self) -> None:
         if self.built.scene.tooth_elasticity is None:
-            raise ComputationError("the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and run it again.")
+            raise SceneError("the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and run it again.")
         if not self.built.scene.resolves_contact:
-            raise ComputationError(
+            raise SceneError(
                 f'the run has a mesh of springs (accuracy.model = "{self.built.scene.accuracy.model}"): there are no stresses. '
                 'Run the scene with "elastic".'
             )
         if any(effect.elasticity is not None for effect in effects_on(self.built.scene)):
-            raise ComputationError("stresses are recovered from gears of equal sectors; this run has gears meshed as a whole ([body_meshes]).")
+            raise SceneError("stresses are recovered from gears of equal sectors; this run has gears meshed as a whole ([body_meshes]).")
         if self.built.resolution.condensation != ONCE:
-            raise ComputationError('stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run the scene with "once".')
+            raise SceneError('stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run the scene with "once".')
 
 
 def recovery_of(built: Model, gear: int) -> GearRecovery:

@@ -20,6 +20,7 @@ from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results import dataset
 from fenics_gears.scene.data import ELASTIC, ISO_6336, STIFFNESS_TABLE, Scene
+from fenics_gears.validity import worst_first
 from fenics_gears.warm_up import compile_kernels
 
 if TYPE_CHECKING:
@@ -201,7 +202,7 @@ def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, co
     resolution = built.resolution
     return result.assign_attrs(
         complete=int(complete),
-        warnings="\n".join([*built.warnings, *result.attrs["warnings"].splitlines()]),
+        warnings="\n".join(worst_first([*built.warnings, *result.attrs["warnings"].splitlines()])),
         base_radius_wheel=built.pair.wheel.base_radius,
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,

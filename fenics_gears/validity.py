@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import xarray as xr
 
@@ -22,7 +24,14 @@ ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 
 # The time stepping's own work at changes of contact, in parts of the largest energy, that is worth a word.
 NOTABLE_WORK = 0.1
+# What the numbers of a run are worthless by, in the words of a warning; such a warning stands before all others.
+NO_MEANING = "the result has no meaning"
 WINDOW_REACHED = "contact reached the end of the contact window"
+
+
+def worst_first(warnings: Iterable[str]) -> list[str]:
+    """Sentences by which the result has no meaning before the others, either in their order."""
+    return sorted(warnings, key=lambda said: NO_MEANING not in said)
 
 
 def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: int) -> list[str]:
@@ -48,7 +57,7 @@ def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     if cycle.resolves_flanks and cycle.spreads_pressure:
         of_flanks += _sharp_edge(cycle, records)
     return [
-        *of_flanks, *_rotation(drivetrain, records), *_wedged(cycle, records),
+        *_passed_through(cycle, drivetrain, records), *of_flanks, *_rotation(drivetrain, records), *_wedged(cycle, records),
         *_separation(cycle, drivetrain, march, clock), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
     ]  # fmt: skip
 
@@ -78,6 +87,20 @@ def _rank(records: list[Record]) -> list[str]:
         f"the contact compliance is singular in {len(lacking)} of {len(records)} stored steps (rank {rows - worst.dependent_rows} of {rows} "
         "at worst): contact nodes stand closer than the elements can tell apart and were given a thin layer each; forces hold, the "
         "pressure does not: lower accuracy.contact_nodes or accuracy.flank_element_size"
+    ]
+
+
+def _passed_through(cycle: Cycle, drivetrain: Drivetrain, records: list[Record]) -> list[str]:
+    """A transmission error of more than a pitch: where the gears stand, teeth of one are where those of the other are."""
+    states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
+    pinion, wheel = cycle.pair.pinion, cycle.pair.wheel
+    error = drivetrain.value(states, "rotation_2") + pinion.teeth / wheel.teeth * drivetrain.value(states, "rotation_1")
+    largest = np.abs(error).max(initial=0.0)
+    if largest <= wheel.angular_pitch:
+        return []
+    return [
+        f"{NO_MEANING}: the transmission error reaches {largest:.3g} rad, more than the pitch of the wheel's teeth ({wheel.angular_pitch:.3g} rad): "
+        "the gears would have gone through each other; the other warnings say why"
     ]
 
 
@@ -168,7 +191,7 @@ def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     )
     if march.records and march.separations[-1][0] < march.records[0].step:
         return [f"{beyond}. The stored cycles are in contact throughout; [coast_flanks] has what comes before them"]
-    return [f"{beyond}, and the result has no meaning from that time on; add [coast_flanks]"]
+    return [f"{beyond}, and {NO_MEANING} from that time on; add [coast_flanks]"]
 
 
 def _when(step: int, cycle: Cycle, clock: Clock) -> str:

@@ -9,8 +9,9 @@ from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.contact_loss import ContactLoss, contact_losses, loss_attributes
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.simulation import simulate
+from fenics_gears.validity import worst_first
 
 COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 
@@ -48,6 +49,16 @@ def test_large_rotations_are_named(coarse):
     """A shaft soft enough to turn by radians is outside of small rotations."""
     soft = replace(coarse, shafts=replace(coarse.shafts, torsional_stiffness=1e5), inertia=None, damping=None)
     assert "turns by" in simulate(soft).attrs["warnings"]
+
+
+def test_gears_that_have_gone_through_each_other_have_no_meaning(coarse):
+    """Geometry: a transmission error of more than a pitch. It is said before all else; here the couple bends teeth out of the way."""
+    forced = replace(coarse, load=Load(1e4 * coarse.load.wheel_torque), inertia=None, damping=None, motion=Motion(200.0, 1, 1))
+    result = simulate(forced)
+    assert np.abs(result.transmission_error.values).max() > 2 * np.pi / 24
+    said = result.attrs["warnings"].splitlines()
+    assert said[0].startswith("the result has no meaning: the transmission error reaches") and len(said) > 1
+    assert worst_first(["one", "two, and the result has no meaning", "three"]) == ["two, and the result has no meaning", "one", "three"]
 
 
 def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):

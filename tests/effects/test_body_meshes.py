@@ -14,7 +14,7 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import cracked_gear_mesh
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.errors import SceneError
 from fenics_gears.model import model
 from fenics_gears.run_stresses import RunStresses
 from fenics_gears.scene.data import Motion
@@ -176,7 +176,7 @@ def test_a_flank_coarser_than_the_contact_asks_for_is_warned_of():
 def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):
     """Recovery is by sectors."""
     scene = scene_from_text(text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"'))
-    with pytest.raises(ComputationError, match="stresses are recovered from gears of equal sectors"):
+    with pytest.raises(SceneError, match="stresses are recovered from gears of equal sectors"):
         RunStresses(turn[0], scene, cache)
 
 

@@ -131,6 +131,13 @@ def test_an_incomplete_run_says_so(run, tmp_path, steps):
     assert "of what is stored" in page.sections["summary"] or steps == 0
 
 
+def test_a_result_without_meaning_says_so_before_anything(run, tmp_path):
+    """Authority: the run's own warning; it stands above all sections."""
+    page_of(results.load(run / "run.nc").assign_attrs(warnings="a word\nthe result has no meaning: jammed"), tmp_path)
+    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "NO MEANING: the result has no meaning: jammed." in text.partition('id="summary"')[0]
+
+
 def test_a_scene_of_another_version_still_has_its_curves(run, tmp_path):
     """A result is worth a look whatever its scene's text has become."""
     page = page_of(results.load(run / "run.nc").assign_attrs(scene="[unheard_of]\n"), tmp_path)

@@ -169,6 +169,15 @@ def test_calls_that_make_no_sense_are_refused(run, tmp_path, monkeypatch, capsys
     assert not list(tmp_path.iterdir()) and sorted(run.iterdir()) == before
 
 
+def test_a_mesh_of_springs_has_no_picture(run, tmp_path, capsys):
+    """Exit code 2, what would have one is said: nothing was computed in vain, the call is wrong."""
+    dataset = results.load(run / "run.nc")
+    springs = dataset.attrs["scene"].replace("[accuracy]", '[accuracy]\nmodel = "stiffness table"')
+    results.save(dataset.assign_attrs(scene=springs), tmp_path / "run.nc")
+    assert main(["picture", str(tmp_path), "--quiet"]) == 2
+    assert "the run has a mesh of springs" in capsys.readouterr().err
+
+
 def test_a_scale_must_be_a_number(run):
     """argparse's own refusal, exit code 2."""
     for wrong in ("-1", "inf", "nan", "big"):

@@ -125,14 +125,22 @@ def test_a_result_of_another_scene_is_refused(run):
         stresses.at(0)
 
 
+def test_gears_that_have_gone_through_each_other_are_refused(run):
+    """Geometry: beyond a pitch there is another tooth where this one would be drawn."""
+    scene, result = run
+    with RunStresses(result.assign(transmission_error=result["transmission_error"] + 10.0), scene) as stresses:
+        with pytest.raises(SceneError, match="more than the pitch of the wheel's teeth"):
+            stresses.at(0)
+
+
 def test_what_has_no_stress_is_refused(run, paper_scene):
     """Rigid flanks; the paper's own route, whose flank nodes are others at every step; a time that was not stored."""
     scene, result = run
     rigid = replace(frictionless(scene), gears=replace(scene.gears, material=None))
-    with pytest.raises(ComputationError, match="rigid"):
+    with pytest.raises(SceneError, match="rigid"):
         RunStresses(result, rigid)
     remeshed = replace(scene, coast_flanks=None, load=paper_scene.load, accuracy=replace(scene.accuracy, condensation="every step"))
-    with pytest.raises(ComputationError, match="once"):
+    with pytest.raises(SceneError, match="once"):
         RunStresses(result, remeshed)
     with pytest.raises(SceneError, match="stored mesh cycles 0 to 1"):
         stored_index(result, 1.5)

@@ -14,8 +14,12 @@ import xarray as xr
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
 from fenics_gears.show.units import factor
+from fenics_gears.validity import NO_MEANING
 
 ABSENT = "absent"
+# Times the largest of the other cases: beside such a value theirs are a line along the axis.
+FAR_OFF = 10.0
+LISTED_CASES = 12
 STATES = ("done", "warnings", "failed", "missing")
 
 
@@ -98,6 +102,21 @@ class Cases:
             STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3]
             for ready, wrong, said in zip(done, failed, warned)
         ]
+
+    def far_off(self, values: np.ndarray) -> np.ndarray:
+        """Which cases (n,) have a value that is many times all others' and belongs to a result without meaning."""
+        worthless = np.array([NO_MEANING in each for each in self.texts("warnings")]) & np.isfinite(values)
+        sound = np.isfinite(values) & ~worthless
+        return worthless & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max()) if sound.any() else np.zeros(self.count, dtype=bool)
+
+    def far_off_in_words(self, far_off: np.ndarray) -> str:
+        """A note on cases that are not drawn; empty without any."""
+        count = np.count_nonzero(far_off)
+        if not count:
+            return ""
+        cases = ", ".join(map(str, np.flatnonzero(far_off)[:LISTED_CASES])) + (", …" if count > LISTED_CASES else "")
+        which = f"Case {cases}, whose result has" if count == 1 else f"Cases {cases}, whose results have"
+        return f"{which} no meaning and more than {FAR_OFF:g} times the others' value, {'is' if count == 1 else 'are'} left out; the table of cases has all."
 
     def words(self, case: int) -> str:
         """A case by its swept values."""

@@ -18,6 +18,7 @@ from fenics_gears.show.report.solver import solver
 from fenics_gears.show.report.spectra import spectra
 from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run_scene import conditions
+from fenics_gears.validity import NO_MEANING
 
 SECTIONS = (summary, warnings, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)
 
@@ -39,11 +40,16 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
 
 
 def _alarm(run: Run) -> str:
+    """What must be known before any number: that steps are missing, that the numbers have no meaning."""
+    said = str(run.dataset.attrs.get("warnings", "")).splitlines()
+    worthless = [f"NO MEANING: {each}." for each in said if NO_MEANING in each]
+    return " ".join([*_incomplete(run), *worthless])
+
+
+def _incomplete(run: Run) -> list[str]:
     if run.complete:
-        return ""
-    stopped = (
-        f" It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}; numbers are of the {run.steps} steps that are stored."
-        if run.steps
-        else " No step is stored."
-    )
-    return f"INCOMPLETE RUN.{stopped}"
+        return []
+    if not run.steps:
+        return ["INCOMPLETE RUN. No step is stored."]
+    stopped = f"It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}"
+    return [f"INCOMPLETE RUN. {stopped}; numbers are of the {run.steps} steps that are stored."]

@@ -20,7 +20,13 @@ HEIGHT, LEGEND_ROW, LETTERS_A_ROW = 340, 19, 120
 
 def result_plots(cases: Cases) -> list[Plot]:
     """A plot for each of the numbers that cases are compared by."""
-    return [over_parameter(cases, values, unit, name) for values, unit, name in cases.measures.values() if np.isfinite(values).any()]
+    return [_result_plot(cases, values, unit, name) for values, unit, name in cases.measures.values() if np.isfinite(values).any()]
+
+
+def _result_plot(cases: Cases, values: np.ndarray, unit: str, name: str) -> Plot:
+    """A plot without the cases beside which all others would be flat."""
+    far_off = cases.far_off(values)
+    return over_parameter(cases, np.where(far_off, np.nan, values), unit, name, cases.far_off_in_words(far_off))
 
 
 def effort_plots(cases: Cases) -> list[Plot]:
@@ -33,18 +39,17 @@ def effort_plots(cases: Cases) -> list[Plot]:
     ]
 
 
-def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str) -> Plot:
-    """Values (n,) of all cases over the study's parameters."""
+def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note: str = "") -> Plot:
+    """Values (n,) of all cases over the study's parameters; a note of the caller stands before the plot's own."""
     axis = main_field(cases)
     others = [field for field in cases.fields if field is not axis and not _zipped(cases)]
     lines = _lines(cases, axis, others)
     y_title = f"{name} ({unit})" if unit else name
     if len(lines) > MOST_LINES and len(others) == 1 and axis.numeric and others[0].numeric and np.isfinite(others[0].values).all():
-        return _map(axis, others[0], values, y_title, name)
-    note = ""
+        return _map(axis, others[0], values, y_title, name, note)
     if len(lines) > MOST_LINES:
         kept = np.unique(np.linspace(0, len(lines) - 1, MOST_LINES).round().astype(int))
-        note = f"{len(kept)} of {len(lines)} combinations are drawn; the table of cases has all."
+        note = f"{note} {len(kept)} of {len(lines)} combinations are drawn; the table of cases has all.".strip()
         lines = [lines[place] for place in kept]
     if axis.numeric and not np.isfinite(axis.values).all():
         note = f"{note} Cases without {axis.name.replace('_', ' ')} have no place on this axis; the table has them.".strip()
@@ -110,7 +115,7 @@ def _lines(cases: Cases, axis: Field, others: list[Field]) -> list[tuple[str, np
     ]
 
 
-def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str) -> Plot:
+def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str, note: str) -> Plot:
     """The values in colour over two fields."""
     import plotly.graph_objects as go
 
@@ -126,4 +131,4 @@ def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str) -
     figure.update_layout(hovermode="closest")
     for field, update in ((axis, figure.update_xaxes), (other, figure.update_yaxes)):
         update(showgrid=False, type="log" if logarithmic(field) else "linear")
-    return Plot(f"{name} over {axis.path} and {other.path}", figure, "Blank where a case has no result.", 420)
+    return Plot(f"{name} over {axis.path} and {other.path}", figure, f"{note} Blank where a case has no result.".strip(), 420)

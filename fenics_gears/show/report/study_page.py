@@ -10,7 +10,7 @@ import xarray as xr
 
 from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.cases import STATES, Cases
+from fenics_gears.show.report.cases import LISTED_CASES, STATES, Cases
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
 from fenics_gears.show.report.overview import counted, digits
 from fenics_gears.show.report.page import Block, Cell, Facts, Fold, Page, Section, Table, Tile, Tiles, Words
@@ -22,7 +22,6 @@ from fenics_gears.summary import summary_rows
 MOST_ROWS = 2000
 MOST_FAILURES = 200
 STATE_WORDS = dict(zip(STATES, ("done without warnings", "done with warnings", "failed", "not computed yet")))
-LISTED_CASES = 12
 
 
 def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress | None = None) -> Page:
@@ -57,11 +56,13 @@ def _summary(cases: Cases) -> Section:
         )
     ]
     for values, unit, name in cases.measures.values():
-        known = values[np.isfinite(values)]
+        far_off = cases.far_off(values)
+        known = values[np.isfinite(values) & ~far_off]
         if len(known):
             least, largest = digits(known.min()), digits(known.max())
             median = f"median {digits(np.median(known))} {unit}" if least != largest else ""
-            tiles.append(Tile(name, f"{least} – {largest}" if median else least, unit, median))
+            note = ", ".join(filter(None, [median, f"without {counted(int(far_off.sum()), 'case')} of no meaning" if far_off.any() else ""]))
+            tiles.append(Tile(name, f"{least} – {largest}" if median else least, unit, note))
     rows = []
     for field in cases.fields:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
