@@ -7,6 +7,8 @@ import pytest
 import xarray
 from tests.docs.blocks import PAGES, ROOT, in_text, name_of
 
+from fenics_gears.validity import NO_MEANING
+
 PLACES = ("fenics_gears/", "tests/", "docs/", "demos/", "meshes/", "setup/")
 SUFFIXES = (".py", ".md", ".toml", ".png", ".gif", ".apt", "/")
 
@@ -63,6 +65,8 @@ def sources():
     """The package's and the set-up's text with strings that are written in pieces put together."""
     files = [*(ROOT / "fenics_gears").rglob("*.py"), *(ROOT / "setup").glob("*")]
     text = "\n".join(file.read_text(encoding="utf-8") for file in files if file.is_file())
+    # Words that several messages share are named once.
+    text = text.replace("{NO_MEANING}", NO_MEANING)
     return re.sub(r'"\s*\n\s*f?"', "", text)
 
 
