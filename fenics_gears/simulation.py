@@ -200,7 +200,9 @@ def deviating(built: Model, cycle: Cycle) -> Cycle:
 def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
     result = dataset(built.scene, cycle, built.drivetrain, march, built.clock, built.loads)
     resolution = built.resolution
+    stopped = {} if complete else {"stopped": "interrupted" if march.interrupted else "failed"}
     return result.assign_attrs(
+        stopped,
         complete=int(complete),
         warnings="\n".join(worst_first([*built.warnings, *result.attrs["warnings"].splitlines()])),
         base_radius_wheel=built.pair.wheel.base_radius,

@@ -42,7 +42,7 @@ def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: i
     if part <= NOTABLE_WORK:
         return []
     return [
-        f"where teeth part and meet the time stepping itself changes the energy, by {part:.2g} of its largest value in the stored cycles "
+        f"where teeth part and meet the time stepping itself changes the energy, by {part:.2g} times its largest value in the stored cycles "
         f"(work_contact_changes): impacts are not resolved; raise accuracy.steps_per_mesh_cycle above {steps_per_mesh_cycle}"
     ]
 

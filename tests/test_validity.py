@@ -4,14 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.contact_loss import ContactLoss, contact_losses, loss_attributes
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.progress import SilentProgress
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.simulation import simulate
-from fenics_gears.validity import worst_first
+from fenics_gears.validity import warnings_of_energy, worst_first
 
 COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 
@@ -59,6 +61,24 @@ def test_gears_that_have_gone_through_each_other_have_no_meaning(coarse):
     said = result.attrs["warnings"].splitlines()
     assert said[0].startswith("the result has no meaning: the transmission error reaches") and len(said) > 1
     assert worst_first(["one", "two, and the result has no meaning", "three"]) == ["two, and the result has no meaning", "one", "three"]
+
+
+def test_an_incomplete_run_says_why(coarse):
+    """Authority: docs/result.md; Ctrl-C during the march is an interruption, a complete run says nothing of it."""
+
+    class Interrupting(SilentProgress):
+        def update(self, done, total, note=""):
+            raise KeyboardInterrupt
+
+    result = simulate(coarse, progress=Interrupting())
+    assert (result.attrs["complete"], result.attrs["stopped"]) == (0, "interrupted")
+
+
+def test_energy_put_in_is_told_in_multiples_of_the_largest(coarse):
+    """Arithmetic: 37 on 10 is 3.7 times it, which is no part of it."""
+    result = xr.Dataset({"energy": ("time", [0.0, 10.0]), "work_contact_changes": ("time", [0.0, 37.0])})
+    (said,) = warnings_of_energy(coarse, result, 40)
+    assert "by 3.7 times its largest value" in said
 
 
 def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):

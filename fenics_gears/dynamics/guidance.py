@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from math import ceil
 
@@ -87,11 +88,16 @@ def time_step_warnings(
     ]  # fmt: skip
     if not missed:
         return []
-    each = ", ".join(f"{each.frequency:.4g} Hz ({each.steps_per_period(time_step):.3g} steps a period)" for each in missed)
     return [
-        f"the time step does not resolve natural frequencies that the mesh excites, about {each}; periods are right within {PERIOD_ERROR:.0%} up to "
+        f"the time step does not resolve natural frequencies that the mesh excites, about {_listed(missed, time_step)}; periods are right within {PERIOD_ERROR:.0%} up to "
         f"{resolved_frequency(time_step):.4g} Hz: {_remedy(missed[-1], mesh_frequency, steps_per_mesh_cycle)}"
     ]
+
+
+def _listed(vibrations: Sequence[Vibration], time_step: float) -> str:
+    """Each frequency once, with how many vibrations have it."""
+    counts = Counter(f"{each.frequency:.4g} Hz ({each.steps_per_period(time_step):.3g} steps a period)" for each in vibrations)
+    return ", ".join(words if count == 1 else f"{count} vibrations at {words}" for words, count in counts.items())
 
 
 def _not_sampled(slowest: Vibration, time_step: float) -> str:

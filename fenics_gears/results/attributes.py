@@ -35,6 +35,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("scene_name", "", "the name of the scene's file"),
     ResultAttribute("fenics_gears_version", "", "version of this program"),
     ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
+    ResultAttribute("stopped", "", "why it is not complete: `interrupted` or `failed`", "`complete` is 0"),
     ResultAttribute("warnings", "", "what to be wary of, a line each"),
     ResultAttribute("mean_transmission_error", "rad", "mean over the stored steps, the last left out, which begins the next cycle"),
     ResultAttribute("peak_to_peak_transmission_error", "rad", "largest less smallest over the stored steps"),

@@ -123,10 +123,10 @@ def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
 @pytest.mark.parametrize("steps", [0, 1, 8])
 def test_an_incomplete_run_says_so(run, tmp_path, steps):
     """Authority: the attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is there."""
-    cut = results.load(run / "run.nc").isel(time=slice(0, steps)).assign_attrs(complete=0)
+    cut = results.load(run / "run.nc").isel(time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
     page = page_of(cut, tmp_path)
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "INCOMPLETE RUN" in text and list(page.sections) == SECTIONS and page.faults == []
+    assert "INCOMPLETE RUN. It was interrupted." in text and list(page.sections) == SECTIONS and page.faults == []
     assert ("Transmission error" in captions(page)) == (steps == 8)
     assert "of what is stored" in page.sections["summary"] or steps == 0
 

@@ -15,6 +15,7 @@ from fenics_gears.scene.rexs.xml_form import model_of_xml
 # The largest that is read, in bytes; models of whole gearboxes have some hundred kilobytes.
 LARGEST = 200_000_000
 ENDINGS = (".rexs", ".rexsj")
+PACKED = ".rexsz"
 
 
 def read_model(path: Path) -> Model:
@@ -25,7 +26,11 @@ def read_model(path: Path) -> Model:
     try:
         with open(path, "rb") as file:
             content = file.read(LARGEST + 1)
-        return _model(content if not zipfile.is_zipfile(io.BytesIO(content)) else _packed(content))
+        if zipfile.is_zipfile(io.BytesIO(content)):
+            return _model(_packed(content))
+        if path.suffix == PACKED and _start(content) not in b"{[<":
+            raise ModelError(f"is no ZIP archive, as {PACKED} files are, nor XML or JSON")
+        return _model(content)
     except FileNotFoundError:
         raise SceneError(f"{path}: there is no such file. REXS files end in .rexs, .rexsj or .rexsz.") from None
     except (OSError, ModelError) as error:
@@ -39,10 +44,15 @@ def _reason(error: Exception) -> str:
 def _model(content: bytes) -> Model:
     if len(content) > LARGEST:
         raise ModelError(f"has more than {LARGEST // 1_000_000} MB, which is not read")
-    start = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
+    start = _start(content)
     if not start:
         raise ModelError("is empty")
     return model_of_json(content) if start in b"{[" else model_of_xml(content)
+
+
+def _start(content: bytes) -> bytes:
+    """The first character after a byte order mark and blanks; nothing where there is none."""
+    return content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
 
 
 def _packed(content: bytes) -> bytes:

@@ -70,8 +70,10 @@ def number_of(component: Component, name: str) -> Value:
 def whole_number_of(component: Component, name: str) -> Value:
     """The value of an attribute that counts. Raises ValueProblem."""
     attribute = _scalar(component, name)
-    if not _WHOLE.fullmatch(attribute.text) or SPELLINGS.get(attribute.unit, attribute.unit):
-        raise ValueProblem(f"{place(component, name)} = {attribute.text} {attribute.unit} is not a whole number without unit.")
+    if unit := SPELLINGS.get(attribute.unit, attribute.unit):
+        raise ValueProblem(f"{place(component, name)} = {attribute.text} {unit} is not a whole number without unit.")
+    if not _WHOLE.fullmatch(attribute.text):
+        raise ValueProblem(f"{place(component, name)} = {attribute.text} is not a whole number.")
     number = int(attribute.text.partition(".")[0])
     return Value(number, str(number), _origin(component, name))
 

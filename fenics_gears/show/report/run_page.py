@@ -49,7 +49,8 @@ def _alarm(run: Run) -> str:
 def _incomplete(run: Run) -> list[str]:
     if run.complete:
         return []
+    why = {"interrupted": " It was interrupted.", "failed": " It failed."}.get(run.dataset.attrs.get("stopped"), "")
     if not run.steps:
-        return ["INCOMPLETE RUN. No step is stored."]
+        return [f"INCOMPLETE RUN.{why} No step is stored."]
     stopped = f"It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}"
-    return [f"INCOMPLETE RUN. {stopped}; numbers are of the {run.steps} steps that are stored."]
+    return [f"INCOMPLETE RUN.{why} {stopped}; numbers are of the {run.steps} steps that are stored."]

@@ -28,7 +28,8 @@ WRONG_VALUES = [
     ((P, "normal_module", float("inf"), "mm"), "normal_module = inf mm is not a finite number"),
     ((W, "normal_module", 5.0, "mm"), "normal_module of component 5 is 4.5 mm, but normal_module of component 6 is 5.0 mm"),
     ((P, "number_of_teeth", None), "number_of_teeth is missing"),
-    ((P, "number_of_teeth", 16.5), "number_of_teeth = 16.5 none is not a whole number"),
+    ((P, "number_of_teeth", 16.5), "number_of_teeth = 16.5 is not a whole number"),
+    ((P, "number_of_teeth", 16, "mm"), "number_of_teeth = 16 mm is not a whole number without unit"),
     ((P, "number_of_teeth", 0), "number_of_teeth = 0 is not positive"),
     ((P, "number_of_teeth", -48), "component 5 (cylindrical_gear 'pinion') is an internal gear"),
     ((P, "helix_angle_reference_diameter", 10.0, "deg"), "helix_angle_reference_diameter = 10.0 deg: a helical gear. Spur gears are computed only"),
@@ -222,3 +223,13 @@ def test_parts_that_a_stage_cannot_have(tmp_path):
         imported(tmp_path, rexs.as_json(changed((P, "normal_module", False, "mm"))))
     with pytest.raises(SceneError, match="poisson_ratio = nan none is not a finite number"):
         imported(tmp_path, rexs.as_xml(changed((MATERIAL, "poisson_ratio", float("nan")))))
+
+
+def test_a_packed_file_that_is_no_archive_is_named(tmp_path):
+    """Its ending says ZIP; what is XML or JSON after all is read by what it holds."""
+    (tmp_path / "pair.rexsz").write_bytes(b"PK, or not")
+    with pytest.raises(SceneError, match="pair.rexsz: is no ZIP archive, as .rexsz files are"):
+        read.read_model(tmp_path / "pair.rexsz")
+    (tmp_path / "pair.rexsz").write_bytes(b"<model")
+    with pytest.raises(SceneError, match="XML"):
+        read.read_model(tmp_path / "pair.rexsz")
