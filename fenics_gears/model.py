@@ -119,12 +119,12 @@ class Model:
             return []
         return [
             f"only the last {motion.recorded_cycles} of {motion.mesh_cycles} mesh cycles, which are not alike, are stored, and the transmission error is "
-            f"theirs: a result of all would hold more than {MOST_STORED_BYTES / 1e9:g} GB; motion.recorded_cycles says how many to store, fewer "
-            "accuracy.steps_per_mesh_cycle leave room for more"
+            f"theirs: a result of all would hold more than {MOST_UNASKED_BYTES / 1e9:g} GB; motion.recorded_cycles says how many to store"
         ]
 
 
-MOST_STORED_BYTES = 4e9
+# Of a result; less where a scene does not say how much is to be stored.
+MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 # Of one tooth pair at one time: both gears, both fillets, 25 points.
 ROOT_STRESS_VALUES = 100
 
@@ -138,7 +138,7 @@ def model(scene: Scene) -> Model:
     check_files(scene, pair)
     shafts = drivetrain(scene, pair)
     built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
-    if scene.motion.fewer_where_too_large and built.stored_bytes > MOST_STORED_BYTES:
+    if scene.motion.fewer_where_too_large and built.stored_bytes > MOST_UNASKED_BYTES:
         last = replace(scene.motion, recorded_cycles=min(LAST_CYCLES, scene.motion.mesh_cycles))
         built = replace(built, scene=replace(scene, motion=last))
     if built.stored_bytes > MOST_STORED_BYTES:

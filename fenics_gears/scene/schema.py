@@ -74,7 +74,7 @@ class Motion(Section):
         1_000_000,
         2,
         meaning="how many of them, the last, are stored",
-        otherwise="2; all of them with `[speed_ramp]`, or where `\"hunting tooth period\"` are run, unless the result would be larger than 4 GB",
+        otherwise="2; all of them with `[speed_ramp]`, or where `\"hunting tooth period\"` are run, unless the result would be larger than 1 GB",
         words=WHOLE_PERIOD,
     )
 

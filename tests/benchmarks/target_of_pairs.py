@@ -75,7 +75,7 @@ def true_error(found, known: Reference) -> float:
 
 def searched(scene: Scene, known: Reference, window: float) -> list[tuple[float, float, Setting]]:
     """Seconds, true error and setting of all that are searched. Quasi-static and frictionless, fewer steps are some of many steps."""
-    unit, gears, found = half_width(scene), KeptGears(), []
+    unit, gears, found = half_width(scene), KeptGears(2), []
     length = model(scene).resolution.contact_grid.length
     for element, flank, body in SEARCHED:
         spacing = NODE_SPACING if element.endswith("2") else 1.0

@@ -51,7 +51,7 @@ class Reference:
 
 def reference(scene: Scene, window: float, told=print) -> Reference:
     """The reference of a scene whose `[accuracy]` is empty; `window` (mm): that of pressures."""
-    unit, gears = ladder.half_width(scene), KeptGears()
+    unit, gears = ladder.half_width(scene), KeptGears(4)
     length = model(scene).resolution.contact_grid.length
 
     def setting(values) -> Setting:
