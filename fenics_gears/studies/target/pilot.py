@@ -118,7 +118,10 @@ class Pilot:
 
     @property
     def _why_slow(self) -> str:
-        """What makes errors fall slowly, in words; empty where nothing is known to."""
+        """What makes errors fall slowly, or begin high, in words; empty where nothing is known to."""
+        half_width = model(self.scene).resolution.half_width
+        if half_width < 0.5 * self._unit:
+            return f", for under this load the contact's half-width is {half_width:.2g} mm only"
         if self.scene.tip_relief is not None:
             return ""
         return ", for errors fall slowly where the sharp edges of unrelieved tips press ([tip_relief] takes that away)"

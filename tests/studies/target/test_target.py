@@ -117,6 +117,13 @@ def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
     assert 0.001 < choose(scene, 1.05 * reachable, SilentProgress()).estimated_error <= 1.05 * reachable
 
 
+def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
+    """Its contact is narrower than any element that the pilot begins with."""
+    monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
+    with pytest.raises(TargetNotReached, match=r"for under this load the contact's half-width is 0\.0\d+ mm only"):
+        choose(scene_from_text(text.replace('"437 N m"', '"1 N m"')), 0.001, SilentProgress())
+
+
 def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
     """The check, which halves a knob at settings that just fit, least of all."""
     tried, run = [], pilots.Pilot._run
