@@ -161,8 +161,11 @@ def _corrected(curve: ErrorCurve, factors: dict[str, float]) -> ErrorCurve:
 
 
 def _remark(curve: ErrorCurve, size: float) -> str:
-    order = "no order" if curve.leading.order is None else f"order {curve.leading.order:.3g}"
+    leading = curve.leading
+    order = "no order" if leading.order is None else f"order {leading.order:.3g}"
+    # Heights of curves jump where a corner falls between steps, and then have the curve's order.
+    whose = " in T_EPP alone, which is taken to have T_E's" if leading.order is not None and leading.used > leading.order else ""
     return (
-        f"{curve.name}: {order} observed where {curve.expected:g} was expected; its error at {SIZE_WORDS[curve.name].format(size)} is "
-        f"taken to fall as h^{curve.leading.used:.2g}, and nothing finer than its finest run is relied on"
+        f"{curve.name}: {order} observed{whose} where {curve.expected:g} was expected; its error at {SIZE_WORDS[curve.name].format(size)} is "
+        f"taken to fall as h^{leading.used:.2g}, and nothing finer than its finest run is relied on"
     )
