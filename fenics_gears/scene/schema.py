@@ -79,6 +79,10 @@ class Motion(Section):
     )
 
 
+# Of a tooth pair.
+MOST_CONTACT_NODES = 1000
+
+
 class Accuracy(Section):
     """``[accuracy]``: how a scene is computed, not what; what is left out is derived from the scene."""
 
@@ -121,7 +125,7 @@ class Accuracy(Section):
         otherwise="so long that beyond it the flanks open more than the teeth deflect",
     )
     contact_nodes: Optional[int] = whole_number(
-        2, 1000, 20, meaning="contact nodes of a tooth pair", otherwise="0.7 flank elements apart, 1 apart for elements of first order"
+        2, MOST_CONTACT_NODES, 20, meaning="contact nodes of a tooth pair", otherwise="0.7 flank elements apart, 1 apart for elements of first order"
     )
     interpolation: Optional[Literal["averaged", "collocated"]] = choice(
         "averaged",

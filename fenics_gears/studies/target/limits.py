@@ -12,11 +12,10 @@ from fenics_gears.model import MOST_STORED_BYTES, Model, model
 from fenics_gears.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
+from fenics_gears.scene.schema import MOST_CONTACT_NODES
 
 # Contact operators and condensed flanks of a run.
 MOST_BYTES = 4e9
-# As scene files have it.
-MOST_NODES = 1000
 
 Size = float | np.ndarray
 
@@ -45,20 +44,18 @@ class Limits:
         """Whether elements or contact nodes are finer than a scene file may ask for."""
         body_size = body * DEFAULT_SIZES[self._order].body * self._module
         too_fine = (flank < FINEST_ELEMENT * self._module) | (body_size < FINEST_BODY * self._module)
-        return too_fine | (body_size < flank) | (self._nodes(flank, length) > MOST_NODES)
+        return too_fine | (body_size < flank) | (self._nodes(flank, length) > MOST_CONTACT_NODES)
 
     def allowed(self, flank: Size, body: Size, step: Size, length: float, stored: bool = True) -> Size:
         """Whether a run may have these sizes; `stored`: with the whole of its result, as the run that is asked for has it."""
         held = (self.bytes_of(flank, step, length) <= MOST_BYTES) & ~np.asarray(self.too_fine(flank, body, length))
         return held & (self.stored_bytes(flank, step, length) <= (MOST_STORED_BYTES if stored else inf))
 
-    def why_not(self, flank: float, body: float, step: float, length: float) -> str:
-        """What is beyond the limits, in words that follow "the next halving of ..."."""
+    def why_not(self, flank: float, body: float, length: float) -> str:
+        """What of a run is beyond the limits, in words that follow "the next halving of ..."."""
         if self.too_fine(flank, body, length):
-            return f"takes elements or contact nodes finer than a scene may ask for ({FINEST_ELEMENT:g} modules on the flank, {MOST_NODES} nodes)"
-        if self.bytes_of(flank, step, length) > MOST_BYTES:
-            return f"takes more than {MOST_BYTES / 1e9:g} GB for contact operators and gears"
-        return f"makes a result of more than {MOST_STORED_BYTES / 1e9:g} GB (motion.recorded_cycles: fewer make it smaller)"
+            return f"takes elements or contact nodes finer than a scene may ask for ({FINEST_ELEMENT:g} modules on the flank, {MOST_CONTACT_NODES} nodes)"
+        return f"takes more than {MOST_BYTES / 1e9:g} GB for contact operators and gears"
 
     def _nodes(self, flank: Size, length: float) -> Size:
         return length / (NODE_SPACING * flank) + 2.0

@@ -80,7 +80,7 @@ class Pilot:
         """Give a knob's ladder one rung more. Raises TargetNotReached where that run is beyond the limits."""
         finer = {**self._base_sizes(), name: self._size(name, self._rungs[name])}
         if not self.may_run(finer):
-            reason = self._limits.why_not(finer[FLANK], finer[BODY], finer[STEPS], self.length)
+            reason = self._limits.why_not(finer[FLANK], finer[BODY], self.length)
             raise TargetNotReached(f"the next halving of the {name} {reason}{self._why_slow}")
         self._rungs[name] += 1
 
