@@ -116,7 +116,7 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach: int, cache):
     gear, resolution = getattr(model.pair, name), model.resolution
     body = _body(meshes, name, model.pair, resolution.element)
     return whole_body_compliance(
-        body.mesh, gear, model.scene.gears.material, element=resolution.element, tooth_offsets=reach, cache=cache
+        body.mesh, gear, model.scene.gears.material_of(name), element=resolution.element, tooth_offsets=reach, cache=cache
     )
 
 
@@ -136,6 +136,11 @@ def findings(meshes: BodyMeshes, cycle, records) -> list[str]:
     from fenics_gears.results.crack_openings import closed_cracks
 
     return closed_cracks(cycle, records)
+
+
+def given_mesh(meshes: BodyMeshes, name: str, pair, element: str):
+    """The mesh (``elasticity.mesh_data.BodyMesh``) of a gear that has one of its own."""
+    return _body(meshes, name, pair, element).mesh
 
 
 def _body(meshes: BodyMeshes, name: str, pair, element: str):
