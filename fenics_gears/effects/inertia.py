@@ -100,6 +100,12 @@ def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
     both = table(tree, "inertia")
     if both is None:
         return
+    if "motor" in both:
+        message = (
+            "has no effect: the far end of the input shaft turns as prescribed, as behind a motor of any inertia whose speed is held. "
+            "Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft [shafts.input] lets the pinion's side swing."
+        )
+        yield Problem(("inertia", "motor"), "", message)
     yield from _density_stands_alone(both)
     missing = {name: [gear for gear in GEARS if not _given(both, gear, name)] for name in LUMPED}
     for name, gears in missing.items():
