@@ -64,6 +64,7 @@ def describe(scene: Scene) -> Description:
     built = model(scene)
     sections = [("Gear pair", characteristics(built.pair)), ("Model", _model_rows(built)), ("Accuracy", _accuracy_rows(built))]
     if built.drivetrain.mass is not None:
+        sections.append(("Inertia", _inertia_rows(built)))
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(built)))
     sections.append(("Expected cost (about)", _cost_rows(built)))
     if built.warnings:
@@ -90,6 +91,26 @@ def _model_rows(built: Model) -> Rows:
         ("equations in time", _method(built), ""),
         ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
     ]
+
+
+def _inertia_rows(built: Model) -> Rows:
+    """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the line of action."""
+    from fenics_gears.dynamics.gear_inertia import lumped_gears
+
+    rows: Rows = []
+    along = []
+    for name, lumped in lumped_gears(built.scene, built.pair).items():
+        given = built.scene.inertia.of(name)
+        kinds = (("mass", "kg"), ("moment_of_inertia", "kg mm^2"))
+        for field, unit in kinds:
+            origin = "" if getattr(given, field) is not None else ", of its body by the density"
+            rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
+        along.append(lumped.moment_of_inertia / getattr(built.pair, name).base_radius ** 2)
+    load = built.scene.inertia.shaft_end if built.scene.shafts is not None else built.scene.inertia.load
+    if load is not None:
+        rows.append(("load moment of inertia", 1e3 * load, "kg mm^2, " + ("far end of the output shaft" if built.scene.shafts is not None else "with the wheel")))
+    rows.append(("reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)", 1e3 * along[0] * along[1] / sum(along), "kg, of both gears along the line of action"))
+    return rows
 
 
 def _method(built: Model) -> str:

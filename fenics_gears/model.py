@@ -16,10 +16,11 @@ from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.iso_6336 import mesh_stiffness
 from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
-from fenics_gears.resolution import Resolution, locking_warnings, mesh_stiffness, resolution_warnings, resolve
+from fenics_gears.resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from fenics_gears.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
@@ -109,7 +110,7 @@ class Model:
     def warnings(self) -> list[str]:
         """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
         found = [*self._of_a_part(), *self._without_fields(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
-        found += locking_warnings(self.resolution, self.scene.gears.material)
+        found += locking_warnings(self.resolution, self.scene.gears.materials)
         for effect in effects_on(self.scene):
             if effect.warnings is not None:
                 found += effect.warnings(getattr(self.scene, effect.section), self)

@@ -40,7 +40,7 @@ def gear_rows(built: Model, name: str, cache: Cache | None) -> RootStressRows:
     resolution = built.resolution
     return root_stress_rows(
         getattr(built.pair, name),
-        built.scene.gears.material,
+        built.scene.gears.material_of(name),
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         body_element_size=resolution.body_element_size,

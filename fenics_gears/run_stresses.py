@@ -119,7 +119,7 @@ class RunStresses:
         about_centre = np.vstack([local @ turn.T for turn in turns])
         elastic = np.vstack([moved @ turn.T for moved, turn in zip(body.displacement, turns)])
         stress = np.vstack([turned_stress(sector, angle) for sector, angle in zip(body.stress, angles)])
-        across = self.built.scene.gears.material.poissons_ratio * (stress[:, 0] + stress[:, 1])
+        across = self.built.scene.gears.materials[gear].poissons_ratio * (stress[:, 0] + stress[:, 1])
         rigid = motion[:2] + motion[2] * np.column_stack([-about_centre[:, 1], about_centre[:, 0]])
         cells, outline = whole_cells(recovery)
         return GearInSpace(centre + about_centre, cells, outline, centre, elastic, elastic + rigid, np.column_stack([stress, across]))
@@ -142,7 +142,7 @@ def recovery_of(built: Model, gear: int) -> GearRecovery:
     """The recovery of a gear of a model, on the mesh of its compliance."""
     return gear_recovery(
         (built.pair.pinion, built.pair.wheel)[gear],
-        built.scene.gears.material,
+        built.scene.gears.materials[gear],
         element=built.resolution.element,
         flank_element_size=built.resolution.flank_element_size,
         body_element_size=built.resolution.body_element_size,

@@ -146,7 +146,7 @@ def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) ->
     resolution = built.resolution
     return flank_compliance(
         getattr(built.pair, name),
-        built.scene.gears.material,
+        built.scene.gears.material_of(name),
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         tooth_offsets=reach,

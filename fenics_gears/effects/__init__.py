@@ -110,7 +110,10 @@ def top_level() -> tuple[Effect, ...]:
 def without(scene, *sections: str):
     """The scene less some effects; what needs them is left in and may then not be valid."""
     changed = replace(scene, **{name: None for name in sections if not effect(name).within})
-    return replace(changed, gears=replace(scene.gears, material=None)) if "tooth_elasticity" in sections else changed
+    if "tooth_elasticity" not in sections:
+        return changed
+    pinion, wheel = (replace(gear, material=None) for gear in (scene.gears.pinion, scene.gears.wheel))
+    return replace(changed, gears=replace(scene.gears, material=None, pinion=pinion, wheel=wheel))
 
 
 def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:

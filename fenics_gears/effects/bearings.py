@@ -9,9 +9,9 @@ from typing import Optional
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.scene.fields import Section, quantity
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
+from fenics_gears.scene.tree import GEARS, Tree, table
 
-GEARS, DIRECTIONS = ("pinion", "wheel"), ("x", "y")
+DIRECTIONS = ("x", "y")
 
 
 @dataclass(frozen=True)

@@ -117,7 +117,7 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach: int, cache):
     gear, resolution = getattr(model.pair, name), model.resolution
     body = _body(meshes, name, model.pair, resolution.element)
     return whole_body_compliance(
-        body.mesh, gear, model.scene.gears.material, element=resolution.element, tooth_offsets=reach, cache=cache
+        body.mesh, gear, model.scene.gears.material_of(name), element=resolution.element, tooth_offsets=reach, cache=cache
     )
 
 
@@ -149,6 +149,11 @@ def findings(meshes: BodyMeshes, watched) -> list[str]:
 def period(meshes: BodyMeshes, scene) -> int:
     """Mesh cycles of whole turns of the gears meshed as a whole."""
     return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if getattr(meshes, name) is not None))
+
+
+def given_mesh(meshes: BodyMeshes, name: str, pair, element: str):
+    """The mesh (``elasticity.mesh_data.BodyMesh``) of a gear that has one of its own."""
+    return _body(meshes, name, pair, element).mesh
 
 
 def _body(meshes: BodyMeshes, name: str, pair, element: str):

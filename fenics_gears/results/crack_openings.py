@@ -30,7 +30,7 @@ def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
         rows = body.openings.get((first + pair.place.ahead(gear)) % body.teeth)
         if rows is not None and forces[nodes].any():
             own = np.concatenate([nodes, nodes + operator.nodes]) if tangential else nodes
-            total += rows @ (flank_rows(gear, pair, tangential) @ forces[own]) / cycle.pair.face_width
+            total += rows @ (flank_rows(gear, pair, tangential) @ forces[own]) / cycle.pair.face_widths[gear]
     return total
 
 

@@ -43,7 +43,7 @@ class RootStress:
         matrix = np.zeros((2, len(teeth), points, (2 if tangential else 1) * ends[-1]))
         for gear, data in enumerate((self.pair.pinion, self.pair.wheel)):
             for number, pair in enumerate(pairs):
-                line = flank_rows(gear, pair, tangential) / self.pair.face_width
+                line = flank_rows(gear, pair, tangential) / self.pair.face_widths[gear]
                 line = unmirrored(data, line) if pair.place.flank == COAST else line
                 columns = np.arange(ends[number], ends[number + 1])
                 if tangential:

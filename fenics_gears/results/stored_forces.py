@@ -41,7 +41,7 @@ class StoredForces:
     def on_flanks(self, built: Model, gear: int) -> dict[int, np.ndarray]:
         """Line forces (N/mm) on the flank nodes of a gear's loaded teeth; see `contact.flank_forces`."""
         data = (built.pair.pinion, built.pair.wheel)[gear]
-        return flank_forces(gear, data, self.pairs, self.forces, built.pair.face_width)
+        return flank_forces(gear, data, self.pairs, self.forces, built.pair.face_widths[gear])
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:

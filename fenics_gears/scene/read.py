@@ -89,13 +89,23 @@ def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
 
 
 def _gears(gears: schema.Gears) -> data.GearPairData:
+    widths = [own.face_width or gears.face_width for own in (gears.pinion, gears.wheel)]
+    alike = widths[0] == widths[1]
+    pinion, wheel = (
+        data.GearData(**{
+            **dict(vars(same_names(data.GearData, own))),
+            "face_width": None if alike else width,
+            "material": tooth_elasticity.own_material(own.material, gears.material),
+        })
+        for own, width in zip((gears.pinion, gears.wheel), widths)
+    )  # fmt: skip
     return data.GearPairData(
         module=gears.module,
         pressure_angle=gears.pressure_angle,
         centre_distance=gears.centre_distance,
-        face_width=gears.face_width,
-        pinion=same_names(data.GearData, gears.pinion),
-        wheel=same_names(data.GearData, gears.wheel),
+        face_width=min(widths),
+        pinion=pinion,
+        wheel=wheel,
         material=tooth_elasticity.EFFECT.from_text(gears.material),
     )
 

@@ -11,7 +11,7 @@ from typing import Any, Literal, Optional, Union
 from pydantic import Field, create_model
 
 from fenics_gears.effects import top_level
-from fenics_gears.effects.tooth_elasticity import MaterialText
+from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
 from fenics_gears.scene.written import as_written
@@ -21,8 +21,12 @@ def _diameter(example: str, meaning: str):
     return quantity("0.1 mm", "100 m", example, meaning=meaning)
 
 
+def _face_width(meaning: str, otherwise: str):
+    return quantity("0.01 mm", "100 m", "15 mm", meaning=meaning, otherwise=otherwise)
+
+
 class Gear(Section):
-    """``[gears.pinion]`` drives and ``[gears.wheel]`` is driven; an external pair, both with all of these fields."""
+    """``[gears.pinion]`` drives and ``[gears.wheel]`` is driven; an external pair."""
 
     teeth: int = whole_number(5, 1000, 16, meaning="number of teeth")
     profile_shift: float = number(0.196, meaning="profile shift coefficient, in modules", lowest=-5, highest=5)
@@ -32,6 +36,8 @@ class Gear(Section):
     rack_tip_radius: float = number(
         0.38, meaning="tip radius of the generating rack, in modules; it shapes the fillet", lowest=0, highest=2, default=0.38
     )
+    face_width: Optional[float] = _face_width("width of this gear", "that of `[gears]`")
+    material: Optional[OwnMaterialText] = None
 
 
 class Gears(Section):
@@ -40,7 +46,7 @@ class Gears(Section):
     module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module, in the plane of rotation")
     pressure_angle: float = quantity("10 deg", "35 deg", "20 deg", meaning="pressure angle of the generating rack")
     centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the shafts' axes")
-    face_width: float = quantity("0.01 mm", "100 m", "15 mm", meaning="width of the teeth in contact")
+    face_width: Optional[float] = _face_width("width of both gears; they meet over the smaller width, centred", "from both gears' own")
     pinion: Gear
     wheel: Gear
     material: Optional[MaterialText] = None

@@ -73,7 +73,7 @@ def gear_key(built: Model, name: str, reach: int) -> tuple:
     coast = built.scene.coast_flanks is not None
     sizes = resolution.flank_element_size, resolution.body_element_size
     own = tuple(getattr(getattr(built.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(built.pair, name), built.scene.gears.material, resolution.element, sizes, reach, resolution.elastic_teeth, coast, own
+    return getattr(built.pair, name), built.scene.gears.material_of(name), resolution.element, sizes, reach, resolution.elastic_teeth, coast, own
 
 
 def cycle_key(built: Model) -> tuple:

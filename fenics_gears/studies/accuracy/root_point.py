@@ -29,7 +29,7 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
     built = model(scene)
     resolution = built.resolution
     rows = _rows(
-        built.pair.pinion, scene.gears.material, resolution.element, resolution.flank_element_size, resolution.body_element_size,
+        built.pair.pinion, scene.gears.material_of("pinion"), resolution.element, resolution.flank_element_size, resolution.body_element_size,
         tooth_reach(built), scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
