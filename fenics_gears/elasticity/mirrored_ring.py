@@ -12,6 +12,7 @@ import numpy as np
 from scipy.linalg.lapack import dpotrf, dpotri
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.cut_chain import Run
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.half_sector import centreline_direction
@@ -32,8 +33,8 @@ def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float, comm
     return condense(mesh, element, poissons_ratio, points, comm)
 
 
-def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, offsets: int) -> tuple[np.ndarray, np.ndarray]:
-    """Compliance blocks of the ring, hub held, Young's modulus 1 MPa: `own` and `across` of `BothFlanksCompliance`.
+def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach) -> tuple[np.ndarray, np.ndarray]:
+    """Compliance of the ring, hub held, Young's modulus 1 MPa: `blocks` and `across` of `BothFlanksCompliance`.
 
     axis: (2,), unit vector along the centreline. The formula is that of `ring.ring_compliance`.
     """
@@ -44,20 +45,20 @@ def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, of
     )
     nodes = len(half.points["cut"])
     turn, mirror = turned_nodes(teeth, nodes), np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
-    joint = cut_response(Run(mirror @ cut @ mirror, turn.T @ cut @ turn, mirror @ cut_cross @ turn), teeth, offsets + 1)
+    joint = cut_response(Run(mirror @ cut @ mirror, turn.T @ cut @ turn, mirror @ cut_cross @ turn), teeth, reach.farthest + 1)
     # Forces on either flank reach the lower and the upper cut, whose motions are those in the frame of the lower one.
     drive, coast = np.hstack([to_cut_cross @ mirror, to_cut @ turn]), np.hstack([to_cut @ mirror, to_cut_cross @ turn])
-    own, across = np.empty((offsets + 1, *held.shape)), np.empty((2 * offsets + 1, *held.shape))
-    for m in range(offsets + 1):
-        response = np.block([[joint(m), joint(m - 1)], [joint(m + 1), joint(m)]])
-        by_drive = drive @ response
-        own[m] = by_drive @ drive.T
-        across[offsets + m] = _symmetric(by_drive @ coast.T)
-        if m:
-            across[offsets - m] = _symmetric((coast @ response) @ drive.T)
-    own[0] = _symmetric(own[0] + held)
-    across[offsets] += held_cross
-    return own, across
+
+    def response(offset: int) -> np.ndarray:
+        return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
+
+    blocks = np.stack([(drive @ response(offset)) @ drive.T for offset in range(reach.same + 1)])
+    blocks[0] = _symmetric(blocks[0] + held)
+    first, last = reach.across
+    across = np.stack([_symmetric((drive @ response(offset)) @ coast.T) for offset in range(first, last + 1)])
+    if first <= 0 <= last:
+        across[-first] += held_cross
+    return blocks, across
 
 
 def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
