@@ -44,7 +44,7 @@ def gear_rows(built: Model, name: str, cache: Cache | None) -> RootStressRows:
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         body_element_size=resolution.body_element_size,
-        reach=tooth_reach(built),
+        reach=tooth_reach(built).farthest,
         coast_flank=built.scene.coast_flanks is not None,
         cache=cache,
     )
