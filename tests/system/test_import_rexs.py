@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 from tests.conftest import DEMOS
-from tests.scene.rexs import paper_model as rexs
+from tests.rexs import paper_model as rexs
 
 from fenics_gears.cli import main
 from fenics_gears.scene.read import load_scene

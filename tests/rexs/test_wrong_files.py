@@ -6,13 +6,13 @@ Authority: the specification's rules (units, single values, relations), and the 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.scene.rexs import paper_model as rexs
-from tests.scene.rexs.test_lookups import changed, refused, scene_of, with_relief
-from tests.scene.rexs.test_paper_pair import imported
+from tests.rexs import paper_model as rexs
+from tests.rexs.test_lookups import changed, refused, scene_of, with_relief
+from tests.rexs.test_paper_pair import imported
 
 from fenics_gears.errors import SceneError
-from fenics_gears.scene.rexs import read
-from fenics_gears.scene.rexs.imported import Choice
+from fenics_gears.rexs import read
+from fenics_gears.rexs.imported import Choice
 
 P, W, FLANK, MATERIAL, SHAFT = rexs.PINION, rexs.WHEEL, rexs.PINION_FLANKS[0], rexs.MATERIAL, rexs.SHAFT
 
@@ -24,7 +24,7 @@ WRONG_VALUES = [
     ((P, "normal_module", 4.5, "none"), "normal_module = 4.5 none has no unit. Allowed: a unit of the kind of mm"),
     ((P, "normal_module", 4.5, "deg"), "normal_module = 4.5 deg is an angle, not a length"),
     ((P, "normal_module", -4.5, "mm"), "normal_module = -4.5 mm is not positive"),
-    ((P, "normal_module", [4.5, 4.5], "mm"), "normal_module is an array. Allowed: one value"),
+    ((P, "normal_module", [4.5, 4.5], "mm"), "normal_module is an array of 2 values. Allowed: one value"),
     ((P, "normal_module", float("inf"), "mm"), "normal_module = inf mm is not a finite number"),
     ((W, "normal_module", 5.0, "mm"), "normal_module of component 5 is 4.5 mm, but normal_module of component 6 is 5.0 mm"),
     ((P, "number_of_teeth", None), "number_of_teeth is missing"),
@@ -59,6 +59,27 @@ def test_wrong_values_are_named(tmp_path, change, words):
     assert words in said and "Nothing was written." in said
 
 
+@pytest.mark.parametrize(
+    "array, words",
+    [
+        ({"code": "float16", "value": "AAAA"}, 'is an array with the code "float16". Allowed: float32, float64, int32'),
+        ({"code": "float32", "value": "AAAA"}, "is no array of float32 in base64: buffer size must be"),
+        ({"code": "float64", "value": "no base64!"}, "is no array of float64 in base64"),
+        ({"code": "float32", "value": "MveeQZ6hM0I"}, "is an array of 2 values. Allowed: one value"),
+    ],
+)
+def test_wrong_arrays_are_named(tmp_path, array, words):
+    """Where a value is asked for: an unknown code, bytes that are no whole numbers, no base64, more than one value (the specification's example)."""
+    model = rexs.paper_model()
+    module = next(each for each in rexs.component(model, P)["attributes"] if each["id"] == "normal_module")
+    del module["floating_point"]
+    module["floating_point_array_coded"] = array
+    for content in (rexs.as_json(model), rexs.as_xml(model)):
+        with pytest.raises(SceneError) as raised:
+            imported(tmp_path, content)
+        assert f"component 5 (cylindrical_gear 'pinion'): normal_module {words}" in str(raised.value)
+
+
 def test_different_materials_are_refused(tmp_path):
     """A scene has one material."""
     model = rexs.with_component(rexs.paper_model(), 21, "material", ("elastic_modulus", 70000.0, "N / mm^2"), ("poisson_ratio", 0.3))
@@ -79,15 +100,17 @@ def test_all_mistakes_are_told_at_once(tmp_path):
         ({"datum_diameter": (79.0, "deg")}, "component 40 (tip_relief): tip_relief_datum_diameter = 79.0 deg is an angle, not a length"),
         ({"depth": (-5.0, "mum")}, "tip_relief_depth = -5.0 um is not positive"),
         ({"shape_of_relief": ("circular",)}, "shape_of_relief = circular. Allowed: linear or parabolic"),
+        ({"datum_length": (25.0, "mm")}, "tip_relief_datum_length = 25.0 mm is no length of roll of this flank. Allowed: above 0 and below 23.7"),
+        ({"datum_length": (3.0, "mm")}, "tip_relief_datum_diameter = 79.0 mm contradicts tip_relief_datum_length = 3.0 mm, which starts at 7"),
         ({"evaluation_reference": (79.0, "mm")}, "tip_relief_evaluation_reference = 79.0 mm does not lie outside the start of the relief, 79.0 mm"),
     ],
 )
 def test_wrong_reliefs_are_named(tmp_path, values, words):
-    """As other values are; a length does not stand in for the start's diameter."""
+    """As other values are; where a root relief ends, and so its length of roll begins, no attribute says."""
     assert words in refused(tmp_path, with_relief(**values))
-    model = with_relief()
-    rexs.component(model, 40)["attributes"][1] = rexs.attribute("tip_relief_datum_length", 3.0, "mm")
-    assert "tip_relief_datum_diameter is missing. tip_relief_datum_length does not stand in for it" in refused(tmp_path, model)
+    model = with_relief("root_relief")
+    rexs.component(model, 40)["attributes"][1] = rexs.attribute("root_relief_datum_length", 3.0, "mm")
+    assert "root_relief_datum_diameter is missing. root_relief_datum_length does not stand in for it" in refused(tmp_path, model)
 
 
 def test_pairs_that_are_none(tmp_path):
@@ -121,17 +144,17 @@ BROKEN = {
     "unknown encoding": (edited("utf-8", "klingon"), "is not valid XML"),
     "no JSON": (b'{"model": ', "is not valid JSON"),
     "other JSON": (b"[1, 2]", 'the file has no "model"'),
-    "JSON of another shape": (b'{"model": {"version": "1.7", "components": {}}}', '"components" in the model that is not a list'),
+    "JSON of another shape": (b'{"model": {"version": "1.7", "components": {}}}', 'components is not a list'),
     "deep JSON": (b"[" * 100_000, "is not valid JSON"),
     "not text": (b'{"model": "\xff"}', "is not valid JSON"),
     "unknown version": (edited('version="1.7"', 'version="9.0"'), '"9.0"; 1.0 to 2.0 are read'),
-    "no version": (edited('version="1.7"', ""), "<model> without version"),
-    "number of a component": (edited('<component id="5"', '<component id="five"'), 'id is "five", not a whole number'),
+    "no version": (edited('version="1.7"', ""), "version is missing"),
+    "number of a component": (edited('<component id="5"', '<component id="five"'), 'components five, id = "five" is not a whole number'),
     "component twice": (edited('<component id="5"', '<component id="6"'), "two components with the number 6"),
     "relation to nothing": (edited('<ref id="14"', '<ref id="99"'), "whose part is component 99, which is not there"),
     "attribute twice": (
         edited('<attribute id="number_of_teeth"', '<attribute id="normal_module" unit="mm">5</attribute><attribute id="number_of_teeth"'),
-        "has normal_module twice in component 5, with different values: 4.5 mm; 5 mm",
+        "components 5, attributes has normal_module twice, with different values: 4.5 mm; 5 mm",
     ),
     "two models in one archive": (rexs.as_zip(("a.rexs", b""), ("b.rexsj", b"")), "but holds: a.rexs, b.rexsj"),
     "archive without a model": (rexs.as_zip(("a.txt", b"")), "but holds: none"),
@@ -217,7 +240,7 @@ def test_parts_that_a_stage_cannot_have(tmp_path):
     assert "two components tip_relief, 40 and 42; a scene has one" in refused(tmp_path, twice)
     named = rexs.paper_model()
     rexs.component(named, W)["id"] = "six"
-    with pytest.raises(SceneError, match='has a component whose id is "six", not a whole number'):
+    with pytest.raises(SceneError, match='components six, id = "six" is not a whole number'):
         imported(tmp_path, rexs.as_json(named))
     with pytest.raises(SceneError, match="normal_module = false mm does not begin with a number"):
         imported(tmp_path, rexs.as_json(changed((P, "normal_module", False, "mm"))))

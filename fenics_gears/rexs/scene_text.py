@@ -5,28 +5,26 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 
-from fenics_gears.scene.rexs.model import Model
-from fenics_gears.scene.rexs.stage import Stage
-from fenics_gears.scene.rexs.values import Value
+from fenics_gears.rexs.model import Model
+from fenics_gears.rexs.stage import Stage
+from fenics_gears.rexs.values import Value
 
-# The fields of each section, by its name ("gears.pinion").
-Sections = dict[str, list[tuple[str, Value]]]
 # Where the comments begin.
 COLUMN = 44
 
 
-def scene_text(file: str, model: Model, stage: Stage, sections: Mapping[str, list[tuple[str, Value]]], notes: Mapping[str, Iterable[str]]) -> str:
+def scene_text(file: str, model: Model, stage: Stage, sections: Mapping[str, Mapping[str, Value]], notes: Mapping[str, Iterable[str]]) -> str:
     """The TOML text of a scene; ``file`` is the name of the REXS file it is made from, ``notes`` are lists under a heading each."""
-    named = stage.stage.name or f"stage {stage.stage.identifier}"
+    named = stage.stage.name or f"stage {stage.stage.id}"
     text = _head(file, model, stage, notes) + f"\ntitle = {_toml_text(f'{named} of {file}')}\n"
-    for section, lines in sections.items():
-        text += f"\n[{section}]\n" + "".join(_line(name, value) for name, value in lines)
+    for section, fields in sections.items():
+        text += f"\n[{section}]\n" + "".join(_line(name, value) for name, value in fields.items())
     return text
 
 
 def _head(file: str, model: Model, stage: Stage, notes: Mapping[str, Iterable[str]]) -> str:
     lines = [
-        f"Made by gears import from {file} (REXS {model.version}, {model.application or 'by a program not named'}, {model.date or 'without a date'}).",
+        f"Made by gears import from {file} (REXS {model.version}, {f'{model.applicationId} {model.applicationVersion}'.strip() or 'by a program not named'}, {model.date or 'without a date'}).",
         f"The pair is {stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}.",
         "Behind every value stands where it is from. This is a scene like any other: change what you know better.",
         *(line for heading, items in notes.items() for line in _listed(heading, items)),

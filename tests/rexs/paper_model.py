@@ -157,7 +157,9 @@ def _xml_component(parent, tree):
     for each in tree["attributes"]:
         name, unit, value = each["id"], each["unit"], next(value for key, value in each.items() if key not in ("id", "unit"))
         element = ElementTree.SubElement(holder, "attribute", {"id": name, "unit": unit})
-        if isinstance(value, list):
+        if isinstance(value, dict):
+            ElementTree.SubElement(element, "array", {"code": value["code"]}).text = value["value"]
+        elif isinstance(value, list):
             array = ElementTree.SubElement(element, "array")
             for number in value:
                 ElementTree.SubElement(array, "c").text = str(number)

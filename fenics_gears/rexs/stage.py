@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.scene.rexs.model import Component, Model, Relation
-from fenics_gears.scene.rexs.values import ValueProblem, whole_number_of, word_of
+from fenics_gears.rexs.model import Component, Model, Relation
+from fenics_gears.rexs.values import COUNT, ValueProblem, value_of, word_of
 
 CYLINDRICAL, EXTERNAL, INTERNAL = "cylindrical_stage", "cylindrical_gear", "ring_gear"
 RACK_TOOL = "rack_shaped_tool"
@@ -25,6 +25,22 @@ class GearParts:
     materials: list[Component]
     shafts: list[Component]
     stage_data: list[Component]
+
+    @property
+    def tool(self) -> list[Component]:
+        """The tool that made the root, the first one."""
+        return self.tools[:1]
+
+    @property
+    def material(self) -> list[Component]:
+        """The material that counts, the first one."""
+        return self.materials[:1]
+
+    @property
+    def loaded_sides(self) -> list[str]:
+        """The side of the teeth that is loaded, both where the file does not say which."""
+        said = [word_of(data, "loaded_tooth_flank") for data in self.stage_data if "loaded_tooth_flank" in data.attributes]
+        return [side for side in self.flanks if not said or side == said[0]]
 
 
 @dataclass(frozen=True)
@@ -76,8 +92,8 @@ def _described(model: Model, relation: Relation) -> str:
 
 def _with_teeth(gear: Component) -> str:
     teeth = gear.attributes.get("number_of_teeth")
-    count = teeth.text.removesuffix(".0") if teeth and teeth.text else "?"
-    return f"{gear.type} {gear.identifier} ({count} teeth)"
+    count = str(teeth.value).removesuffix(".0") if teeth else "?"
+    return f"{gear.type} {gear.id} ({count} teeth)"
 
 
 def _stage(model: Model, relation: Relation) -> Stage:
@@ -103,7 +119,7 @@ def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
         flanks,
         {side: model.partners("reference", "referenced", origin=flank) for side, flank in flanks.items()},
         [each for each in referred if each.type == RACK_TOOL],
-        list({each.identifier: each for each in settings}.values()),
+        list({each.id: each for each in settings}.values()),
         [each for each in model.partners("assembly", "part", assembly=gear) if each.type == "gear_body"],
         [each for each in model.partners("reference", "referenced", origin=gear) if each.type == "material"],
         [each for each in model.partners("assembly", "assembly", part=gear) if each.type == "shaft"],
@@ -112,7 +128,7 @@ def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
 
 
 def _check_external(gear: Component) -> None:
-    if gear.type == INTERNAL or "number_of_teeth" in gear.attributes and whole_number_of(gear, "number_of_teeth").number < 0:
+    if gear.type == INTERNAL or "number_of_teeth" in gear.attributes and value_of(gear, "number_of_teeth", COUNT).number < 0:
         raise ValueProblem(f"{gear} is an internal gear; pairs of external gears are computed only.")
     if gear.type != EXTERNAL:
         raise ValueProblem(f"{gear} is no cylindrical gear.")
@@ -124,7 +140,7 @@ def _first_drives(first: GearParts, second: GearParts) -> bool:
     if says[0] != says[1]:
         return says[0] is True or says[1] is False
     # Programs also write that neither drives, or both.
-    teeth = [whole_number_of(part.gear, "number_of_teeth").number for part in (first, second) if "number_of_teeth" in part.gear.attributes]
+    teeth = [value_of(part.gear, "number_of_teeth", COUNT).number for part in (first, second) if "number_of_teeth" in part.gear.attributes]
     return len(teeth) < 2 or teeth[0] <= teeth[1]
 
 

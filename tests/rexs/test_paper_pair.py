@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.random_pairs import valid_pairs
-from tests.scene.rexs import paper_model as rexs
+from tests.rexs import paper_model as rexs
 
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.scene.rexs.imported import Choice, imported_scene
+from fenics_gears.rexs.imported import Choice, imported_scene
 
 
 def imported(tmp_path, content, name="file.rexs", choice=Choice()):

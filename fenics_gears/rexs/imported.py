@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.rexs.attributes import Reading, first
+from fenics_gears.rexs.flanks import note_what_is_left_out, relief_sections, tolerance_class
+from fenics_gears.rexs.gears import Sections, gear_sections, mass_in_words
+from fenics_gears.rexs.loads import loaded_model, pinion_speed, wheel_torque
+from fenics_gears.rexs.model import Model
+from fenics_gears.rexs.read import read_model
+from fenics_gears.rexs.scene_text import scene_text
+from fenics_gears.rexs.stage import GearParts, Stage, chosen_stage
+from fenics_gears.rexs.values import Value, ValueProblem
 from fenics_gears.scene import units
-from fenics_gears.scene.rexs.flanks import ROOT, TIP, ReliefValues, note_what_is_left_out, reliefs, tolerance_class
-from fenics_gears.scene.rexs.gears import GearValues, PairValues, pair_values
-from fenics_gears.scene.rexs.loads import loaded_model, pinion_speed, wheel_torque
-from fenics_gears.scene.rexs.masses import density_of, mass_in_words
-from fenics_gears.scene.rexs.model import Model
-from fenics_gears.scene.rexs.read import read_model
-from fenics_gears.scene.rexs.reading import Reading
-from fenics_gears.scene.rexs.scene_text import Sections, scene_text
-from fenics_gears.scene.rexs.stage import Stage, chosen_stage
-from fenics_gears.scene.rexs.values import Value, ValueProblem, unquoted
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD
 
 # Options that stand in for what the file says, with an example each.
@@ -47,58 +46,41 @@ class Choice:
 
 def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
     """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong."""
-    told = _told(TORQUE, choice.wheel_torque), _told(SPEED, choice.pinion_speed)
+    by_call = _by_call(TORQUE, choice.wheel_torque), _by_call(SPEED, choice.pinion_speed)
     model, reading = read_model(path), Reading()
     loaded = reading.attempt(_loaded, model, choice)
     try:
         stage = chosen_stage(loaded or model, choice.stage)
     except ValueProblem as problem:
         raise SceneError(f"{path}: {problem}\nNothing was written.") from None
-    sections = _pair_sections(reading, stage, pair := pair_values(reading, stage))
-    sections |= _load_sections(reading, loaded, stage, pair, told)
+    sections = gear_sections(reading, stage)
+    sections |= relief_sections(reading, stage, sections)
+    sections |= _load_sections(reading, loaded, stage, sections, by_call)
     sections |= _error_sections(reading, stage, sections)
-    densities = [reading.attempt(density_of, part) for part in stage.gears]
-    _check_all_found(reading, path)
+    masses = [_mass(reading, name, part, sections) for name, part in zip(("pinion", "wheel"), stage.gears)]
     note_what_is_left_out(reading, stage)
-    assumed = [f"{section}.{name} = {unquoted(value)}: {value.origin}" for section, lines in sections.items() for name, value in lines if value.assumed]
-    gears = zip(("pinion", "wheel"), densities, (pair.pinion, pair.wheel))
-    masses = [f"{name}: {mass_in_words(density, gear, pair)}" for name, density, gear in gears if density]
+    _check_all_found(reading, path)
+    assumed = [f"{section}.{name} = {value.words}: {value.origin}" for section, found in sections.items() for name, value in found.items() if value.assumed]
     notes = {
         "Assumed, since the file does not say it:": assumed,
         "Left out, since a scene has no place for it:": reading.left_out,
-        "For [inertia], which has one mass and one moment of inertia for both gears:": masses,
+        "For [inertia], which has one mass and one moment of inertia for both gears:": filter(None, masses),
     }
     text = scene_text(path.name, model, stage, sections, notes)
     return ImportedScene(text, stage, tuple(assumed), tuple(reading.left_out))
+
+
+def _mass(reading: Reading, name: str, part: GearParts, sections: Sections) -> str | None:
+    """What a gear weighs, in words; None where the file has no density."""
+    density, gear, pair = reading.attempt(first, part, "density"), sections[f"gears.{name}"], sections["gears"]
+    known = density and None not in (pair["module"], pair["face_width"], gear["teeth"], gear["bore_diameter"])
+    return f"{name}: {mass_in_words(density, gear, pair)}" if known else None
 
 
 def _check_all_found(reading: Reading, path: Path) -> None:
     if reading.problems:
         count = "1 mistake" if len(reading.problems) == 1 else f"{len(reading.problems)} mistakes"
         raise SceneError("\n".join([*(f"{path}: {each}" for each in reading.problems), f"{count} in {path}. Nothing was written."]))
-
-
-def _pair_sections(reading: Reading, stage: Stage, pair: PairValues) -> Sections:
-    """The gears' sections; values that were not found are None, and the reading's problems tell of them."""
-    sections = {
-        "gears": _lines(pair, "module", "pressure_angle", "centre_distance", "face_width"),
-        "gears.pinion": _lines(pair.pinion),
-        "gears.wheel": _lines(pair.wheel),
-        "gears.material": _lines(pair, "youngs_modulus", "poissons_ratio"),
-    }
-    for kind in (TIP, ROOT):
-        for name, relief in zip(("pinion", "wheel"), reliefs(reading, stage, pair, kind)):
-            if relief is not None:
-                sections[f"{kind}.{name}"] = _relief_lines(relief)
-    return sections
-
-
-def _lines(values: PairValues | GearValues, *names: str) -> list[tuple[str, Value]]:
-    return [(name, getattr(values, name)) for name in names or [field.name for field in fields(values)]]
-
-
-def _relief_lines(relief: ReliefValues) -> list[tuple[str, Value]]:
-    return [("depth", relief.depth), ("start", relief.start), ("shape", relief.shape)]
 
 
 def _loaded(model: Model, choice: Choice) -> Model:
@@ -108,13 +90,13 @@ def _loaded(model: Model, choice: Choice) -> Model:
     return loaded_model(model, choice.load_case)
 
 
-def _load_sections(reading: Reading, model: Model | None, stage: Stage, pair: PairValues, told: tuple[Value | None, Value | None]) -> Sections:
+def _load_sections(reading: Reading, model: Model | None, stage: Stage, gears: Sections, by_call: tuple[Value | None, Value | None]) -> Sections:
     """Torque and speed; ``model``: in its load case, None where that is not known."""
-    teeth = pair.pinion.teeth, pair.wheel.teeth
+    teeth = gears["gears.pinion"]["teeth"], gears["gears.wheel"]["teeth"]
     ratio = None if None in teeth else teeth[1].number / teeth[0].number
-    torque = told[0] or reading.attempt(wheel_torque, model, stage, ratio)
-    speed = told[1] or reading.attempt(pinion_speed, None if model is None else stage, ratio)
-    return {"load": [("wheel_torque", torque)], "motion": [("pinion_speed", speed)]}
+    torque = by_call[0] or reading.attempt(wheel_torque, model, stage, ratio)
+    speed = by_call[1] or reading.attempt(pinion_speed, None if model is None else stage, ratio)
+    return {"load": {"wheel_torque": torque}, "motion": {"pinion_speed": speed}}
 
 
 def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Sections:
@@ -122,12 +104,12 @@ def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Secti
     tolerance = reading.attempt(tolerance_class, reading, stage)
     if tolerance is None:
         cycles = Value(1, "1", "quasi-static, so that all mesh cycles are alike", assumed=True)
-        return {"motion": [*sections["motion"], ("mesh_cycles", cycles)]}
+        return {"motion": {**sections["motion"], "mesh_cycles": cycles}}
     cycles = Value(0, f'"{HUNTING_TOOTH_PERIOD}"', "errors differ from tooth to tooth; so long until all have met", assumed=True)
-    return {"motion": [*sections["motion"], ("mesh_cycles", cycles)], "flank_errors": [("tolerance_class", tolerance)]}
+    return {"motion": {**sections["motion"], "mesh_cycles": cycles}, "flank_errors": {"tolerance_class": tolerance}}
 
 
-def _told(option: tuple[str, str], text: str | None) -> Value | None:
+def _by_call(option: tuple[str, str], text: str | None) -> Value | None:
     """What the call says in the place of the file. Raises SceneError where it is no such quantity."""
     if text is None:
         return None

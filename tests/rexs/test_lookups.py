@@ -1,14 +1,16 @@
 """Where a file does not give a value itself: what it follows from, what is assumed, and which of several parts is meant."""
 
+import base64
 from math import cos, radians, sqrt
 
+import numpy as np
 import pytest
-from tests.scene.rexs import paper_model as rexs
-from tests.scene.rexs.test_paper_pair import imported
+from tests.rexs import paper_model as rexs
+from tests.rexs.test_paper_pair import imported
 
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.rexs.imported import Choice
+from fenics_gears.rexs.imported import Choice
 
 GEARS = (rexs.PINION, rexs.WHEEL)
 
@@ -263,6 +265,37 @@ def test_relief_given_below_the_tip_is_extended_to_it(tmp_path, shape, power):
     base = 72.0 * cos(radians(20.0))
     start, there, tip = (sqrt((diameter / base) ** 2 - 1.0) for diameter in (79.0, 81.0, 82.64))
     assert scene.tip_relief.pinion.depth * ((there - start) / (tip - start)) ** power == pytest.approx(0.031, rel=1e-10)
+
+
+def test_tip_relief_by_its_length_of_roll(tmp_path):
+    """L_Ca of ISO 21771 is the length along the path of contact that the relieved part of the flank passes: the difference of the radii of curvature
+    at tip and start, each sqrt(r^2 - r_b^2); beside the diameter that it gives it says nothing new."""
+    base = 36.0 * cos(radians(20.0))
+    length = sqrt(41.32**2 - base**2) - sqrt(39.5**2 - base**2)
+    scene, found = scene_of(tmp_path, with_relief(datum_length=(length, "mm")))
+    assert scene.tip_relief.pinion.start_diameter == 79.0
+    model = with_relief(datum_length=(length * 1e3, "mum"))
+    scene, found = scene_of(tmp_path, rexs.with_value(model, 40, "tip_relief_datum_diameter", None))
+    assert scene.tip_relief.pinion.start_diameter == pytest.approx(79.0, rel=1e-11) and "of roll from the tip" in found.text
+
+
+@pytest.mark.parametrize("form", [rexs.as_xml, rexs.as_json])
+@pytest.mark.parametrize("dtype, code", [("<f4", "float32"), ("<f8", "float64")])
+def test_arrays(paper_scene, tmp_path, form, dtype, code):
+    """Authority: numpy's bytes. An array of one entry, plain or coded, with padding or without, is that entry; a longer one that no scene has a
+    place for is told with its range."""
+    amounts = np.array([-2.5, 0.25, 12.0], dtype)
+    coded = {"code": code, "value": base64.b64encode(amounts.tobytes()).decode().rstrip("=")}
+    one = {"code": code, "value": base64.b64encode(np.array([4.5], dtype).tobytes()).decode()}
+    model = changed((rexs.WHEEL, "normal_module", [4.5], "mm"))
+    module = next(each for each in rexs.component(model, rexs.PINION)["attributes"] if each["id"] == "normal_module")
+    del module["floating_point"]
+    module["floating_point_array_coded"] = one
+    flank = rexs.component(model, rexs.PINION_FLANKS[0])
+    flank["attributes"].append({"id": "topographical_deviation_amounts", "unit": "mum", "floating_point_array_coded": coded})
+    scene, found = imported(tmp_path, form(model))
+    assert scene.gears == paper_scene.gears
+    assert found.left_out == ("component 7 (cylindrical_gear_flank): topographical_deviation_amounts = 3 values from -2.5 to 12 um",)
 
 
 def test_loaded_flank_decides_where_flanks_differ(tmp_path):

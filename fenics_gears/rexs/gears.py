@@ -1,0 +1,203 @@
+"""The gears of a stage: their teeth, circles and material, as the file gives them, as they follow from it, or as the standard has them."""
+
+from __future__ import annotations
+
+from functools import partial
+from math import acos, cos, isclose, pi, tan
+
+from fenics_gears.rexs.attributes import Reading, every, first, given, needed
+from fenics_gears.rexs.stage import GearParts, Stage
+from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place
+
+# By the section of a scene ("gears.pinion"), its fields; None for what could not be found, which the reading's problems then tell.
+Sections = dict[str, dict[str, Value | None]]
+# ISO 53, basic rack A: addendum, dedendum and tip radius of the rack's tooth, in modules.
+ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = 1.0, 1.25, 0.38
+# A gear without a known bore: the rim is thick enough not to matter.
+BORE = 0.4
+# ISO 6336-1: Young's modulus (N/mm^2) and Poisson's ratio of steel.
+STEEL = (206e3, 0.3)
+# What repeats module, teeth or shifts may be rounded, in modules.
+ROUNDED = 1e-3
+# In N s^2/mm (a tonne) and N mm s^2.
+KILOGRAM, KILOGRAM_SQUARE_METRE = 1e-3, 1e3
+
+
+def gear_sections(reading: Reading, stage: Stage) -> Sections:
+    """``[gears]`` and the sections below it."""
+    for part in stage.gears:
+        reading.attempt(_check_spur, part)
+    module = reading.attempt(_of_both, stage, "module", "The gears have different modules")
+    angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
+    teeth = [reading.attempt(needed, part, "teeth") for part in stage.gears]
+    shifts = _profile_shifts(reading, stage, module, angle, distance, teeth)
+    gears = [_gear_section(reading, part, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
+    for part, count in zip(stage.gears, teeth):
+        reading.attempt(_check_reference_diameter, part, module, count)
+    reading.attempt(_check_sum_of_shifts, stage, *shifts)
+    modulus, ratio = reading.attempt(_material, stage) or (None, None)
+    width = reading.attempt(_face_width, stage)
+    return {
+        "gears": {"module": module, "pressure_angle": angle, "centre_distance": distance, "face_width": width},
+        "gears.pinion": gears[0],
+        "gears.wheel": gears[1],
+        "gears.material": {"youngs_modulus": modulus, "poissons_ratio": ratio},
+    }
+
+
+def mass_in_words(density: Value, gear: dict[str, Value], pair: dict[str, Value]) -> str:
+    """Mass and moment of inertia of a ring from the bore to the reference circle: a scene has one of each for both shafts, so that the user
+    has to choose."""
+    outer, inner = pair["module"].number * gear["teeth"].number, gear["bore_diameter"].number
+    mass = density.number * 0.25 * pi * (outer**2 - inner**2) * pair["face_width"].number
+    inertia = mass * (outer**2 + inner**2) / 8.0
+    return f"{mass / KILOGRAM:.4g} kg and {inertia / KILOGRAM_SQUARE_METRE:.4g} kg m^2 as a ring from its bore to its reference circle, with {density.origin}"
+
+
+def _of_both(stage: Stage, asked: str, different: str) -> Value:
+    return agreed([needed(part, asked) for part in stage.gears], different)
+
+
+def _check_spur(part: GearParts) -> None:
+    angle = first(part, "helix_angle")
+    if angle is not None and abs(angle.number) > 1e-9:
+        where = place(*given(part, "helix_angle")[0][:2])
+        raise ValueProblem(f"{where} = {angle.words}: a helical gear. Spur gears are computed only, whose helix angle is 0.")
+
+
+def _pressure_angle(stage: Stage) -> Value:
+    angles = []
+    for part in stage.gears:
+        own = agreed(every(part, "pressure_angle"), "The flanks and tools of a gear have different pressure angles")
+        angles.append(own or needed(part, "pressure_angle"))
+    return agreed(angles, "The gears have different pressure angles")
+
+
+def _face_width(stage: Stage) -> Value:
+    common = first(stage, "common_face_width")
+    if common is not None:
+        return common
+    widths = [needed(part, "face_width") for part in stage.gears]
+    if isclose(widths[0].number, widths[1].number):
+        return agreed(widths, "")
+    narrow = min(widths, key=lambda width: width.number)
+    return Value(narrow.number, narrow.written, f"{narrow.origin}, the narrower gear")
+
+
+def _profile_shifts(reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None]) -> list[Value | None]:
+    """The shift of both gears, as the file gives them, or as the centre distance leaves one of them."""
+    shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in stage.gears]
+    unsaid = [number for number, part in enumerate(stage.gears) if not given(part, "profile_shift")]
+    if len(unsaid) == 2:
+        reading.attempt(_refuse_both_missing, stage)
+    elif unsaid:
+        shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, shifts[1 - unsaid[0]], module, angle, distance, *teeth)
+    return shifts
+
+
+def _stated_shift(part: GearParts, module: Value | None) -> Value | None:
+    """The shift that the tooth's thickness follows from; the sides of a tooth have one each, which must agree."""
+    return agreed(every(part, "profile_shift", module), f"{part.gear} has contradictory profile shifts")
+
+
+def _refuse_both_missing(stage: Stage) -> None:
+    pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
+    raise ValueProblem(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
+
+
+def _remaining_shift(stage: Stage, known: Value, module: Value, angle: Value, distance: Value, *teeth: Value) -> Value:
+    """What is left of the sum of both shifts that leaves no backlash (ISO 21771)."""
+    count = sum(each.number for each in teeth)
+    cosine = 0.5 * module.number * count * cos(angle.number) / distance.number
+    if not cosine < 1.0:
+        name = place(stage.stage, "center_distance")
+        raise ValueProblem(f"{name} = {distance.number:.6g} mm is too small for {count:g} teeth of module {module.number:g} mm.")
+    operating = acos(cosine)
+    total = 0.5 * count * (tan(operating) - operating - tan(angle.number) + angle.number) / tan(angle.number)
+    why = "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it, without backlash"
+    return bare(round(total - known.number, 9), why, assumed=True)
+
+
+def _gear_section(reading: Reading, part: GearParts, module: Value | None, teeth: Value | None, shift: Value | None) -> dict[str, Value | None]:
+    tip = reading.attempt(needed, part, "tip_diameter") if given(part, "tip_diameter") else reading.attempt(_tip_diameter, part, module, teeth, shift)
+    stated = given(part, "root_diameter")
+    root = reading.attempt(needed, part, "root_diameter") if stated else reading.attempt(_root_diameter, part, module, teeth, shift, tip)
+    return {
+        "teeth": teeth,
+        "profile_shift": shift,
+        "tip_diameter": tip,
+        "root_diameter": root,
+        "bore_diameter": reading.attempt(_bore_diameter, part, root),
+        "rack_tip_radius": reading.attempt(_rack_tip_radius, part, module),
+    }
+
+
+def _tip_diameter(part: GearParts, module: Value, teeth: Value, shift: Value) -> Value:
+    """What the addendum of the flanks gives, or the standard's."""
+    addendum = first(part, "addendum")
+    modules = ADDENDUM if addendum is None else addendum.number
+    source = f"the addendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    number = module.number * (teeth.number + 2.0 * (shift.number + modules))
+    return computed(number, 1.0, "mm", f"no tip_diameter; from teeth, profile shift and {source}", assumed=addendum is None)
+
+
+def _root_diameter(part: GearParts, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
+    """What the depth of the teeth gives, or what the rack cuts: its addendum deep, at the shift of its generating where that is given."""
+    depth = first(part, "tooth_depth")
+    if depth is not None:
+        return computed(tip.number - 2.0 * depth.number, 1.0, "mm", f"no root_diameter; tip diameter less twice {depth.origin}")
+    generated, addendum = first(part, "generated_shift"), _of_tool(part, module, "tool_addendum")
+    at = "profile shift" if generated is None else generated.origin
+    modules = DEDENDUM if addendum is None else addendum.number
+    number = module.number * (teeth.number + 2.0 * ((generated or shift).number - modules))
+    source = f"the dedendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
+
+
+def _rack_tip_radius(part: GearParts, module: Value) -> Value:
+    return _of_tool(part, module, "rack_tip_radius") or bare(RACK_TIP_RADIUS, "no tip radius of the tool; that of ISO 53", assumed=True)
+
+
+def _of_tool(part: GearParts, module: Value, asked: str) -> Value | None:
+    """A measure of the tool that made the root, in modules."""
+    agreed([module, *every(part, "tool_module")], "The tool has another module than the gear")
+    return agreed(every(part, asked, module), f"{part.tool[0]} contradicts itself") if part.tool else None
+
+
+def _bore_diameter(part: GearParts, root: Value) -> Value:
+    bore = first(part, "bore_diameter")
+    if bore is not None and bore.number < 0.0:
+        raise ValueProblem(f"{place(*given(part, 'bore_diameter')[0][:2])} = {bore.words} is negative.")
+    if bore is not None and bore.number > 0.0:
+        return bore
+    why = "no inner_diameter" if bore is None else f"{bore.origin} is 0, a solid gear"
+    return computed(BORE * root.number, 1.0, "mm", f"{why}; {BORE} of the root diameter, held rigidly", assumed=True)
+
+
+def _material(stage: Stage) -> tuple[Value, Value]:
+    parts = [part for part in stage.gears if part.material]
+    if not parts:
+        why = "no material; that of steel (ISO 6336-1)"
+        return computed(STEEL[0], 1e3, "GPa", why, assumed=True), bare(STEEL[1], why, assumed=True)
+    different = "The gears have different materials, a scene has one for both"
+    modulus, ratio = (agreed([needed(part, asked) for part in parts], different) for asked in ("youngs_modulus", "poissons_ratio"))
+    return modulus, ratio
+
+
+def _check_reference_diameter(part: GearParts, module: Value, teeth: Value) -> None:
+    """A reference diameter, where the file repeats it, is that of module and teeth."""
+    for stated, where in zip(every(part, "reference_diameter"), given(part, "reference_diameter")):
+        if abs(stated.number - module.number * teeth.number) > ROUNDED * module.number:
+            raise ValueProblem(
+                f"{place(*where[:2])} = {stated.words} contradicts its module and its {teeth.number} teeth, "
+                f"which give {module.number * teeth.number:.6g} mm."
+            )
+
+
+def _check_sum_of_shifts(stage: Stage, pinion: Value, wheel: Value) -> None:
+    for stated, where in zip(every(stage, "sum_of_shifts"), given(stage, "sum_of_shifts")):
+        if abs(stated.number - pinion.number - wheel.number) > ROUNDED:
+            raise ValueProblem(
+                f"{place(*where[:2])} = {stated.written} contradicts the profile shifts of its gears, "
+                f"{pinion.written} and {wheel.written}."
+            )
