@@ -14,7 +14,7 @@ from fenics_gears.studies.ranks import Alone
 pytestmark = pytest.mark.ranks
 
 
-@pytest.mark.parametrize("ranks", [1, 2, 3])
+@pytest.mark.parametrize("ranks", [*(pytest.param(few, marks=pytest.mark.nightly) for few in (1, 2)), 3])
 def test_a_study_under_mpirun_gives_what_it_gives_alone(folder, ranks):
     """Authority: exact identity; a case's run does not depend on where it runs. Two cases: with 3 ranks there are more ranks than cases."""
     study = write_study(folder, '[sweep]\nfriction = ["absent", "present"]\n')
