@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 from tests.contact.laws_of_contact import law_residual
 
 from fenics_gears.contact.errors import ContactNotConverged
@@ -23,6 +24,7 @@ class Run:
     built: Model
     marcher: Marcher
     records: list
+    result: xr.Dataset
     failure: ContactNotConverged | None = None
 
     @property
@@ -49,7 +51,7 @@ def run_of(built: Model, compliances: Compliances | None) -> Run:
     result = dataset(recorder, march)
     for name, variable in result.data_vars.items():
         assert np.all(np.isfinite(variable)) or name.endswith(without_number), name
-    return Run(built, marcher, list(march.records), failure)
+    return Run(built, marcher, list(march.records), result, failure)
 
 
 def worst_of(run: Run) -> dict[str, float]:
