@@ -74,7 +74,7 @@ def tooth_reach(
     """How far apart flanks are that interact at a step, from the step before it, or between both."""
     places = [pair_places(pair, grid, step / steps, coast_flanks, corner) for step in range(steps)]
     # Every pair's index rises by one with the end of a cycle. What touches between two steps touches at one of them too.
-    before = [[replace(place, index=place.index + 1) for place in places[-1]], *places[:-1]]
+    before = [tuple(replace(place, index=place.index + 1) for place in places[-1]), *places[:-1]]
     teeth: dict[int, set[int]] = {DRIVE: {0}, COAST: set()}
     for near in (now + earlier for now, earlier in zip(places, before)):
         for gear in range(2):
