@@ -65,6 +65,7 @@ def main():
     sensors = [system.AddSensor(SensorNode(nodeNumber=node, outputVariableType=exu.OutputVariableType.Coordinates, storeInternal=True)) for node in nodes]
     system.Assemble()
     settings = exu.SimulationSettings()
+    settings.solutionSettings.writeSolutionToFile = False
     settings.staticSolver.newton.relativeTolerance = 1e-10
     system.SolveStatic(settings, updateInitialValues=True)
     system.SetLoadParameter(couple, "load", given["couple"] + given["couple_after"])
@@ -73,7 +74,6 @@ def main():
     settings.timeIntegration.generalizedAlpha.useNewmark = True
     settings.timeIntegration.newton.relativeTolerance = 1e-10
     settings.solutionSettings.sensorsWritePeriod = given["step"]
-    settings.solutionSettings.writeSolutionToFile = False
     system.SolveDynamic(settings)
     stored = [system.GetSensorStoredData(sensor)[:, 3] for sensor in sensors]
     json.dump({"version": exu.GetVersionString(), "frequencies": sorted(frequencies), "rotations": [list(each) for each in stored]}, sys.stdout)
