@@ -16,7 +16,7 @@ def picture(pairs) -> Figure:
     figure = Figure(figsize=(13.0, 7.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
     axes = figure.subplots(2, len(pairs), sharex=True, squeeze=False)
-    figure.suptitle("Three real pairs, each gear with an inertia of its own, at speed and without inertia", x=0.012, ha="left", fontsize=14)
+    figure.suptitle("Three real pairs, each gear with an inertia of its own, at speed (mesh frequency) and without inertia", x=0.012, ha="left", fontsize=14)
     for column, pair in enumerate(pairs):
         above, below = axes[:, column]
         for name, (label, colour, width) in CURVES.items():
@@ -25,7 +25,7 @@ def picture(pairs) -> Figure:
             above.plot(phase, 1e3 * run.attrs["base_radius_wheel"] * run.transmission_error.values, color=colour, linewidth=width, label=label)
             force = 1e-3 * run.pair_normal_force.values
             below.plot(phase, np.where(force > 0.0, force, np.nan), color=colour, linewidth=width)
-        above.set_title(f"{pair.row[0]}, {pair.row[1]} Hz mesh frequency")
+        above.set_title(f"{pair.row[0]}, {pair.row[1]} Hz")
         below.set_xlabel("Mesh cycles")
         below.set_ylim(bottom=0.0)
     axes[0, 0].set_ylabel("Transmission error on the\nwheel's base circle (µm)")
