@@ -85,7 +85,10 @@ def _model_rows(built: Model) -> Rows:
     grid = built.resolution.contact_grid
     each = "normal and tangential force" if built.scene.friction is not None else "normal force"
     touching = f"each a {each} where closed" if built.scene.tooth_elasticity is not None else "the first to touch carries all"
+    pinion, wheel = built.pair.face_widths
+    widths: Rows = [] if pinion == wheel else [("face width in common", built.pair.face_width, f"mm: pinion {pinion:g} mm, wheel {wheel:g} mm")]
     return [
+        *widths,
         ("centre coordinates", len(built.drivetrain.coordinates), ", ".join(built.drivetrain.coordinates)),
         ("contact nodes of a tooth pair", grid.nodes, touching),
         ("equations in time", _method(built), ""),

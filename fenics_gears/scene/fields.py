@@ -89,7 +89,10 @@ def _bare(entry: Any) -> float:
     """A bare number of a list. Raises PydanticCustomError for anything else."""
     if isinstance(entry, bool) or not isinstance(entry, (int, float)):
         raise refused("is not a number.")
-    return float(entry)
+    try:
+        return float(entry)
+    except OverflowError:
+        raise refused("is too large.") from None
 
 
 @dataclass(frozen=True)
