@@ -115,6 +115,7 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
 
     gear, resolution = getattr(model.pair, name), model.resolution
     body = _body(meshes, name, model.pair, resolution.element)
+    # Forces one tooth beyond those that interact still open or close a crack.
     return whole_body_compliance(
         body.mesh, gear, model.scene.gears.material, element=resolution.element, tooth_offsets=reach.same + 1, cache=cache
     )
