@@ -22,9 +22,11 @@ Number = float | np.ndarray
 # Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the paper's pair.
 SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "Q1 incompatible": (6500, 31.0), "Q2": (3000, 35.0)}
 # Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for each block of compliance.
-GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.5e-5, 2e-10, 4.5e-8
+GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.06, 1.7e-5, 2e-10, 4.5e-8
+# Two inverses of symmetric matrices by Cholesky, in those of a general one.
+BOTH_FLANKS_INVERSES = 0.75
 # Seconds of marching: a position and the square of its contact rows, a step and the square of its contact rows.
-POSITION, POSITION_SQUARE, STEP, STEP_SQUARE = 4e-4, 6e-8, 5e-5, 5e-9
+POSITION, POSITION_SQUARE, STEP, STEP_SQUARE = 1e-3, 6e-8, 5e-5, 2e-9
 # The same of the reference route: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
 REMESHED_UNKNOWN, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 1.5e-10, 7.0
 # Bytes: the program with its libraries, with those that mesh and condense, a number.
@@ -85,13 +87,13 @@ def expected_cost(built: Model) -> ExpectedCost:
 
 @dataclass(frozen=True)
 class _Gear:
-    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance, whether it is meshed as a whole."""
+    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance, dense inverses of a flank's size."""
 
     words: str
     unknowns: float
     flank_dofs: float
     blocks: float
-    inverses: int = 1
+    inverses: float = 1.0
 
 
 def _condensed(built: Model, name: str) -> _Gear:
@@ -109,7 +111,7 @@ def _condensed(built: Model, name: str) -> _Gear:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1)
     # Half a symmetric sector, for motions of either symmetry.
     blocks = reach.same + 1 + reach.across[1] - reach.across[0] + 1
-    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, blocks, 2)
+    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, blocks, BOTH_FLANKS_INVERSES)
 
 
 def _meshed(built: Model, name: str) -> int | None:

@@ -13,6 +13,7 @@ import re
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -69,10 +70,11 @@ def measure(name: str) -> dict[str, float]:
     from fenics_gears.scene.read import scene_from_text
     from fenics_gears.simulation import simulate
 
-    directory = next((path.parent for path in DEMOS if path.stem == name), ROOT)
-    scene = scene_from_text(cases()[name], name, directory=directory)
+    beside = next((path.parent for path in DEMOS if path.stem == name), ROOT)
+    scene = scene_from_text(cases()[name], name, directory=beside)
     expected = expected_cost(model(scene))
-    attributes = simulate(scene, cache=Cache(Path("/nonexistent"))).attrs
+    with tempfile.TemporaryDirectory() as directory:
+        attributes = simulate(scene, cache=Cache(Path(directory))).attrs
     return {
         "condensing": attributes["time_mesh"] + attributes["time_condense"], "marching": attributes["time_march"],
         "memory": 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
@@ -81,8 +83,8 @@ def measure(name: str) -> dict[str, float]:
 
 
 def main(names: list[str]) -> None:
-    """Print a row of every example, and the largest ratio of any."""
-    print(f"{'example':30}" + "".join(f"{stage:>34}" for stage in STAGES))
+    """Print a row of every example: expected, measured and their ratio, of each stage."""
+    print(f"{'example':30}" + "".join(f"{stage + ', expected for measured':>36}" for stage in STAGES) + "  load")
     for name in names or cases():
         call = [sys.executable, "-P", "-m", "tests.benchmarks.expected_cost", "--measure", name]
         ended = subprocess.run(call, env={**os.environ, "OMP_NUM_THREADS": "1"}, capture_output=True, text=True, check=False)
@@ -90,13 +92,13 @@ def main(names: list[str]) -> None:
             print(f"{name:30} {ended.stderr.strip().splitlines()[-1]}")
             continue
         found = json.loads(ended.stdout.splitlines()[-1])
-        print(f"{name:30}" + "".join(_cell(found[f"expected {stage}"], found[stage], stage) for stage in STAGES), flush=True)
+        print(f"{name:30}" + "".join(_cell(found[f"expected {stage}"], found[stage], stage) for stage in STAGES) + f"  {os.getloadavg()[0]:.1f}", flush=True)
 
 
 def _cell(expected: float, measured: float, stage: str) -> str:
     scale, unit = (1e-6, "MB") if stage == "memory" else (1.0, "s")
     ratio = f"{expected / measured:.2f}" if measured and expected else "-"
-    return f"{expected * scale:10.3g} for {measured * scale:8.3g} {unit:2} {ratio:>8}"
+    return f"{expected * scale:10.3g} for {measured * scale:8.3g} {unit:2} {ratio:>10}"
 
 
 if __name__ == "__main__":
