@@ -89,12 +89,14 @@ def expected_cost(built: Model) -> ExpectedCost:
 
 @dataclass(frozen=True)
 class _Gear:
-    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance, dense inverses of a flank's size."""
+    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance that are computed, those that contact
+    copies in the order in which it goes through them, dense inverses of a flank's size."""
 
     words: str
     unknowns: float
     flank_dofs: float
     blocks: float
+    copied: float
     inverses: float = 1.0
 
 
@@ -105,15 +107,15 @@ def _condensed(built: Model, name: str) -> _Gear:
     dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(built, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
-        return _Gear(f"the whole {name}", meshed, dofs, gear.teeth * 3.0, gear.teeth)
+        return _Gear(f"the whole {name}", meshed, dofs, 3.0 * gear.teeth, 3.0, gear.teeth)
     reach = tooth_reach(
         built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None, built.corner
     )
     if reach.across is None:
-        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1)
+        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, 2 * reach.same + 1)
     # Half a symmetric sector, for motions of either symmetry.
-    blocks = reach.same + 1 + reach.across[1] - reach.across[0] + 1
-    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, blocks, BOTH_FLANKS_INVERSES)
+    across = reach.across[1] - reach.across[0] + 1
+    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, reach.same + 1 + across, 2 * (2 * reach.same + 1 + across), BOTH_FLANKS_INVERSES)
 
 
 def _meshed(built: Model, name: str) -> int | None:
@@ -145,7 +147,7 @@ def _condensed_once_cost(built: Model, gears: list[_Gear]) -> tuple[float, float
         GEAR + UNKNOWN * gear.unknowns + gear.inverses * FLANK_CUBE * gear.flank_dofs**3 + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
-    held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * gear.blocks * gear.flank_dofs**2 for gear in gears)
+    held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
     return condensing, _marching(built, rows), operator_bytes(_positions(built), rows, built.scene.friction is not None) + held
 
 
