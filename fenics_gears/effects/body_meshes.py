@@ -116,8 +116,9 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
 
     gear, resolution = getattr(model.pair, name), model.resolution
     body = _body(meshes, name, model.pair, resolution.element)
+    # Forces one tooth beyond those that interact still open or close a crack.
     return whole_body_compliance(
-        body.mesh, gear, model.scene.gears.material_of(name), element=resolution.element, tooth_offsets=reach.same, cache=cache
+        body.mesh, gear, model.scene.gears.material_of(name), element=resolution.element, tooth_offsets=reach.same + 1, cache=cache
     )
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from math import ceil
 
 import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.cost import operator_bytes
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
@@ -206,7 +208,9 @@ class Study:
         return tuple(each for each in found if each.setting), tuple(each for each in found if not each.setting)
 
     def _fits(self, setting: Setting) -> bool:
-        return whole.operator_bytes(self.scene, setting, self.pair.contact_ratio) <= whole.MOST_BYTES
+        friction = self.scene.friction is not None
+        rows = ceil(self.pair.contact_ratio) * setting.grid.nodes * (2 if friction else 1)
+        return operator_bytes(setting.steps, rows, friction) <= whole.MOST_BYTES
 
     def _run(self, setting: Setting, name: str) -> bool:
         """A setting's answers and time, run once whatever knobs it stands on; whether it ran."""

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import ceil
 
-from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.ladder import Knob, Setting, rung_of
 
 # A path keeps a setting when its error has fallen to this part of that of the last one kept.
@@ -84,9 +82,3 @@ def _thinned(found: list[Setting]) -> list[Setting]:
     if len(found) <= MOST_KEPT:
         return found
     return [found[round(place * (len(found) - 1) / (MOST_KEPT - 1))] for place in range(MOST_KEPT)]
-
-
-def operator_bytes(scene: Scene, setting: Setting, contact_ratio: float) -> float:
-    """What a mesh cycle of contact operators takes."""
-    rows = ceil(contact_ratio) * setting.grid.nodes * (1 if scene.friction is None else 2)
-    return 8.0 * setting.steps * rows**2

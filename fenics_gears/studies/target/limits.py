@@ -6,8 +6,8 @@ from math import inf
 
 import numpy as np
 
+from fenics_gears.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
-from fenics_gears.memory import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model import MOST_STORED_BYTES, Model, model
 from fenics_gears.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
