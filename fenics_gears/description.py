@@ -88,6 +88,7 @@ def _model_rows(built: Model) -> Rows:
         ("centre coordinates", len(built.drivetrain.coordinates), ", ".join(built.drivetrain.coordinates)),
         ("contact nodes of a tooth pair", grid.nodes, touching),
         ("equations in time", _method(built), ""),
+        *([] if built.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
         ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
     ]
 

@@ -79,7 +79,7 @@ def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
         title=checked.title or name,
         gears=_gears(checked.gears),
         load=same_names(data.Load, checked.load),
-        motion=_motion(checked.motion, checked.gears, ramped=checked.speed_ramp is not None),
+        motion=_motion(checked),
         accuracy=same_names(data.Accuracy, checked.accuracy),
         output=same_names(data.Output, checked.output),
         text=text,
@@ -100,18 +100,30 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     )
 
 
-def _motion(motion: schema.Motion, gears: schema.Gears, ramped: bool) -> data.Motion:
+# With these, teeth or couples differ from one mesh cycle to the next.
+CYCLES_DIFFER_BY = ("flank_errors", "eccentricity", "torque_ripple", "body_meshes")
+
+
+def _motion(checked) -> data.Motion:
     """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth.
 
-    Where it is not said how many cycles are recorded: the last two, of a speed ramp or of a whole hunting tooth period all that fit.
+    Where it is not said how many cycles are run, which a scene with inertia must: one, or a whole hunting tooth period where cycles differ.
+    Where it is not said how many are recorded: the last two, of a speed ramp or of a whole hunting tooth period all that fit.
     """
-    frequency = motion.mesh_frequency
-    if frequency is None:
+    motion, gears = checked.motion, checked.gears
+    frequency, speed_given = motion.mesh_frequency, True
+    if frequency is None and motion.pinion_speed is None:
+        frequency, speed_given = data.NOMINAL_FREQUENCY, False
+    elif frequency is None:
         frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
     whole_period = math.lcm(gears.pinion.teeth, gears.wheel.teeth)
-    cycles = motion.mesh_cycles or whole_period
-    if "recorded_cycles" in motion.model_fields_set:
-        return data.Motion(frequency, cycles, motion.recorded_cycles or whole_period)
-    if ramped or motion.mesh_cycles is None:
-        return data.Motion(frequency, cycles, cycles, fewer_where_too_large=True)
-    return data.Motion(frequency, cycles, min(data.LAST_CYCLES, cycles))
+    recorded = motion.recorded_cycles or whole_period if "recorded_cycles" in motion.model_fields_set else None
+    cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles is None
+    if "mesh_cycles" not in motion.model_fields_set:
+        whole = any(getattr(checked, section) is not None for section in CYCLES_DIFFER_BY)
+        cycles = max(whole_period if whole else 1, recorded or 1)
+    if recorded is not None:
+        return data.Motion(frequency, cycles, recorded, speed_given=speed_given)
+    if checked.speed_ramp is not None or whole:
+        return data.Motion(frequency, cycles, cycles, fewer_where_too_large=True, speed_given=speed_given)
+    return data.Motion(frequency, cycles, min(data.LAST_CYCLES, cycles), speed_given=speed_given)
