@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import Relief, RootReliefOfGearText, incomplete, of_gear
+from fenics_gears.effects.relief import Relief, RootReliefOfGearText, of_gear, rules
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree
 
@@ -32,9 +32,9 @@ def read(text: RootReliefText) -> RootRelief:
     return RootRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
 
 
-def relief_is_complete(tree: Tree) -> Iterator[Problem]:
-    """A relief has a depth and a start."""
-    return incomplete(tree, "root_relief", "LPSTC")
+def relief_is_whole(tree: Tree) -> Iterator[Problem]:
+    """A relief has a depth and one start, which means the same for both gears."""
+    return rules(tree, "root_relief", "LPSTC")
 
 
 def removal(relief: RootRelief, pair):
@@ -52,6 +52,6 @@ EFFECT = Effect(
     data=RootRelief,
     terms=("initial gaps",),
     read=read,
-    rules=relief_is_complete,
+    rules=relief_is_whole,
     removal=removal,
 )

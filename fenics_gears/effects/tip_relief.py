@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import Relief, TipReliefOfGearText, incomplete, of_gear
+from fenics_gears.effects.relief import Relief, TipReliefOfGearText, of_gear, rules
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree
 
@@ -32,9 +32,9 @@ def read(text: TipReliefText) -> TipRelief:
     return TipRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
 
 
-def relief_is_complete(tree: Tree) -> Iterator[Problem]:
-    """A relief has a depth and a start."""
-    return incomplete(tree, "tip_relief", "HPSTC")
+def relief_is_whole(tree: Tree) -> Iterator[Problem]:
+    """A relief has a depth and one start, which means the same for both gears."""
+    return rules(tree, "tip_relief", "HPSTC")
 
 
 def removal(relief: TipRelief, pair):
@@ -52,6 +52,6 @@ EFFECT = Effect(
     data=TipRelief,
     terms=("initial gaps",),
     read=read,
-    rules=relief_is_complete,
+    rules=relief_is_whole,
     removal=removal,
 )

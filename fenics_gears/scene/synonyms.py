@@ -72,11 +72,15 @@ SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
     "tip_relief": {
         "depth": ("amount", "ca", "c_a", "c_alpha_a", "height", "relief", "value", "magnitude"),
         "start": ("begin", "start_point", "start_diameter", "diameter", "d_ca", "start_angle", "roll_angle"),
+        "length_on_path": ("length", "path_length", "length_of_path", "l_ca", "lca", "roll_length"),
+        "length_on_flank": ("flank_length", "profile_length", "arc_length"),
         "shape": ("type", "form", "profile", "kind", "curve"),
     },
     "root_relief": {
         "depth": ("amount", "cf", "c_f", "c_alpha_f", "height", "relief", "value", "magnitude"),
         "start": ("begin", "start_point", "start_diameter", "diameter", "d_cf", "start_angle", "roll_angle"),
+        "length_on_path": ("length", "path_length", "length_of_path", "l_cf", "lcf", "roll_length"),
+        "length_on_flank": ("flank_length", "profile_length", "arc_length"),
         "shape": ("type", "form", "profile", "kind", "curve"),
     },
     "flank_errors": {"tolerance_class": ("class", "quality", "grade", "accuracy_grade", "iso_1328"), "seed": ("random_seed",)},
