@@ -15,6 +15,7 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March, Record
+from fenics_gears.effects.relief import LINEAR, PARABOLIC
 from fenics_gears.scene.data import Scene
 
 # cos(phi) is 1 within 0.1 % up to here: rotations are taken as small (paper, section 2).
@@ -47,7 +48,7 @@ def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: i
     ]
 
 
-def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock) -> list[str]:
+def warnings_of(scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock) -> list[str]:
     """Sentences on where a march leaves what the model assumes; empty where it does not.
 
     Window, sharp edges, rank, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
@@ -55,7 +56,7 @@ def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     records = list(march.records)
     of_flanks = [*_window(cycle, records), *_rank(records)] if cycle.resolves_flanks else []
     if cycle.resolves_flanks and cycle.spreads_pressure:
-        of_flanks += _sharp_edge(cycle, records)
+        of_flanks += _sharp_edge(scene, cycle, records)
     return [
         *_passed_through(cycle, drivetrain, records), *of_flanks, *_rotation(drivetrain, records), *_wedged(cycle, records),
         *_separation(cycle, drivetrain, march, clock), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
@@ -138,17 +139,32 @@ def _force(record: Record, *, drive: bool) -> float:
     return float(record.solution.forces[: operator.nodes][operator.on_drive_flanks == drive].sum())
 
 
-def _sharp_edge(cycle: Cycle, records: list[Record]) -> list[str]:
+def _sharp_edge(scene: Scene, cycle: Cycle, records: list[Record]) -> list[str]:
     """Contact on the edge of a tip, where the flank ends in a corner: linear elasticity has infinite pressure there."""
     touched = [_on_tips(cycle, record) for record in records]
     steps = sum(bool(tips) for tips in touched)
     if not steps:
         return []
-    named = " and ".join(f"the {gear}'s" for gear in ("pinion", "wheel") if any(gear in tips for tips in touched))
+    gears = [gear for gear in ("pinion", "wheel") if any(gear in tips for tips in touched)]
+    named = " and ".join(f"the {gear}'s" for gear in gears)
     return [
         f"contact reaches the sharp edge of {named} tip in {steps} of {len(records)} stored steps: the pressure there does not converge with "
-        "the mesh, forces and transmission error do; [tip_relief] takes the load off the edge"
+        f"the mesh, forces and transmission error do; {_off_the_edge(scene, gears)}"
     ]
+
+
+def _off_the_edge(scene: Scene, gears: list[str]) -> str:
+    """What takes the load off the sharp tips of some gears, of what the scene does not have yet."""
+    reliefs = [getattr(scene.tip_relief, gear) for gear in gears] if scene.tip_relief is not None else []
+    if None in reliefs:
+        ways = [f"[tip_relief.{gear}] takes the load off the edge" for gear, relief in zip(gears, reliefs) if relief is None]
+    elif reliefs:
+        ways = ["a deeper or longer tip relief takes more load off the edge"]
+        ways += [f'tip_relief.shape = "{PARABOLIC}" is steeper at the tip'] if any(relief.shape == LINEAR for relief in reliefs) else []
+    else:
+        ways = ["[tip_relief] takes the load off the edge"]
+    rounded = scene.corner_contact is not None and min(scene.corner_contact.edge_radii) > 0.0
+    return ", ".join([*ways, *([] if rounded else ["[corner_contact] with an edge_radius rounds it"])])
 
 
 def _on_tips(cycle: Cycle, record: Record) -> set[str]:

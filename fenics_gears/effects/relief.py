@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Optional
 
@@ -149,3 +149,20 @@ def _alike(tree: Tree) -> bool:
     gears = table(tree, "gears") or {}
     pinion, wheel = ({name: value for name, value in (table(gears, gear) or {}).items() if name != "bore_diameter"} for gear in GEARS)
     return pinion == wheel
+
+
+def kink_findings(section: str, shapes: Mapping[str, str], curves: Mapping[str, Any], cycle, records) -> list[str]:
+    """A sentence where contact presses hardest on the kink with which a linear relief starts; by gear, shapes and relief curves."""
+    kinks = {gear: curve.start_roll_angle for gear, curve in curves.items() if curve is not None and shapes[gear] == LINEAR and curve.depth > 0.0}
+    if not kinks or not (cycle.resolves_flanks and cycle.spreads_pressure):
+        return []
+    from fenics_gears.contact.kink_pressure import kink_at_the_peak
+
+    found = kink_at_the_peak(cycle, records, kinks)
+    if found is None:
+        return []
+    gear, pressure = found
+    return [
+        f"the largest pressure, {pressure:.4g} MPa, is that on the kink where the {gear}'s linear {section.replace('_', ' ')} starts: there it does not "
+        f'converge with the mesh, forces and transmission error do; {section}.shape = "{PARABOLIC}" starts without a kink'
+    ]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import Relief, TipReliefOfGearText, of_gear, rules
+from fenics_gears.effects.relief import GEARS, Relief, TipReliefOfGearText, kink_findings, of_gear, rules
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree
 
@@ -44,6 +44,13 @@ def removal(relief: TipRelief, pair):
     return tip_reliefs(pair, relief)
 
 
+def findings(relief: TipRelief, cycle, records) -> list[str]:
+    """Contact that presses hardest on a kink."""
+    curves = dict(zip(GEARS, removal(relief, cycle.pair)))
+    shapes = {gear: getattr(relief, gear).shape for gear in GEARS if getattr(relief, gear) is not None}
+    return kink_findings("tip_relief", shapes, curves, cycle, records)
+
+
 EFFECT = Effect(
     section="tip_relief",
     description="material removed towards the tips, linear or parabolic in the roll angle",
@@ -54,4 +61,5 @@ EFFECT = Effect(
     read=read,
     rules=relief_is_whole,
     removal=removal,
+    findings=findings,
 )

@@ -55,7 +55,7 @@ def dataset(
         },
     )
     attributes = _attributes(scene, march, result) | loss_attributes(march.separations, march.steps, clock)
-    found = [*warnings_of(cycle, drivetrain, march, clock), *warnings_of_energy(scene, result, cycle.steps), *_undetermined_shares(result)]
+    found = [*warnings_of(scene, cycle, drivetrain, march, clock), *warnings_of_energy(scene, result, cycle.steps), *_undetermined_shares(result)]
     for effect in effects_on(scene):
         if effect.findings is not None:
             found += effect.findings(getattr(scene, effect.section), cycle, records)
