@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from fenics_gears.contact.ladder import LADDER, PUBLISHED
+from fenics_gears.progress import seconds_in_words
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
 
@@ -20,10 +22,18 @@ STAGES = {
 }
 
 
-def summary_rows(dataset) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings."""
+def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[tuple[str, str, str]]:
+    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings.
+
+    stages: names and seconds as the progress has said them; those of the result where there are none.
+    """
     warnings = [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
-    return [*result_rows(dataset), *solver_rows(dataset), *stage_rows(dataset), *warnings]
+    return [*result_rows(dataset), *solver_rows(dataset), *(_said(stages) or stage_rows(dataset)), *warnings]
+
+
+def _said(stages: Sequence[tuple[str, float]]) -> list[tuple[str, str, str]]:
+    """Wall time of the stages in the words of the progress."""
+    return [(name, seconds_in_words(seconds), "") for name, seconds in stages]
 
 
 def result_rows(dataset) -> list[tuple[str, str, str]]:

@@ -3,9 +3,11 @@
 The simulation is replaced by one that returns at once: what is under test is what the commands do with its outcomes.
 """
 
+import contextlib
 import io
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -90,11 +92,15 @@ def test_a_run_writes_its_result_and_pictures(simulation, capsys, tmp_path):
 def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation, capsys):
     """Authority: identity; 5e-5 rad on a base radius of 50 mm are 2.5 um, 2e-4 rad are 10 um."""
     main(["run", str(DEMO)])
-    lines = {line.split("  ")[1]: line for line in capsys.readouterr().out.splitlines() if line.startswith("  ")}
+    output = capsys.readouterr()
+    lines = {line.split("  ")[1]: line for line in output.out.splitlines() if line.startswith("  ")}
     assert lines["transmission error, mean"].endswith("5e-05 rad = 2.5 um")
     assert lines["transmission error, peak to peak"].endswith("0.0002 rad = 10 um")
     assert lines["Newton iterations a step"].endswith("3.00 on average, 4 at most")
-    assert lines["marching through time"].endswith("2.50 s")
+    # Progress and summary have their seconds of one clock.
+    told = dict(line.split(": ") for line in output.err.splitlines())
+    assert list(told) == ["march", "draw pictures"]
+    assert all(lines[name].endswith(f" {seconds}") for name, seconds in told.items())
 
 
 def test_quiet_says_nothing(simulation, capsys, tmp_path):
@@ -102,6 +108,61 @@ def test_quiet_says_nothing(simulation, capsys, tmp_path):
     assert main(["run", str(DEMO), "--quiet", "--output", "here"]) == 0
     assert capsys.readouterr() == ("", "")
     assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
+
+
+def test_a_run_without_pictures(simulation, capsys, tmp_path):
+    """Authority: the option's own description; pictures of an earlier run do not stay as if they were this one's."""
+    assert main(["run", str(DEMO), "--output", "here"]) == 0
+    assert main(["run", str(DEMO), "--output", "here", "--no-pictures"]) == 0
+    assert files(tmp_path) == ["here/run.nc"]
+
+
+def on_a_terminal(command, environment):
+    """What a command writes to a terminal of its own."""
+    ours, its = os.openpty()
+    running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env={**os.environ, "TERM": "xterm", **environment})
+    os.close(its)
+    written = b""
+    with contextlib.suppress(OSError):  # what a terminal says when nobody writes to it any more
+        while chunk := os.read(ours, 65536):
+            written += chunk
+    os.close(ours)
+    assert running.wait() == 0
+    return written.decode().replace("\r\n", "\n")
+
+
+CHECK = [sys.executable, "-m", "fenics_gears", "check", str(DEMO)]
+
+
+def test_what_goes_into_a_log_is_plain():
+    """Authority: ECMA-48's control sequences begin with ESC. mpirun starts its processes on a terminal of their own, also where a pipe or a file
+    has what it writes; a terminal without mpirun has colours, so that the test can fail."""
+    assert "\x1b" in on_a_terminal(CHECK, {})
+    piped = subprocess.run(CHECK, capture_output=True, text=True, check=True).stdout
+    for written in (piped, on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})):
+        assert "\x1b" not in written and "Gear pair" in written
+        assert not any(line.endswith(" ") for line in written.splitlines())
+
+
+@pytest.mark.skipif(shutil.which("mpirun") is None, reason="no mpirun")
+def test_what_mpirun_pipes_on_is_plain():
+    """Authority: the same, of the real mpirun."""
+    command = ["mpirun", "-n", "1", *CHECK]
+    written = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
+    assert "Gear pair" in written and "\x1b" not in written
+    assert not any(line.endswith(" ") for line in written.splitlines())
+
+
+@pytest.mark.parametrize("command", ["plot", "picture", "export"])
+@pytest.mark.parametrize("named", ["speeds", "speeds/study.nc"])
+def test_pictures_of_a_study_are_those_of_its_report(simulation, capsys, tmp_path, command, named):
+    """Authority: the interface; what a study has is said, not that a file is missing."""
+    Path("speeds/cases").mkdir(parents=True)
+    Path("speeds/study.nc").touch()
+    assert main([command, named]) == 2
+    assert f"{named} is a study" in (said := capsys.readouterr().err)
+    assert "`gears report speeds`" in said and "speeds/cases/NAME.nc" in said
+    assert files(tmp_path) == ["speeds/study.nc"]
 
 
 def test_ctrl_c_keeps_what_was_done(simulation, capsys, tmp_path):

@@ -24,6 +24,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("run", parents=[shared], help="run a scene; write run.nc and pictures")
     add_scene_argument(command)
     add_output_argument(command)
+    command.add_argument("--no-pictures", action="store_true", help="write run.nc alone, without pictures, which `gears plot` draws later")
     command.set_defaults(command=run)
 
 
@@ -51,14 +52,15 @@ def run(options: argparse.Namespace) -> int:
         files = [_save(dataset, directory, interruption)]
         complete = bool(dataset.attrs.get("complete", 1))
         last_words = "" if complete else f"Interrupted. {_kept(dataset, files[0])}"
-        if complete:
+        if complete and not options.no_pictures:
             try:
                 interruption.heed()
+                interruption.stage("draw pictures")
                 files += draw(dataset, directory)
             except KeyboardInterrupt:
                 last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
     if not options.quiet:
-        _print_summary(scene.title, dataset, files)
+        _print_summary(scene.title, dataset, files, interruption.finished)
     if last_words:
         print(last_words, file=sys.stderr)
     return INTERRUPTED if last_words else 0
@@ -85,9 +87,9 @@ def _kept(dataset, file: Path) -> str:
     return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the recorded steps"
 
 
-def _print_summary(title: str, dataset, files: Sequence[Path]) -> None:
+def _print_summary(title: str, dataset, files: Sequence[Path], stages: Sequence[tuple[str, float]]) -> None:
     from fenics_gears.console import print_rows
     from fenics_gears.summary import summary_rows
 
-    print_rows(title, summary_rows(dataset))
+    print_rows(title, summary_rows(dataset, stages))
     print_rows("Files", [("", str(file), "") for file in files])
