@@ -85,6 +85,7 @@ SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "flank_errors": {"tolerance_class": ("class", "quality", "grade", "accuracy_grade", "iso_1328"), "seed": ("random_seed",)},
     "flank_errors.pinion": {
+        "file": ("table", "csv", "data", "measured"),
         "pitch": ("fp", "f_p", "fpt", "f_pt", "pitch_error", "pitch_errors", "single_pitch"),
         "profile_slope": ("fha", "f_ha", "fhalpha", "slope", "pressure_angle_error"),
         "profile_form": ("ffa", "f_fa", "ffalpha", "form"),
