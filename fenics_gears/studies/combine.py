@@ -13,6 +13,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.output import written_aside
 from fenics_gears.results.files import read, save
 from fenics_gears.studies.axis import Axis
+from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.record import CURVES, Record
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.work import Failure
@@ -64,6 +65,7 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
         fenics_gears_version=fenics_gears.__version__,
         cases=len(study.cases),
         cases_failed=len(failures),
+        remarks="\n".join(kept_sizes(study.axes)),
         complete=int(len(records) == len(study.cases)),
         curves=why_not or ", ".join(name for name in CURVES if name in result),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.run_study import Outcome
 
 MOST_FAILURES = 5
@@ -23,6 +24,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         warned = sum(bool(record.warnings) for record in records)
         if warned:
             rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))
+    rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes)]
     return [*rows, ("file", str(outcome.file), "")]
 
 
