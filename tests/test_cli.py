@@ -7,7 +7,6 @@ import contextlib
 import io
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -18,11 +17,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from tests.studies.conftest import environment, mpirun
 
 import fenics_gears
 from fenics_gears import progress, results
 from fenics_gears.cli import main
 from fenics_gears.errors import ComputationError
+from fenics_gears.validity import NO_MEANING
 
 CHECKOUT = Path(__file__).parents[1]
 DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
@@ -110,6 +111,17 @@ def test_quiet_says_nothing(simulation, capsys, tmp_path):
     assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
 
 
+def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys, tmp_path):
+    """Authority: docs/troubleshooting.md; a script sees that the gears jammed, and the result is kept with the reason."""
+    said = f"{NO_MEANING}: the gears would have gone through each other"
+    simulation.outcome = small_result().assign_attrs(warnings=f"{said}\nanother")
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 4
+    assert capsys.readouterr() == ("", f"here/run.nc: {said}\n")
+    assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 1
+    simulation.outcome = small_result().assign_attrs(warnings="another")
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 0
+
+
 def test_a_run_without_pictures(simulation, capsys, tmp_path):
     """Authority: the option's own description; pictures of an earlier run do not stay as if they were this one's."""
     assert main(["run", str(DEMO), "--output", "here"]) == 0
@@ -117,10 +129,10 @@ def test_a_run_without_pictures(simulation, capsys, tmp_path):
     assert files(tmp_path) == ["here/run.nc"]
 
 
-def on_a_terminal(command, environment):
+def on_a_terminal(command, more):
     """What a command writes to a terminal of its own."""
     ours, its = os.openpty()
-    running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env={**os.environ, "TERM": "xterm", **environment})
+    running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env={**environment(), "TERM": "xterm", **more})
     os.close(its)
     written = b""
     with contextlib.suppress(OSError):  # what a terminal says when nobody writes to it any more
@@ -144,11 +156,9 @@ def test_what_goes_into_a_log_is_plain():
         assert not any(line.endswith(" ") for line in written.splitlines())
 
 
-@pytest.mark.skipif(shutil.which("mpirun") is None, reason="no mpirun")
 def test_what_mpirun_pipes_on_is_plain():
     """Authority: the same, of the real mpirun."""
-    command = ["mpirun", "-n", "1", *CHECK]
-    written = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
+    written = subprocess.run([*mpirun(1), *CHECK], stdout=subprocess.PIPE, text=True, check=True, env=environment()).stdout
     assert "Gear pair" in written and "\x1b" not in written
     assert not any(line.endswith(" ") for line in written.splitlines())
 

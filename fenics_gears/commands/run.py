@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fenics_gears.commands.drawing import draw
-from fenics_gears.commands.exit_codes import INTERRUPTED
+from fenics_gears.commands.exit_codes import INTERRUPTED, NO_MEANING
 from fenics_gears.commands.scene_file import add_output_argument, add_scene_argument, checked_scene_and_directory
 from fenics_gears.commands.told_progress import told_progress
 from fenics_gears.errors import ComputationError
@@ -63,7 +63,13 @@ def run(options: argparse.Namespace) -> int:
         _print_summary(scene.title, dataset, files, interruption.finished)
     if last_words:
         print(last_words, file=sys.stderr)
-    return INTERRUPTED if last_words else 0
+        return INTERRUPTED
+    from fenics_gears import validity
+
+    worthless = [said for said in dataset.attrs.get("warnings", "").splitlines() if validity.NO_MEANING in said]
+    if worthless:
+        print(f"{files[0]}: {worthless[0]}", file=sys.stderr)
+    return NO_MEANING if worthless else 0
 
 
 def _save(dataset, directory: Path, interruption: Interruption) -> Path:

@@ -28,7 +28,7 @@ COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
 MOST_MISTAKES = 10
 # Names that the combined dataset has for itself.
-TAKEN = {"case", "failed", "failure", "mesh_phase", "gear"}
+TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
 
 
 @dataclass(frozen=True)
