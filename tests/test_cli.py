@@ -146,6 +146,18 @@ def on_a_terminal(command, more):
 CHECK = [sys.executable, "-m", "fenics_gears", "check", str(DEMO)]
 
 
+def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
+    """Authority: the interface; one sentence with the right command, not a list of unknown fields."""
+    monkeypatch.chdir(tmp_path)
+    Path("study.toml").write_text(f'scene = "{DEMO}"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n')
+    for command in ("check", "run"):
+        assert main([command, "study.toml"]) == 2
+        assert capsys.readouterr().err == "study.toml: is a study, not a scene; `gears study study.toml` runs it. Nothing was computed or written.\n"
+    assert main(["study", str(DEMO)]) == 2
+    assert f"is a scene, not a study; `gears run {DEMO}` runs it" in capsys.readouterr().err
+    assert files(tmp_path) == ["study.toml"]
+
+
 def test_what_goes_into_a_log_is_plain():
     """Authority: ECMA-48's control sequences begin with ESC. mpirun starts its processes on a terminal of their own, also where a pipe or a file
     has what it writes; a terminal without mpirun has colours, so that the test can fail."""

@@ -48,6 +48,8 @@ def scene_from_text(text: str, name: str = "scene", *, source: str | None = None
         tree = tomllib.loads(text, parse_float=WrittenFloat)
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
+    if "sweep" in tree and "gears" not in tree:
+        raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. Nothing was computed or written.")
     checked, problems = problems_of_schema(tree)
     problems = without_echoes(problems + broken_rules(tree))
     if problems:

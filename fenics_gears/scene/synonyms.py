@@ -23,7 +23,7 @@ SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
         "coast_flanks": ("backlash", "back_flanks", "rear_flanks", "back_side"),
         "corner_contact": ("tip_contact", "tip_edge", "edge_radius", "premature_contact"),
         "torque_ripple": ("load_ripple", "varying_torque", "torque_fluctuation"),
-        "speed_ramp": ("run_up", "sweep", "coast_down", "ramp"),
+        "speed_ramp": ("run_up", "coast_down", "ramp"),
         "body_meshes": ("meshes", "gear_meshes", "cracks", "crack"),
     },
     "gears": {
