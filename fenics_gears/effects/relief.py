@@ -65,7 +65,13 @@ def depth_field() -> Any:
 
 def shape_field() -> Any:
     """How a relief grows from its start to its end."""
-    return choice(LINEAR, PARABOLIC, meaning="how it grows with the roll angle, from its start to its end", otherwise="as of both gears, else `linear`")
+    return choice(
+        LINEAR,
+        PARABOLIC,
+        meaning="how it grows with the roll angle, from its start to its end: `linear` starts with a kink, where the pressure peaks and does not converge "
+        "with the mesh; `parabolic` starts without one",
+        otherwise="as of both gears, else `linear`",
+    )
 
 
 class TipReliefOfGearText(Section):

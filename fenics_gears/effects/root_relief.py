@@ -21,7 +21,7 @@ class RootRelief:
 
 
 class RootReliefText(RootReliefOfGearText):
-    """``[root_relief]``: depth at the form circle, start and shape for both gears."""
+    """``[root_relief]``: depth at the form circle, start (or length) and shape for both gears."""
 
     pinion: Optional[RootReliefOfGearText] = None
     wheel: Optional[RootReliefOfGearText] = None

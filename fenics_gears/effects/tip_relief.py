@@ -21,7 +21,7 @@ class TipRelief:
 
 
 class TipReliefText(TipReliefOfGearText):
-    """``[tip_relief]``: depth, start and shape for both gears."""
+    """``[tip_relief]``: depth, start (or length) and shape for both gears."""
 
     pinion: Optional[TipReliefOfGearText] = None
     wheel: Optional[TipReliefOfGearText] = None

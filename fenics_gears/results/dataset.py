@@ -48,7 +48,7 @@ def dataset(
     result = xr.Dataset(
         {name: (dims, data, _labels(described[name])) for name, (dims, data) in values.items()},
         coords={
-            "time": ("time", np.array([clock.time(step) for step in steps]), {"units": "s", "long_name": "time"}),
+            "time": ("time", np.array([clock.time(step) for step in steps]), {"units": "s", "long_name": _time_name(scene)}),
             "mesh_phase": ("time", steps / cycle.steps, {"units": "1", "long_name": "mesh cycles since the start"}),
             "gear": ("gear", list(GEARS), {"long_name": "gear"}),
             "pair": ("pair", np.array(pairs, dtype=np.int64), {"long_name": "tooth pair, counted through the run"}),
@@ -61,6 +61,11 @@ def dataset(
             found += effect.findings(getattr(scene, effect.section), cycle, records)
     attributes["warnings"] = "\n".join(found)
     return result.assign_attrs(attributes)
+
+
+def _time_name(scene: Scene) -> str:
+    """What the time is; a scene without speed has none."""
+    return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
 
 
 def _undetermined_shares(result: xr.Dataset) -> list[str]:

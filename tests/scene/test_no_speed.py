@@ -63,6 +63,7 @@ def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():
     for name in ("transmission_error", "normal_force", "friction_force", "closed_nodes"):
         np.testing.assert_array_equal(alone[name].values, many[name].values)
     assert np.ptp(alone["time"].values) == pytest.approx(1.0, rel=1e-12)
+    assert alone["time"].attrs["long_name"].startswith("nominal time") and many["time"].attrs["long_name"] == "time"
     assert alone.attrs["peak_to_peak_transmission_error"] == many.attrs["peak_to_peak_transmission_error"] > 0.0
 
 
