@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import pi
 
 import numpy as np
 
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.march import Record
+from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.geometry.involute import flank_point
 
 # Of Hertz's half ellipse the largest pressure is this many times the pressure's mean, weighted by itself.
@@ -18,14 +18,16 @@ HERTZ_PEAK = 3.0 * pi / 8.0
 # and 60 um has 1.12 and 1.20, with half the element size 1.21 and 1.33, with parabolic relief at most 0.99.
 NOTABLE_PEAK = 1.1
 
+Solved = Iterable[tuple[ContactOperator, np.ndarray]]
 
-def kink_at_the_peak(cycle: Cycle, records: list[Record], kinks: Mapping[str, float]) -> tuple[str, float] | None:
-    """The gear whose kink has the largest pressure of the stored steps, and that pressure (MPa); None where it lies elsewhere.
 
-    kinks: roll angle (rad) of the kink in the flank of the "pinion", of the "wheel" or of both. The node that is pressed most lies within
-    a node's spacing of the kink and stands out of its contact.
+def kink_at_the_peak(cycle: Cycle, solved: Solved, kinks: Mapping[str, float]) -> tuple[str, float] | None:
+    """The gear whose kink has the largest pressure of some solved steps, and that pressure (MPa); None where it lies elsewhere.
+
+    solved: contact operator and nodal forces (N) of each step. kinks: roll angle (rad) of the kink in the flank of the "pinion", of the
+    "wheel" or of both. The node that is pressed most lies within a node's spacing of the kink and stands out of its contact.
     """
-    pressed = max(_pressed(cycle, records), key=lambda each: each[1].max(), default=None)
+    pressed = max(_pressed(cycle, solved), key=lambda each: each[1].max(), default=None)
     if pressed is None:
         return None
     pair, pressure, forces = pressed
@@ -37,12 +39,12 @@ def kink_at_the_peak(cycle: Cycle, records: list[Record], kinks: Mapping[str, fl
     return None if gear is None else (gear, float(largest))
 
 
-def _pressed(cycle: Cycle, records: list[Record]):
-    """Every loaded tooth pair of the records with its pressure (n,), MPa, and its forces (n,), N."""
-    for record in records:
+def _pressed(cycle: Cycle, solved: Solved) -> Iterator[tuple]:
+    """Every loaded tooth pair with its pressure (n,), MPa, and its forces (n,), N."""
+    for operator, all_forces in solved:
         start = 0
-        for pair in record.position.operator.pairs:
-            forces = record.solution.forces[start : start + len(pair.offsets)]
+        for pair in operator.pairs:
+            forces = all_forces[start : start + len(pair.offsets)]
             start += len(pair.offsets)
             if len(forces) and forces.max() > NO_FORCE:
                 yield pair, forces / (pair.lengths * cycle.pair.face_width), forces

@@ -164,7 +164,7 @@ def kink_findings(section: str, shapes: Mapping[str, str], curves: Mapping[str, 
         return []
     from fenics_gears.contact.kink_pressure import kink_at_the_peak
 
-    found = kink_at_the_peak(cycle, records, kinks)
+    found = kink_at_the_peak(cycle, [(record.position.operator, record.solution.forces) for record in records], kinks)
     if found is None:
         return []
     gear, pressure = found
