@@ -74,7 +74,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "number_at_phase_0": recorder.first_number,
     }
     coordinates = {
-        "time": ("time", arrays["time"], {"units": "s", "long_name": "time"}),
+        "time": ("time", arrays["time"], {"units": "s", "long_name": _time_name(recorder.built.scene)}),
         "mesh_phase": ("time", arrays["mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start"}),
         "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
         "gear": ("gear", list(GEARS), {"long_name": "gear"}),
@@ -91,6 +91,11 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
             ),
         }  # fmt: skip
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
+
+
+def _time_name(scene: Scene) -> str:
+    """What the time is; a scene without speed has none."""
+    return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
 
 
 def _undetermined_shares(result: xr.Dataset) -> list[str]:

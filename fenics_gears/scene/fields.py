@@ -55,7 +55,7 @@ class Allowed:
         if not isinstance(value, str):
             raise refused(self._without_unit(value))
         try:
-            return units.quantity(value)
+            return units.of_kind(value, self.kind or "")
         except units.QuantityError as error:
             raise refused(str(error) + did_you_mean(value, self.words)) from None
 

@@ -35,7 +35,7 @@ def numbers(section):
             + [2.06e5, 0.3],
         ),
         ("load", [0.437e6]),
-        ("motion", [200.0, 30, 2, False]),
+        ("motion", [200.0, 30, 2, False, True]),
         ("shafts", [0.203e9, None, None]),
         ("bearings", [0.155e6, None, None, None, None]),
         ("inertia", [4.9e-3, 24.5, None, None, None, None]),
