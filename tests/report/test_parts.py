@@ -142,7 +142,7 @@ def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
     assert "Work taken since the first step shown: contact changes, by the time stepping" in captions
     dataset["work_friction"] = dataset["energy"]
     captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
-    assert "Work taken since the first stored step" in captions
+    assert "Work taken since the first step shown" in captions
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
