@@ -8,7 +8,7 @@ import pytest
 from fenics_gears.description import describe
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.geometry.iso_6336 import mesh_stiffness
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.model import model
 from fenics_gears.resolution import (
     COARSEST_ELEMENT,

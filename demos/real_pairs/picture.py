@@ -16,7 +16,7 @@ def picture(pairs) -> Figure:
     figure = Figure(figsize=(13.0, 7.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
     axes = figure.subplots(2, len(pairs), sharex=True, squeeze=False)
-    figure.suptitle("Three real pairs, each gear with an inertia of its own, at speed (mesh frequency) and without inertia", x=0.012, ha="left", fontsize=14)
+    figure.suptitle("Three real pairs, each gear with an inertia of its own, at their mesh frequencies", x=0.012, ha="left", fontsize=14)
     for column, pair in enumerate(pairs):
         above, below = axes[:, column]
         for name, (label, colour, width) in CURVES.items():

@@ -14,7 +14,7 @@ from fenics_gears.effects.damping import Damping, Rayleigh
 from fenics_gears.effects.inertia import GearInertia, Inertia
 from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.iso_6336 import mesh_stiffness
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.scene.read import scene_from_text
 
