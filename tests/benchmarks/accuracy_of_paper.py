@@ -18,7 +18,7 @@ from fenics_gears.progress import LineProgress
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.accuracy import table
-from fenics_gears.studies.accuracy.measured import Report, measure
+from fenics_gears.studies.accuracy.report import Report, measure
 
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE, PICTURES = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md", ROOT / "docs" / "pictures"
@@ -76,7 +76,7 @@ def main() -> None:
     for name in [] if options.write_again else options.names:
         progress = LineProgress()
         print(name, flush=True)
-        report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_rungs=options.timing_seconds)
+        report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_single=options.timing_seconds)
         progress.close()
         save_figure(work_precision(report), PICTURES / f"accuracy_{name}.png")
         table.write_csv(report, PICTURES / f"accuracy_{name}.csv")

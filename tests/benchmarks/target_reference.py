@@ -7,11 +7,10 @@ import numpy as np
 from fenics_gears.model import model
 from fenics_gears.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.accuracy import ladder
-from fenics_gears.studies.accuracy.ladder import Setting
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, answer
-from fenics_gears.studies.accuracy.reference import richardson, together
-from fenics_gears.studies.accuracy.timing import KeptGears
+from fenics_gears.studies.accuracy.convergence import richardson, together
+from fenics_gears.studies.accuracy.runs import SharedGears
 
 # Elements in a half-width, contact nodes 0.7 of them apart; body elements in parts of their default; steps in a cycle. What a knob still
 # adds to the base is measured with few steps where it is not the steps'. The base's flank is fine: on a coarse one small steps find
@@ -51,7 +50,7 @@ class Reference:
 
 def reference(scene: Scene, window: float, told=print) -> Reference:
     """The reference of a scene whose `[accuracy]` is empty; `window` (mm): that of pressures."""
-    unit, gears = ladder.half_width(scene), KeptGears(4)
+    unit, gears = half_width(scene), SharedGears(4)
     length = model(scene).resolution.contact_grid.length
 
     def setting(values) -> Setting:

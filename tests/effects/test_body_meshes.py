@@ -20,7 +20,7 @@ from fenics_gears.run_stresses import RunStresses
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.simulation import simulate
-from fenics_gears.studies.accuracy.ladder import checked_model
+from fenics_gears.studies.accuracy.refinement import checked_model
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.studies.workshop import Workshop
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import re
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -10,18 +11,22 @@ from tests.coarse import teeth_alone
 
 from fenics_gears.cli import main
 from fenics_gears.errors import SceneError
+from fenics_gears.memory import flank_unknowns, loaded_pairs
+from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.effects.friction import Friction
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation import simulate
-from fenics_gears.studies.accuracy.ladder import half_width
-from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
-from fenics_gears.studies.target import chosen as choosing
-from fenics_gears.studies.target import limits
-from fenics_gears.studies.target import pilot as pilots
-from fenics_gears.studies.target.chosen import choose
-from fenics_gears.studies.target.errors import TargetNotReached
+from fenics_gears.studies.accuracy.setting import half_width
+from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
+from fenics_gears.studies.accuracy_target import choose as choosing
+from fenics_gears.studies.accuracy_target import cost as costs
+from fenics_gears.studies.accuracy_target import limits
+from fenics_gears.studies.accuracy_target import trial_runs
+from fenics_gears.studies.accuracy_target.choose import choose
+from fenics_gears.studies.accuracy_target.limits import TargetNotReached
 from fenics_gears.summary import summary_rows
 
 TARGET = 0.1
@@ -70,7 +75,7 @@ def test_the_true_error_is_within_the_target(scene, run):
 def test_parts_of_the_error_are_told(run):
     """Triangle inequality: no part is larger than the whole, and the whole no larger than the sum of its parts."""
     parts = {name: value for name, value in run.attrs.items() if name.startswith("estimated_error: ")}
-    assert set(parts) == {f"estimated_error: {name}" for name in pilots.KNOBS}
+    assert set(parts) == {f"estimated_error: {name}" for name in trial_runs.NAMES}
     assert max(parts.values()) <= run.attrs["estimated_error"] <= sum(parts.values()) * (1.0 + 1e-12)
     said = "\n".join(" ".join(map(str, row)) for row in summary_rows(run))
     assert "target 10.000%" in said and "what limits it" in said and "settings chosen" in said
@@ -85,7 +90,7 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
 
 def test_a_scene_without_text_can_have_a_target(scene, monkeypatch):
     """A scene made in Python; settings go to its data alone."""
-    monkeypatch.setattr("fenics_gears.studies.target.run.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, 0.05, {"x": 0.05}, (), 1))
+    monkeypatch.setattr("fenics_gears.studies.accuracy_target.run.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, 0.05, {"x": 0.05}, (), 1))
     result = simulate(replace(scene, text=""))
     assert result.attrs["scene"] == "" and result.attrs["element"] == "P1"
 
@@ -95,16 +100,60 @@ def test_a_tighter_target_takes_finer_settings(scene, run):
     tighter = choose(scene, 0.04, SilentProgress())
     assert tighter.estimated_error <= 0.04
     assert tighter.setting.flank < run.attrs["flank_element_size"] or tighter.setting.steps > run.attrs["steps_per_mesh_cycle"]
-    assert tighter.setting.flank <= half_width(scene) / pilots.COARSEST[pilots.FLANK]
+    assert tighter.setting.flank <= half_width(scene) / trial_runs.COARSEST[trial_runs.FLANK]
+
+
+def test_the_clock_has_no_say(scene, monkeypatch):
+    """Identity: with a clock that says anything, the same settings are chosen, by the same runs."""
+    def chosen_by(clock):
+        monkeypatch.setattr(time, "perf_counter", clock)
+        found = choose(scene, 0.2, SilentProgress())
+        return found.setting, found.estimated_error, found.runs
+
+    random = np.random.default_rng(5)
+    assert chosen_by(lambda: float(random.uniform(0.0, 1e3))) == chosen_by(lambda: 0.0)
+
+
+def test_every_other_step_of_a_run_is_a_run_of_half_the_steps(scene):
+    """Identity: a quasi-static step without friction knows nothing of the one before; a frictional one does, and is run."""
+    runs = trial_runs.TrialRuns(scene, lambda words: None)
+    sizes = {trial_runs.FLANK: 0.2, trial_runs.BODY: 4.0, trial_runs.STEPS: 1.0 / 40.0}
+    runs.answer(runs.setting(sizes))
+    few = runs.setting({**sizes, trial_runs.STEPS: 1.0 / 20.0})
+    found, own = runs.answer(few), judged_answer(simulate(replace(few.of(scene), motion=Motion(200.0, 1, 1))))
+    assert runs.runs == 1
+    assert all(np.allclose(found[name], own[name], rtol=1e-9, atol=1e-15) for name in JUDGED)
+    rubbing = trial_runs.TrialRuns(replace(scene, friction=Friction(0.1)), lambda words: None)
+    for steps in (1.0 / 40.0, 1.0 / 20.0):
+        rubbing.answer(rubbing.setting({**sizes, trial_runs.STEPS: steps}))
+    assert rubbing.runs == 2
+
+
+def test_costs_are_counted_as_by_hand(scene):
+    """By hand: two gears' nodes and cubes, positions and squares of rows, from the module's own counts; friction has twice the rows, a run of
+    more mesh cycles more steps, and finer is dearer in every size."""
+    built = model(replace(scene, accuracy=Accuracy()))
+    rows = loaded_pairs(built) * 30.0
+    gears = 0.0
+    for gear in (built.pair.pinion, built.pair.wheel):
+        n = flank_unknowns(gear, 2, 0.1)
+        gears += costs.PER_GEAR + costs.PER_UNKNOWN * (costs.BODY_UNKNOWNS / 4.0 + costs.UNKNOWNS_PER_FLANK * n) + costs.PER_FLANK_CUBE * n**3
+    march = 50 * (costs.PER_POSITION + costs.PER_ROW_SQUARE * rows**2 + costs.PER_STEP)
+    assert costs.run_cost(built, 2, 0.1, 2.0, 1.0 / 50.0, 30.0) == pytest.approx(gears + march, rel=1e-12)
+    rubbing = model(replace(scene, accuracy=Accuracy(), friction=Friction(0.1)))
+    more = costs.run_cost(rubbing, 2, 0.1, 2.0, 1.0 / 50.0, 30.0) - gears - march
+    assert more == pytest.approx(50 * costs.PER_ROW_SQUARE * 3.0 * rows**2, rel=1e-9)
+    bounds, plain = limits.Limits(scene, 2), dict(flank=0.1, body=2.0, step=0.02, length=3.0)
+    assert all(bounds.cost(**{**plain, name: 0.5 * plain[name]}) > bounds.cost(**plain) for name in ("flank", "body", "step"))
 
 
 def test_a_window_that_cuts_contact_off_is_lengthened(scene):
-    """The program's own warning decides: a pilot that begins with too short a window ends with one that is not."""
-    pilot = pilots.Pilot(scene, lambda words: None)
-    pilot.length *= 0.13
-    assert pilot.window_cuts_contact()
-    choosing._lengthen_window(pilot)
-    assert not pilot.window_cuts_contact() and pilot.length > 0.13 * pilots.Pilot(scene, lambda words: None).length
+    """The program's own warning decides: trial runs that begin with too short a window end with one that is not."""
+    runs = trial_runs.TrialRuns(scene, lambda words: None)
+    runs.length *= 0.13
+    assert runs.window_cuts_contact()
+    choosing._lengthen_window(runs)
+    assert not runs.window_cuts_contact() and runs.length > 0.13 * trial_runs.TrialRuns(scene, lambda words: None).length
 
 
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
@@ -118,22 +167,22 @@ def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
 
 
 def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
-    """Its contact is narrower than any element that the pilot begins with."""
+    """Its contact is narrower than any element that trial runs begin with."""
     monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
     with pytest.raises(TargetNotReached, match=r"for under this load the contact's half-width is 0\.0\d+ mm only"):
         choose(scene_from_text(text.replace('"437 N m"', '"1 N m"')), 0.001, SilentProgress())
 
 
 def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
-    """The check, which halves a knob at settings that just fit, least of all."""
-    tried, run = [], pilots.Pilot._run
+    """The check, which halves a size at settings that just fit, least of all."""
+    tried, run = [], trial_runs.TrialRuns._run
     monkeypatch.setattr(limits, "MOST_BYTES", 1.5e8)
 
-    def noted(pilot, setting):
+    def noted(runs, setting):
         tried.append(limits.Limits(scene, 2).bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
-        return run(pilot, setting)
+        return run(runs, setting)
 
-    monkeypatch.setattr(pilots.Pilot, "_run", noted)
+    monkeypatch.setattr(trial_runs.TrialRuns, "_run", noted)
     with contextlib.suppress(TargetNotReached):
         choose(scene, 0.01, SilentProgress())
     assert len(tried) >= 7 and max(tried) <= 1.5e8
@@ -144,7 +193,7 @@ def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
     def no_memory(kept, scene, progress):
         raise MemoryError
 
-    monkeypatch.setattr(pilots.KeptGears, "run", no_memory)
+    monkeypatch.setattr(trial_runs.SharedGears, "run", no_memory)
     with pytest.raises(TargetNotReached, match="not enough memory for the run with P2"):
         choose(scene, TARGET, SilentProgress())
 

@@ -1,4 +1,4 @@
-"""How long a run takes, stage by stage and without the cache; of several rounds, in which runs take turns, the median."""
+"""Runs of settings without the cache, that share their gears or stand alone, and how long they take, stage by stage and without the cache; of several rounds, in which runs take turns, the median."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Times:
 
     @property
     def totals(self) -> tuple[float, ...]:
-        """Of every run."""
+        """Seconds of all stages, by run."""
         return tuple(map(sum, zip(self.mesh, self.condense, self.march)))
 
     @property
@@ -56,7 +56,7 @@ def run_afresh(scene: Scene) -> tuple[xr.Dataset, Cycle]:
     return _run(scene, lambda built: prepared(built, SilentProgress(), None))
 
 
-class KeptGears:
+class SharedGears:
     """Gears condensed once for all runs that share them, without the cache; each keeps the times that it took.
 
     `most`: how many gears are kept, those last used; all without it.
