@@ -37,7 +37,7 @@ def _whole(axes: Axes, report: Report) -> None:
         if each.name != OWN and each not in front:
             axes.plot(each.times.total, each.charged, "o", color=GREY, markersize=5)
     axes.plot([each.times.total for each in front], [each.charged for each in front], "-o", color=PALETTE[0], label="Pareto front of settings")
-    axes.plot(report.own.times.total, report.own.counted, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
+    axes.plot(report.own.times.total, report.own.charged, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
     for place, each in enumerate(report.models):
         axes.plot(each.times.total, each.charged, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
     axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")

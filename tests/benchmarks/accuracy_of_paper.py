@@ -52,8 +52,8 @@ def section(name: str, report: Report) -> str:
     remarks = [f"* {remark}" for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))]
     return "\n".join([
         f"**{table.in_one_sentence(report)}**", "", f"![](pictures/accuracy_{name}.png)", "",
-        f"Whole settings and cheaper models; \\* pays. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
-        *(line.replace(" *|", " \\*|") for line in whole), "", f"Each knob alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
+        f"Whole settings and cheaper models; \\* on the Pareto front. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
+        *(line.replace(" *|", " \\*|") for line in whole), "", f"Each setting alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
     ])  # fmt: skip
 
 
@@ -70,7 +70,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on settings of single knobs run again for their times")
+    parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on single settings run again for their times")
     parser.add_argument("--write-again", action="store_true", help="the README's picture and table from what is saved, without measuring")
     options = parser.parse_args()
     for name in [] if options.write_again else options.names:

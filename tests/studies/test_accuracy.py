@@ -266,10 +266,10 @@ def test_the_command_prints_and_writes_table_and_picture(tmp_path, monkeypatch, 
 
 def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     """Authority: the exit codes; 130, and no half of a comparison is kept."""
-    from fenics_gears.studies.accuracy import timing
+    from fenics_gears.studies.accuracy import runs
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(timing, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))
+    monkeypatch.setattr(runs, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))
     (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err

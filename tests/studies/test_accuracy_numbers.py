@@ -61,7 +61,7 @@ def test_without_an_order_nothing_is_extrapolated(values):
 
 
 def test_an_order_far_above_the_expected_is_not_trusted():
-    """Authority: a leading power that happens to vanish says nothing of the next rung; the safe side is the last difference."""
+    """Authority: a leading power that happens to vanish says nothing of the next level; the safe side is the last difference."""
     sizes = (0.8, 0.4, 0.2)
     limit = richardson(sequence(sizes, 6.0), sizes, expected=2.0)
     assert limit.order == pytest.approx(6.0)

@@ -131,23 +131,33 @@ def _refined_until_reached(runs: TrialRuns, target: float, factors: dict[str, fl
     """The cheapest sizes, by levels that were added where they had to be."""
     for _ in range(MOST_REFINED):
         curves = [_corrected(curve, factors) for curve in runs.curves()]
-        sizes = cheapest(curves, runs.cost, target, lambda sizes: runs.may_run(sizes, stored=True))
+        sizes = _cheapest(runs, curves, target)
         if sizes is not None:
-            # Whole steps, so that half as long ones are twice as many.
-            return {**sizes, STEPS: 1.0 / round(1.0 / sizes[STEPS])}, curves
+            return sizes, curves
         try:
             runs.refine(largest_part({curve.name: curve.largest(curve.finest) for curve in curves}))
         except TargetNotReached as reason:
-            raise TargetNotReached(f"{reason}; {_reachable(runs, curves, target)}") from None
+            raise TargetNotReached(f"{reason}; {_reachable(runs, target, factors)}") from None
     raise TargetNotReached(f"not after {MOST_REFINED} halvings")
 
 
-def _reachable(runs: TrialRuns, curves: list[ErrorCurve], target: float) -> str:
-    """What the same runs say can be reached."""
+def _reachable(runs: TrialRuns, target: float, factors: dict[str, float]) -> str:
+    """What the same levels say can be reached, checked as a choice is."""
     for larger in target * REACHABLE ** np.arange(1, 30):
-        if cheapest(curves, runs.cost, larger, lambda sizes: runs.may_run(sizes, stored=True)) is not None:
+        curves = [_corrected(curve, factors) for curve in runs.curves()]
+        sizes = _cheapest(runs, curves, larger)
+        if sizes is None:
+            continue
+        _check(runs, sizes, largest_part(_errors_at(curves, sizes)), curves, factors)
+        if _error_together([_corrected(curve, factors) for curve in curves], sizes) <= larger:
             return f"{100.0 * larger:.2g} % can be"
     return "nothing near it can be"
+
+
+def _cheapest(runs: TrialRuns, curves: Sequence[ErrorCurve], target: float) -> Sizes | None:
+    """Of the whole scene's run; whole steps, so that half as long ones are twice as many."""
+    sizes = cheapest(curves, runs.cost, target, lambda sizes: runs.may_run(sizes, stored=True))
+    return None if sizes is None else {**sizes, STEPS: 1.0 / round(1.0 / sizes[STEPS])}
 
 
 def _check(runs: TrialRuns, sizes: Sizes, name: str, curves: list[ErrorCurve], factors: dict[str, float]) -> None:
