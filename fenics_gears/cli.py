@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 
 from fenics_gears import __version__, environment
-from fenics_gears.commands import accuracy, check, effects, export, import_rexs, picture, plot, report, run, study, tests
+from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, picture, plot, report, run, study, tests
 from fenics_gears.commands.exit_codes import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 
@@ -73,7 +73,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.set_defaults(verbose=False, quiet=False)
     parser.add_argument("--version", action="version", version=f"gears {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (check, run, study, effects, accuracy, plot, picture, report, export, import_rexs):
+    for command in (check, run, study, effects, accuracy, plot, picture, report, export, import_rexs, cache):
         command.add(commands, shared)
     tests.add(commands)
     return parser

@@ -3,30 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import lcm
 
-import numpy as np
-
+from fenics_gears.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, result_variables
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.effects import effects_on
-from fenics_gears.memory import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model import Model, model
-from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
 
 Rows = list[tuple[str, object, str]]
-
-# Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the paper's pair.
-SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "Q1 incompatible": (6500, 31.0), "Q2": (3000, 35.0)}
-# Seconds, on one core of 2020s: a gear's mesh and set-up, each unknown, the cube of flank dofs, the square of contact rows, a step.
-SECONDS_PER_GEAR, SECONDS_PER_UNKNOWN, SECONDS_PER_FLANK_CUBE = 0.2, 2e-5, 1e-10
-SECONDS_PER_CONTACT_SQUARE, SECONDS_PER_STEP = 6e-8, 8e-5
-# The same of the reference route: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
-SECONDS_PER_REMESHED_UNKNOWN, SECONDS_PER_ROW_CUBE, MATRICES_PER_POSITION = 1.2e-5, 1.5e-10, 7
-BYTES_OF_PROGRAM = 300e6
 
 
 @dataclass(frozen=True)
@@ -69,15 +55,6 @@ def describe(scene: Scene) -> Description:
     if built.warnings:
         sections.append(("Warnings", [("", warning, "") for warning in built.warnings]))
     return Description(tuple(sections))
-
-
-def _tangential(built: Model) -> int:
-    return 2 if built.scene.friction is not None else 1
-
-
-def _contact_rows(built: Model) -> float:
-    """Rows of the contact operator, on the average over the mesh cycle."""
-    return _tangential(built) * built.resolution.contact_grid.nodes * loaded_pairs(built)
 
 
 def _model_rows(built: Model) -> Rows:
@@ -155,62 +132,11 @@ def _cost_rows(built: Model) -> Rows:
 
 
 def _cost(built: Model) -> Rows:
-    if built.resolution.element not in SECTOR_UNKNOWNS:
-        memory = BYTES_OF_PROGRAM + built.stored_bytes
-        return [("marching", f"{built.steps * SECONDS_PER_STEP:.1f}", "s"), ("memory", f"{memory / 1e6:.0f}", "MB")]
-    order = 2 if built.resolution.element.endswith("2") else 1
-    body, per_node = SECTOR_UNKNOWNS[built.resolution.element]
-    unknowns, flank_dofs, of = [], [], []
-    for name in ("pinion", "wheel"):
-        gear, meshed = getattr(built.pair, name), _meshed(built, name)
-        dofs = flank_unknowns(gear, order, built.resolution.flank_element_size)
-        unknowns.append(body + per_node * 0.5 * dofs if meshed is None else meshed)
-        # Of all teeth, where each has a compliance of its own: memory goes by the square.
-        flank_dofs.append(dofs * (1.0 if meshed is None else np.sqrt(gear.teeth)))
-        of.append(f"a {name} sector" if meshed is None else f"the whole {name}")
-    if built.resolution.condensation == EVERY_STEP:
-        condensing, marching, memory = _reference_cost(built, unknowns, order)
-    else:
-        condensing, marching, memory = _fast_cost(built, unknowns, flank_dofs)
+    cost = expected_cost(built)
+    condensing = [] if cost.condensing is None else [("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s")]
     return [
-        *((f"unknowns of {words}", f"{count:.0f}", "") for words, count in zip(of, unknowns)),
-        ("meshing and condensing, unless cached", f"{condensing:.1f}", "s"),
-        ("marching", f"{marching:.1f}", "s"),
-        ("memory", f"{memory / 1e6:.0f}", "MB"),
+        *((f"unknowns of {words}", f"{count:.0f}", "") for words, count in cost.unknowns),
+        *condensing,
+        ("marching", f"{cost.marching:.1f}", "s"),
+        ("memory", f"{cost.memory / 1e6:.0f}", "MB"),
     ]
-
-
-def _meshed(built: Model, name: str) -> int | None:
-    """Unknowns of a gear that an effect has a mesh of its own for; None for a ring of sectors."""
-    for effect in effects_on(built.scene):
-        if effect.unknowns_of is not None:
-            return effect.unknowns_of(getattr(built.scene, effect.section), built, name)
-    return None
-
-
-def _unlike_cycles(built: Model) -> int:
-    """Mesh cycles of the run that can have contact operators of their own: as many as pass until the same teeth of meshed gears meet."""
-    teeth = [getattr(built.pair, name).teeth for name in ("pinion", "wheel") if _meshed(built, name) is not None]
-    return min(lcm(*teeth), built.scene.motion.mesh_cycles)
-
-
-def _fast_cost(built: Model, unknowns: list[float], flank_dofs: list[float]) -> tuple[float, float, float]:
-    """Seconds of condensing and of marching, bytes."""
-    rows = _contact_rows(built)
-    positions = min(_unlike_cycles(built) * built.resolution.steps_per_mesh_cycle, built.steps + 2)
-    condensing = sum(
-        SECONDS_PER_GEAR + SECONDS_PER_UNKNOWN * n + SECONDS_PER_FLANK_CUBE * dofs**3 for n, dofs in zip(unknowns, flank_dofs)
-    )
-    marching = positions * SECONDS_PER_CONTACT_SQUARE * rows**2 + built.steps * SECONDS_PER_STEP
-    operators = operator_bytes(positions, rows, built.scene.friction is not None)
-    return condensing, marching, BYTES_OF_PROGRAM + built.stored_bytes + operators + sum(map(flank_bytes, flank_dofs))
-
-
-def _reference_cost(built: Model, unknowns: list[float], order: int) -> tuple[float, float, float]:
-    """The same where every loaded sector is meshed anew at every position."""
-    positions, grid = built.resolution.steps_per_mesh_cycle, built.resolution.contact_grid
-    pairs = _contact_rows(built) / (_tangential(built) * grid.nodes)
-    rows = 2 * pairs * (order * (grid.nodes - 1) + 1)
-    condensing = positions * pairs * SECONDS_PER_REMESHED_UNKNOWN * sum(unknowns)
-    marching = built.steps * (5.0 * SECONDS_PER_STEP + SECONDS_PER_ROW_CUBE * rows**3)
-    return condensing, marching, BYTES_OF_PROGRAM + 8.0 * positions * MATRICES_PER_POSITION * rows**2

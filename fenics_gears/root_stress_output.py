@@ -44,7 +44,8 @@ def gear_rows(built: Model, name: str, cache: Cache | None) -> RootStressRows:
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         body_element_size=resolution.body_element_size,
-        reach=tooth_reach(built),
+        # Pairs are numbered by their drive flanks' teeth; the wheel's tooth of a coast pair stands one beside.
+        reach=tooth_reach(built).farthest + 1,
         coast_flank=built.scene.coast_flanks is not None,
         cache=cache,
     )

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, tooth_span
+from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
+from fenics_gears.contact.mesh_cycle import tooth_reach as reach_of_contact
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
-from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
@@ -118,16 +119,16 @@ def gear_compliances(built: Model, progress: Progress, cache: Cache | None) -> C
     return compliances[0], compliances[1]
 
 
-def tooth_reach(built: Model) -> int:
-    """Pitches between the outermost teeth that can be loaded together."""
+def tooth_reach(built: Model) -> Reach:
+    """How far apart teeth are that can be loaded together."""
     resolution = built.resolution
-    return tooth_span(
+    return reach_of_contact(
         built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None, built.corner
     )
 
 
-def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) -> FlankCompliance:
-    """Flank compliance of the "pinion" or the "wheel" over `reach` pitches, from the cache where it is there."""
+def gear_compliance(built: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
+    """Flank compliance of the "pinion" or the "wheel" over the teeth within reach, from the cache where it is there."""
     for effect in effects_on(built.scene):
         own = effect.elasticity and effect.elasticity(getattr(built.scene, effect.section), built, name, reach, cache)
         if own is not None:
@@ -141,10 +142,9 @@ def gear_compliance(built: Model, name: str, reach: int, cache: Cache | None) ->
         built.scene.gears.material,
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
-        tooth_offsets=reach,
+        reach=reach,
         body_element_size=resolution.body_element_size,
         elastic_teeth=resolution.elastic_teeth,
-        coast_flank=built.scene.coast_flanks is not None,
         cache=cache,
     )
 

@@ -13,8 +13,9 @@ import numpy as np
 
 from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
-from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
@@ -55,15 +56,21 @@ def pair_places(
     return [place for place in places if can_touch(place)]
 
 
-def tooth_span(
+def tooth_reach(
     pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
-) -> int:
-    """Pitches between the outermost teeth whose flanks interact, from one step to the next included."""
-    spans = [0]
-    for step in range(steps):
-        teeth = [place.teeth for place in pair_places(pair, grid, step / steps, coast_flanks, corner)]
-        spans += [max(of_gear) - min(of_gear) for of_gear in zip(*teeth)]
-    return max(spans) + 1
+) -> Reach:
+    """How far apart flanks are that interact at a step, from the step before it, or between both."""
+    places = [pair_places(pair, grid, step / steps, coast_flanks, corner) for step in range(steps)]
+    # Every pair's index rises by one with the end of a cycle. What touches between two steps touches at one of them too.
+    before = [[replace(place, index=place.index + 1) for place in places[-1]], *places[:-1]]
+    teeth: dict[int, set[int]] = {DRIVE: {0}, COAST: set()}
+    for near in (now + earlier for now, earlier in zip(places, before)):
+        for gear in range(2):
+            for one in near:
+                for other in near:
+                    if one.flank <= other.flank:
+                        teeth[other.flank - one.flank].add(one.ahead(gear) - other.ahead(gear))
+    return Reach(max(teeth[DRIVE]), (min(teeth[COAST]), max(teeth[COAST])) if teeth[COAST] else None)
 
 
 class Cycle:

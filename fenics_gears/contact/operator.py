@@ -128,10 +128,10 @@ class CompliancePairing:
     def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
         body, blocks = self._gears[gear], self._blocks[gear]
         teeth = responding.place.ahead(gear), loaded.place.ahead(gear)
-        key = body.key(*teeth), responding.place.flank, loaded.place.flank
+        sides = responding.place.flank, loaded.place.flank
+        key = body.key(*teeth), *sides
         if key not in blocks:
-            rows, columns = _flank_dofs(body, responding, gear), _flank_dofs(body, loaded, gear)
-            blocks[key] = np.ascontiguousarray(body.between(*teeth)[rows, columns]) / self._width
+            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides)) / self._width
         return blocks[key]
 
     def product(
@@ -172,11 +172,6 @@ class CompliancePairing:
         if result is None:
             return np.zeros((0, 0))
         return result.reshape(result.shape[0] * result.shape[1], -1)
-
-
-def _flank_dofs(body: FlankCompliance, pair: ToothPair, gear: int) -> slice:
-    dofs = 2 * len(body.rolls_of(pair.place.ahead(gear)))
-    return slice(dofs * pair.place.flank, dofs * (pair.place.flank + 1))
 
 
 def _slices(pairs: tuple[ToothPair, ...]) -> list[slice]:

@@ -45,9 +45,9 @@ class TeethInMesh:
         """Roll angles (n,), rad, of the flank nodes of a tooth."""
         return self.body.rolls_of(self.first + tooth)
 
-    def between(self, responding: int, loaded: int) -> np.ndarray:
-        """Compliance of one tooth's flank under forces on another's."""
-        return self.body.between(self.first + responding, self.first + loaded)
+    def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
+        """Compliance of one tooth's flank under forces on another's; sides: as of `FlankCompliance`."""
+        return self.body.between(self.first + responding, self.first + loaded, sides)
 
     def key(self, responding: int, loaded: int) -> tuple[int, int]:
         """What the compliance between two teeth is kept under."""

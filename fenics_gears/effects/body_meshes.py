@@ -107,16 +107,17 @@ def warnings(meshes: BodyMeshes, model) -> list[str]:
     return found
 
 
-def elasticity(meshes: BodyMeshes, model, name: str, reach: int, cache):
-    """Flank compliance of a gear with a mesh of its own, over `reach` pitches; None for the other."""
+def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
+    """Flank compliance of a gear with a mesh of its own, over the teeth within `reach`; None for the other."""
     if getattr(meshes, name) is None:
         return None
     from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 
     gear, resolution = getattr(model.pair, name), model.resolution
     body = _body(meshes, name, model.pair, resolution.element)
+    # Forces one tooth beyond those that interact still open or close a crack.
     return whole_body_compliance(
-        body.mesh, gear, model.scene.gears.material, element=resolution.element, tooth_offsets=reach, cache=cache
+        body.mesh, gear, model.scene.gears.material, element=resolution.element, tooth_offsets=reach.same + 1, cache=cache
     )
 
 

@@ -42,7 +42,7 @@ class Effect:
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
-    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over pitches; None to leave it as it is.
+    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None to leave it as it is.
     ``unknowns_of(data, model, name)``: of that gear's finite elements, for the expected cost; None to leave it as it is.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
     ``check(data, scene, pair)``: raises SceneError for what only shows in those files.

@@ -1,4 +1,8 @@
-"""Results kept on disk under the hash of all that they depend on."""
+"""Results kept on disk under the hash of all that they depend on; of more than a limit those go first that were not used for the longest time.
+
+No library for it: an entry is one immutable file that appears and goes by a single call of the file system, which holds on file systems
+of clusters too, where databases as `diskcache` has one lose their locks.
+"""
 
 from __future__ import annotations
 
@@ -7,17 +11,24 @@ import io
 import json
 import logging
 import os
+import re
 import tempfile
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from fenics_gears.errors import SceneError
 from fenics_gears.sealed import seal, unsealed
 
 LOGGER = logging.getLogger(__name__)
 DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"
 FORMAT = "fenics_gears cache 2"
+SIZE_VARIABLE, DEFAULT_SIZE = "FENICS_GEARS_CACHE_SIZE", "2 GB"
+BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
+# A file that is older than this and not complete has lost its writer.
+LONGEST_WRITING = 24 * 3600.0
 
 
 def content_key(inputs: dict) -> str:
@@ -27,20 +38,46 @@ def content_key(inputs: dict) -> str:
 
 
 def user_cache() -> Cache:
-    """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory."""
+    """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory; at most FENICS_GEARS_CACHE_SIZE of it.
+
+    Raises SceneError for a size that is none.
+    """
     directory = os.environ.get(DIRECTORY_VARIABLE)
     if not directory:
         from platformdirs import user_cache_dir
 
         directory = user_cache_dir("fenics_gears")
-    return Cache(Path(directory))
+    return Cache(Path(directory), _bytes(os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE))
+
+
+def _bytes(size: str) -> float:
+    found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*([MGT]B)\s*", size)
+    if not found:
+        raise SceneError(
+            f'{SIZE_VARIABLE} = {size!r} is no size of a cache. Allowed: a number of {", ".join(BYTES)} from 0 MB on, such as "{DEFAULT_SIZE}"; '
+            f"without the variable it is {DEFAULT_SIZE}."
+        )
+    return float(found[1]) * BYTES[found[2]]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A file of the cache: its size in bytes, and when it was last stored or read, s since the epoch."""
+
+    path: Path
+    size: int
+    used: float
 
 
 @dataclass(frozen=True)
 class Cache:
-    """Named arrays by key, one HDF5 file each. It never raises: what cannot be read or kept is computed again."""
+    """Named arrays by key, one HDF5 file each. It never raises: what cannot be read or kept is computed again.
+
+    limit: bytes of all entries together, without one when None. The entry that was stored last stays whatever its size.
+    """
 
     directory: Path
+    limit: float | None = None
 
     def path(self, key: str) -> Path:
         """File of an entry."""
@@ -57,7 +94,9 @@ class Cache:
             with h5py.File(unsealed(path), "r") as file:
                 if tuple(file.attrs.get(name) for name in ("format", "key")) != (FORMAT, key):
                     raise ValueError("it was stored under another name, or by another version")
-                return {name: np.asarray(file[name]) for name in file}
+                arrays = {name: np.asarray(file[name]) for name in file}
+            _mark_as_used(path)
+            return arrays
         except (OSError, ValueError) as error:
             LOGGER.warning("cache entry %s is not usable and is computed again: %s", path, error)
             return None
@@ -78,6 +117,7 @@ class Cache:
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(aside, self.path(key))
+            self._keep_within_limit(self.path(key))
         except OSError as error:
             LOGGER.warning("cache: nothing is kept in %s: %s", self.directory, error)
             if aside is not None:
@@ -87,6 +127,58 @@ class Cache:
             if aside is not None:
                 _remove(aside)
             raise
+
+    def entries(self) -> list[Entry]:
+        """The complete entries, those first that were not used for the longest time."""
+        return sorted(_files(self.directory, "*.h5"), key=lambda entry: entry.used)
+
+    def clear(self) -> list[Entry]:
+        """Remove all complete entries, and what killed runs left; returns the entries."""
+        found = self.entries()
+        for entry in found:
+            _remove(entry.path)
+        self._remove_left_over()
+        return found
+
+    def _keep_within_limit(self, stored: Path) -> None:
+        if self.limit is None:
+            return
+        self._remove_left_over()
+        found = self.entries()
+        size = sum(entry.size for entry in found)
+        for entry in found:
+            if size <= self.limit:
+                return
+            # Who reads it has it open and reads on; another run may remove it at the same time.
+            if entry.path != stored:
+                _remove(entry.path)
+                size -= entry.size
+
+    def _remove_left_over(self) -> None:
+        for entry in _files(self.directory, "*.part"):
+            if entry.used < time.time() - LONGEST_WRITING:
+                _remove(entry.path)
+
+
+def _files(directory: Path, pattern: str) -> list[Entry]:
+    found = []
+    for path in Path(directory).glob(pattern):
+        try:
+            if path.is_file():
+                found.append(Entry(path, (status := path.stat()).st_size, status.st_mtime))
+        except OSError:
+            # Another run has removed it meanwhile.
+            continue
+    return found
+
+
+def _mark_as_used(path: Path) -> None:
+    # Not by the time of access, which many file systems do not keep.
+    try:
+        os.utime(path)
+    except OSError:
+        # A cache that belongs to somebody else, or has just lost the entry.
+        LOGGER.debug("cache: the time of use of %s could not be written", path)
 
 
 def _file_content(key: str, arrays: dict[str, np.ndarray]) -> bytes:

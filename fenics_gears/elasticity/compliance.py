@@ -11,6 +11,23 @@ from fenics_gears.errors import ComputationError
 
 
 @dataclass(frozen=True)
+class Reach:
+    """Distances, in pitches, between teeth whose flanks interact.
+
+    same: the largest of flanks of one side. across: the least and the largest by which a tooth whose drive flank is meant stands
+    counter-clockwise of one whose coast flank is; None where coast flanks do nothing.
+    """
+
+    same: int
+    across: tuple[int, int] | None = None
+
+    @property
+    def farthest(self) -> int:
+        """The largest, of any flanks."""
+        return max(self.same, *map(abs, self.across or (0,)))
+
+
+@dataclass(frozen=True)
 class FlankCompliance:
     """Displacement of drive-flank nodes per unit line force on drive-flank nodes, hub ring held.
 
@@ -51,21 +68,55 @@ class FlankCompliance:
         A negative offset is a tooth behind: by reciprocity the transpose of the one ahead.
         Raises ComputationError for a tooth outside ``offsets``.
         """
-        if abs(offset) > self.offsets:
+        self._check_known(offset, -self.offsets, self.offsets)
+        return self.blocks[offset] if offset >= 0 else self.blocks[-offset].T
+
+    @staticmethod
+    def _check_known(offset: int, least: int, largest: int) -> None:
+        if not least <= offset <= largest:
             raise ComputationError(
                 f"flank compliance: tooth offset {offset} was not computed, known are "
-                f"-{self.offsets} to {self.offsets}; ask flank_compliance for more tooth_offsets"
+                f"{least} to {largest}; ask flank_compliance for more tooth_offsets"
             )
-        return self.blocks[offset] if offset >= 0 else self.blocks[-offset].T
 
     def rolls_of(self, tooth: int) -> np.ndarray:
         """Roll angles (n,), rad, of the flank nodes of a tooth: all teeth are alike."""
         return self.roll_angle
 
-    def between(self, responding: int, loaded: int) -> np.ndarray:
-        """Compliance (2n, 2n) of one tooth's flank under forces on another's; teeth are counted counter-clockwise from any one."""
-        return self.block(responding - loaded)
+    def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
+        """Compliance (2n, 2n) of one tooth's flank under forces on another's; teeth are counted counter-clockwise from any one.
+
+        sides: which flank of either tooth, 0 the drive flank, 1 the coast flank where it is known.
+        """
+        dofs = 2 * self.nodes
+        rows, columns = (slice(side * dofs, (side + 1) * dofs) for side in sides)
+        return self.block(responding - loaded)[rows, columns]
 
     def key(self, responding: int, loaded: int) -> int:
         """What the compliance between two teeth is kept under: their distance."""
         return responding - loaded
+
+
+@dataclass(frozen=True)
+class BothFlanksCompliance(FlankCompliance):
+    """Of drive and coast flanks, kept without what symmetry says twice: in the mirror a coast flank is a drive flank, and a tooth ahead one behind.
+
+    blocks: (offsets + 1, 2n, 2n): of the drive flanks alone; those of the coast flanks are their transposes. across: (k, 2n, 2n),
+    each symmetric: across[m - first_across] is the displacement of the drive flank m pitches ahead of a loaded coast flank.
+    """
+
+    across: np.ndarray = field(kw_only=True)
+    first_across: int = field(kw_only=True)
+    flanks: int = 2
+
+    def block(self, offset: int) -> np.ndarray:
+        """Compliance (4n, 4n) over both flanks, put together."""
+        return np.block([[self.between(offset, 0, (side, other)) for other in (0, 1)] for side in (0, 1)])
+
+    def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
+        """As of `FlankCompliance`, without putting together what is not asked for."""
+        ahead = (responding - loaded) * (1 if sides[0] == 0 else -1)
+        if sides[0] != sides[1]:
+            self._check_known(ahead, self.first_across, self.first_across + len(self.across) - 1)
+            return self.across[ahead - self.first_across]
+        return super().block(ahead)

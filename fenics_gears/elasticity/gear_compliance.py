@@ -8,15 +8,18 @@ from time import perf_counter
 import numpy as np
 
 from fenics_gears.elasticity.cache import Cache, content_key
-from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompliance, Reach
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.elements import Element, element_named
+from fenics_gears.elasticity.packed_symmetric import packed, unpacked
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.scene.data import Material
 
 # To be raised by one whenever the same inputs give other numbers.
-ALGORITHM_VERSION = 7
+ALGORITHM_VERSION = 8
+
+KEPT_COUNTS = ("unknowns", "condensed_unknowns")
 
 # By element order, in modules (the flank's size is always given). Against a mesh several times finer everywhere, the mean compliance
 # under 1 mm of uniform pressure at tip, middle and form circle is then within 0.05 % (P2, Q2) and 0.3 % (P1, Q1) with 0.06 mm on the flank.
@@ -32,10 +35,9 @@ def flank_compliance(
     *,
     element: str = "P2",
     flank_element_size: float,
-    tooth_offsets: int,
+    reach: Reach,
     body_element_size: float | None = None,
     elastic_teeth: int | None = None,
-    coast_flank: bool = False,
     cache: Cache | None = None,
     comm=None,
 ) -> FlankCompliance:
@@ -45,52 +47,52 @@ def flank_compliance(
     they share an entry of the cache.
 
     flank_element_size, body_element_size: mm, along the working flank and the largest in tooth and rim (None: from the module).
-    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. elastic_teeth: teeth this many pitches apart and
-    further do not feel each other (1: each feels itself alone), all do when None. coast_flank: know the coast flank too.
+    reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. elastic_teeth: teeth this many pitches apart and
+    further do not feel each other (1: each feels itself alone), all do when None.
     comm: communicator of one rank, COMM_SELF when None. Raises SceneError for an unknown element or an impossible size, ComputationError when a stage fails.
     """
     chosen = element_named(element)
-    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
-    _check(gear, material, tooth_offsets)
+    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=reach.across is not None)
+    _check(gear, material, reach)
     similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
     clock = perf_counter()
-    wanted, tooth_offsets = tooth_offsets, tooth_offsets if elastic_teeth is None else min(tooth_offsets, elastic_teeth - 1)
+    felt = reach if elastic_teeth is None else _within(reach, elastic_teeth - 1)
     key = content_key({
         "version": ALGORITHM_VERSION,
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "element": chosen.name,
         "sizes": asdict(sizes),
-        "tooth_offsets": tooth_offsets,
+        "reach": asdict(felt),
     })
     arrays = cache.load(key) if cache is not None else None
     if arrays is not None:
+        unit = _from_arrays(arrays, chosen.order)
         timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
     else:
-        arrays, timings = _computed(similar, chosen, sizes, material.poissons_ratio, tooth_offsets, comm)
+        unit, timings = _computed(similar, chosen, sizes, material.poissons_ratio, felt, comm)
         if cache is not None:
-            cache.store(key, arrays)
-    blocks = arrays["unit_blocks"] / material.youngs_modulus
-    return FlankCompliance(
-        roll_angle=arrays["roll_angle"],
-        element_order=chosen.order,
-        blocks=blocks if wanted == tooth_offsets else with_unfelt_teeth(blocks, wanted),
-        timings={**timings, "unknowns": int(arrays["unknowns"]), "condensed_unknowns": int(arrays["condensed_unknowns"])},
-        flanks=2 if coast_flank else 1,
-    )
+            cache.store(key, _as_arrays(unit))
+    found = replace(_scaled(unit, 1.0 / material.youngs_modulus), timings={**unit.timings, **timings})
+    return found if felt == reach else with_unfelt_teeth(found, reach.farthest)
 
 
-def with_unfelt_teeth(blocks: np.ndarray, offsets: int) -> np.ndarray:
-    """Compliance blocks (offsets + 1, n, n) with zeros for teeth further away than those that are known.
+def _within(reach: Reach, felt: int) -> Reach:
+    """What is left of a reach where teeth farther apart than `felt` pitches do not feel each other; all of that, where anything is left out."""
+    return reach if reach.farthest <= felt else Reach(felt, reach.across and (-felt, felt))
+
+
+def with_unfelt_teeth(body: FlankCompliance, offsets: int) -> FlankCompliance:
+    """The compliance over more offsets, zero for teeth further away than those that are known.
 
     Raises SceneError where what is left is no compliance: the load of teeth whose coupling is left out in part would do negative work.
     """
-    known, size = len(blocks) - 1, blocks.shape[1]
-    padded = np.concatenate([blocks, np.zeros((offsets - known, size, size))])
+    known, unfelt = body.offsets, np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
+    padded = replace(body, blocks=np.concatenate([body.blocks, unfelt]))
+    if isinstance(body, BothFlanksCompliance):
+        padded = replace(padded, across=np.concatenate([unfelt, body.across, unfelt]), first_across=-offsets)
     if known:
-        whole = np.block([
-            [padded[b - a].T if b >= a else padded[a - b] for b in range(offsets + 1)] for a in range(offsets + 1)
-        ])
+        whole = np.block([[padded.block(a - b) for b in range(offsets + 1)] for a in range(offsets + 1)])
         try:
             np.linalg.cholesky(whole)
         except np.linalg.LinAlgError:
@@ -115,57 +117,82 @@ def element_sizes(gear: Gear, element: Element, flank: float, body: float | None
     return sizes if body is None else sizes.refined(body / largest)
 
 
-def _check(gear: Gear, material: Material, tooth_offsets: int) -> None:
-    if not 0 <= tooth_offsets < gear.teeth:
-        raise SceneError(f"tooth_offsets is {tooth_offsets}, must lie between 0 and {gear.teeth - 1}, the gear's other teeth")
+def _check(gear: Gear, material: Material, reach: Reach) -> None:
+    if not 0 <= reach.farthest < gear.teeth:
+        raise SceneError(f"reach is {reach.farthest}, must lie between 0 and {gear.teeth - 1}, the gear's other teeth")
     if not -1.0 < material.poissons_ratio < 0.5:
         raise SceneError(f"poissons_ratio is {material.poissons_ratio}, must lie between -1 and 0.5, both excluded")
     if not (np.isfinite(material.youngs_modulus) and material.youngs_modulus > 0.0):
         raise SceneError(f"youngs_modulus is {material.youngs_modulus} MPa, must be positive and finite")
 
 
-def coast_mirrored(blocks: np.ndarray, gear: Gear) -> np.ndarray:
-    """Blocks (offsets + 1, 4n, 4n) over drive and coast flank, the coast flank's components mirrored at the tooth's centreline."""
-    centreline = -0.5 * np.pi - gear.tooth_half_angle_at_base
-    mirror = np.array([
-        [np.cos(2.0 * centreline), np.sin(2.0 * centreline)], [np.sin(2.0 * centreline), -np.cos(2.0 * centreline)]
-    ])
-    half = blocks.shape[1] // 2
-    frame = np.eye(2 * half)
-    frame[half:, half:] = np.kron(np.eye(half // 2), mirror)
-    mirrored = frame @ blocks @ frame.T
-    mirrored[0] = 0.5 * (mirrored[0] + mirrored[0].T)
-    return mirrored
+def _as_arrays(body: FlankCompliance) -> dict[str, np.ndarray]:
+    """What the cache keeps of a compliance for Young's modulus 1 MPa."""
+    arrays = {
+        "roll_angle": body.roll_angle,
+        "same_tooth": packed(body.blocks[:1]),
+        "other_teeth": body.blocks[1:],
+        **{name: np.array(body.timings[name]) for name in KEPT_COUNTS},
+    }
+    if not isinstance(body, BothFlanksCompliance):
+        return arrays
+    return {**arrays, "across": packed(body.across), "first_across": np.array(body.first_across)}
 
 
-def _computed(gear, element, sizes, poissons_ratio, tooth_offsets, comm):
+def _from_arrays(arrays: dict[str, np.ndarray], order: int) -> FlankCompliance:
+    blocks = np.concatenate([unpacked(arrays["same_tooth"]), arrays["other_teeth"]])
+    counts = {name: int(arrays[name]) for name in KEPT_COUNTS}
+    if "across" not in arrays:
+        return FlankCompliance(arrays["roll_angle"], order, blocks, counts)
+    return BothFlanksCompliance(arrays["roll_angle"], order, blocks, counts, across=unpacked(arrays["across"]), first_across=int(arrays["first_across"]))
+
+
+def _scaled(body: FlankCompliance, factor: float) -> FlankCompliance:
+    """The compliance times a number; nobody else has the arrays, which are as large as all else together."""
+    np.multiply(body.blocks, factor, out=body.blocks)
+    if isinstance(body, BothFlanksCompliance):
+        np.multiply(body.across, factor, out=body.across)
+    return body
+
+
+def _computed(gear, element, sizes, poissons_ratio, reach, comm):
+    """Compliance for Young's modulus 1 MPa, and what it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
     from fenics_gears.elasticity.roll_angles import node_roll_angles
-    from fenics_gears.elasticity.sector_mesh import sector_mesh
+    from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
 
     clock = perf_counter()
-    mesh = sector_mesh(gear, sizes, element.quadrilateral)
+    mesh = (half_sector_mesh if sizes.both_flanks else sector_mesh)(gear, sizes, element.quadrilateral)
     meshed = perf_counter()
-    sector = condensed_sector(mesh, element, poissons_ratio, comm, both_flanks=sizes.both_flanks)
-    condensed = perf_counter()
-    blocks = ring_compliance(sector, gear.teeth, tooth_offsets)
-    if sizes.both_flanks:
-        blocks = coast_mirrored(blocks, gear)
-    joined = perf_counter()
-    corners = mesh.points[mesh.edge_points("flank")]
-    arrays = {
-        "roll_angle": node_roll_angles(gear, corners[np.argsort(np.linalg.norm(corners, axis=1))], element.order),
-        "unit_blocks": blocks,
-        "unknowns": np.array(sector.timings["unknowns"]),
-        "condensed_unknowns": np.array(sector.timings["condensed_unknowns"]),
-    }
+    sector, parts, joining = (_both_flanks if sizes.both_flanks else _drive_flank)(gear, element, mesh, poissons_ratio, reach, comm)
     compiling = sector.timings["time_compile"]
+    corners = mesh.points[mesh.edge_points("flank")]
+    rolls = node_roll_angles(gear, corners[np.argsort(np.linalg.norm(corners, axis=1))], element.order)
     timings = {
         **sector.timings,
         "from_cache": False,
         "time_mesh": meshed - clock,
-        "time_condense": joined - meshed - compiling,
-        "time_ring": joined - condensed,
+        "time_condense": perf_counter() - meshed - compiling,
+        "time_ring": joining,
     }
-    return arrays, timings
+    kind = BothFlanksCompliance if sizes.both_flanks else FlankCompliance
+    return kind(roll_angle=rolls, element_order=element.order, timings=sector.timings, **parts), timings
+
+
+def _drive_flank(gear, element, mesh, poissons_ratio, reach: Reach, comm):
+    from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+
+    sector = condensed_sector(mesh, element, poissons_ratio, comm)
+    clock = perf_counter()
+    blocks = ring_compliance(sector, gear.teeth, reach.same)
+    return sector, {"blocks": blocks}, perf_counter() - clock
+
+
+def _both_flanks(gear, element, mesh, poissons_ratio, reach: Reach, comm):
+    from fenics_gears.elasticity.half_sector import centreline_direction
+    from fenics_gears.elasticity.mirrored_ring import both_flanks_compliance, condensed_half
+
+    sector = condensed_half(mesh, element, poissons_ratio, comm)
+    clock = perf_counter()
+    blocks, across = both_flanks_compliance(sector, centreline_direction(mesh), gear.teeth, reach)
+    return sector, {"blocks": blocks, "across": across, "first_across": reach.across[0]}, perf_counter() - clock

@@ -15,31 +15,41 @@ CENTRELINE_SAMPLES = 400
 IMAGES = {"flank": "coast", "upper cut": "lower cut", "hub": "hub"}
 
 
-def mirrored_halves(
+def drive_half(
     boundary: SectorBoundary, field: SizeField, fill: Callable[[SectorBoundary, SizeField, tuple[str, ...]], BodyMesh]
 ) -> BodyMesh:
-    """Mesh of a sector from its boundary, of which the half with the drive flank is filled.
+    """Mesh of a sector's half with the drive flank, from the sector's boundary; its edge "centreline" is the line of symmetry.
 
     fill: makes the mesh of a closed boundary whose points come first, or as its edges name them, with edges for the named parts.
     """
     half = _half(boundary, field)
     mesh = fill(half, field, (*IMAGES, "centreline"))
-    axis = half.points[half.part("centreline")[0]]
-    axis = axis / np.linalg.norm(axis)
-    along_axis = mesh.points @ axis
-    image = 2.0 * along_axis[:, None] * axis - mesh.points
-    shared = mesh.edge_points("centreline")
+    axis, shared = centreline_direction(mesh), mesh.edge_points("centreline")
     # Round-off apart they are there already.
     points = mesh.points.copy()
-    points[shared] = along_axis[shared, None] * axis
-    own = np.setdiff1d(np.arange(len(points)), shared)
-    index = np.arange(len(points))
-    index[own] = len(points) + np.arange(len(own))
-    points = np.vstack([points, image[own]])
-    edges = {name: mesh.edges[name] for name in IMAGES}
-    mirrored = {other: index[mesh.edges[name]] for name, other in IMAGES.items()}
+    points[shared] = (points[shared] @ axis)[:, None] * axis
+    return BodyMesh(points, mesh.cells, mesh.edges)
+
+
+def centreline_direction(half: BodyMesh) -> np.ndarray:
+    """Unit vector (2,) from the gear's centre along the line of symmetry."""
+    on_it = half.points[half.edge_points("centreline")]
+    outermost = on_it[np.argmax(np.linalg.norm(on_it, axis=1))]
+    return outermost / np.linalg.norm(outermost)
+
+
+def with_image(half: BodyMesh) -> BodyMesh:
+    """Mesh of the whole sector: the half and its mirror image, joined along the centreline."""
+    axis, shared = centreline_direction(half), half.edge_points("centreline")
+    image = 2.0 * (half.points @ axis)[:, None] * axis - half.points
+    own = np.setdiff1d(np.arange(len(half.points)), shared)
+    index = np.arange(len(half.points))
+    index[own] = len(half.points) + np.arange(len(own))
+    points = np.vstack([half.points, image[own]])
+    edges = {name: half.edges[name] for name in IMAGES}
+    mirrored = {other: index[half.edges[name]] for name, other in IMAGES.items()}
     edges = {name: np.vstack([part[name] for part in (edges, mirrored) if name in part]) for name in {**edges, **mirrored}}
-    return BodyMesh(points, oriented(points, np.vstack([mesh.cells, index[mesh.cells]])), edges)
+    return BodyMesh(points, oriented(points, np.vstack([half.cells, index[half.cells]])), edges)
 
 
 def _half(boundary: SectorBoundary, field: SizeField) -> SectorBoundary:

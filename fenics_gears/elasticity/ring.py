@@ -19,18 +19,15 @@ from fenics_gears.errors import ComputationError
 
 
 def condensed_sector(
-    mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None, flank: np.ndarray | None = None, both_flanks: bool = False
+    mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None, flank: np.ndarray | None = None
 ) -> CondensedBody:
     """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
 
-    flank: (k, 2), mm, nodes to keep of the flank, all of them when None. both_flanks: the group "flank" holds the drive flank's
-    nodes, then the coast flank's, each by radius.
+    flank: (k, 2), mm, nodes to keep of the flank or flanks; all of the drive flank's, by radius, when None.
     """
     hub = mesh.edge_nodes("hub", element.order)
-    sides = ("flank", "coast") if both_flanks else ("flank",)
-    working = np.vstack([by_radius(mesh.edge_nodes(side, element.order)) for side in sides])
     points = {
-        "flank": working if flank is None else flank,
+        "flank": by_radius(mesh.edge_nodes("flank", element.order)) if flank is None else flank,
         "lower": by_radius(without(mesh.edge_nodes("lower cut", element.order), hub)),
         "upper": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
         "hub": hub,
@@ -72,7 +69,7 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
 
 def _joined_blocks(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, Run]:
     """Couplings of the flank to either cut; the sector between its cuts, its flank held."""
-    turn = _turned_nodes(teeth, len(sector.points["upper"]))
+    turn = turned_nodes(teeth, len(sector.points["upper"]))
     cuts = Run(
         sector.between("lower", "lower"), turn.T @ sector.between("upper", "upper") @ turn, sector.between("lower", "upper") @ turn
     )
@@ -123,7 +120,7 @@ def ring_stiffness(sector: CondensedBody, teeth: int, loaded: tuple[int, ...]) -
     check_congruent(sector, teeth)
     flank, cut = len(sector.dofs("flank")), len(sector.dofs("lower"))
     size = teeth * (flank + cut) + 3
-    turn = _turned_nodes(teeth, cut // 2)
+    turn = turned_nodes(teeth, cut // 2)
     total = np.zeros((size, size))
     for tooth in range(teeth):
         map_to_ring = np.zeros((len(sector.stiffness), size))
@@ -159,5 +156,6 @@ def rotation(angle: float) -> np.ndarray:
     return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 
 
-def _turned_nodes(teeth: int, nodes: int) -> np.ndarray:
+def turned_nodes(teeth: int, nodes: int) -> np.ndarray:
+    """Rotation (2n, 2n) of the displacements of n nodes by one pitch."""
     return np.kron(np.eye(nodes), rotation(2.0 * np.pi / teeth))

@@ -7,7 +7,7 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.element_sizes import ElementSizes, SizeField
 from fenics_gears.elasticity.gmsh_session import gmsh_model
-from fenics_gears.elasticity.half_sector import mirrored_halves
+from fenics_gears.elasticity.half_sector import drive_half, with_image
 from fenics_gears.elasticity.mesh_data import BodyMesh, oriented, split_to_quadrilaterals
 from fenics_gears.elasticity.sector_boundary import SectorBoundary, sector_boundary
 from fenics_gears.errors import ComputationError
@@ -31,9 +31,26 @@ def sector_mesh(
     of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises ComputationError when gmsh fails,
     a cell is folded, or quadrilaterals meet an odd number of flank elements.
     """
+    if sizes.both_flanks:
+        return with_image(half_sector_mesh(gear, sizes, quadrilaterals, flank_rolls))
     boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
-    fill = _filled_with_quadrilaterals if quadrilaterals else _filled_with_triangles
-    mesh = mirrored_halves(boundary, field, fill) if sizes.both_flanks else fill(boundary, field, NAMED_PARTS)
+    return _scaled(_filling(quadrilaterals)(boundary, field, NAMED_PARTS), gear)
+
+
+def half_sector_mesh(
+    gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False, flank_rolls: np.ndarray | None = None
+) -> BodyMesh:
+    """The half with the drive flank of the symmetric `sector_mesh` of both working flanks: see `half_sector.drive_half`."""
+    boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
+    return _scaled(drive_half(boundary, field, _filling(quadrilaterals)), gear)
+
+
+def _filling(quadrilaterals: bool):
+    return _filled_with_quadrilaterals if quadrilaterals else _filled_with_triangles
+
+
+def _scaled(mesh: BodyMesh, gear: Gear) -> BodyMesh:
+    """A mesh in modules, in mm."""
     return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges)
 
 

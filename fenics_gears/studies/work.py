@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import GearsError
 from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
@@ -25,11 +26,11 @@ Tick = Callable[[], None]
 
 @dataclass(frozen=True)
 class GearTask:
-    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over `reach` pitches."""
+    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`."""
 
     scene: Scene
     name: str
-    reach: int
+    reach: Reach
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Failure:
 
 def gear_tasks(cases: list[Case]) -> list[GearTask]:
     """The distinct gears of the cases."""
-    reaches: dict[tuple, int] = {}
+    reaches: dict[tuple, Reach] = {}
     tasks: dict[tuple, GearTask] = {}
     for case in cases:
         built = model(case.scene)

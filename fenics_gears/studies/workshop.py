@@ -8,7 +8,7 @@ from dataclasses import replace
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.effects import EFFECTS
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model import Model
 from fenics_gears.progress import Progress
 from fenics_gears.resolution import EVERY_STEP
@@ -48,7 +48,7 @@ class Workshop:
         self._cycle_key, self._prepared = key, (compliances, mesh_cycle(built, compliances))
         return self._prepared
 
-    def gear(self, built: Model, name: str, reach: int, cache: Cache | None) -> FlankCompliance:
+    def gear(self, built: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
         """Flank compliance of the "pinion" or the "wheel", kept, from the cache, or condensed."""
         key = gear_key(built, name, reach)
         if key not in self._gears:
@@ -67,13 +67,12 @@ def has_gears(built: Model) -> bool:
     return built.scene.tooth_elasticity is not None and built.scene.accuracy.model != ISO_6336
 
 
-def gear_key(built: Model, name: str, reach: int) -> tuple:
+def gear_key(built: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
     resolution = built.resolution
-    coast = built.scene.coast_flanks is not None
     sizes = resolution.flank_element_size, resolution.body_element_size
     own = tuple(getattr(getattr(built.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(built.pair, name), built.scene.gears.material, resolution.element, sizes, reach, resolution.elastic_teeth, coast, own
+    return getattr(built.pair, name), built.scene.gears.material, resolution.element, sizes, reach, resolution.elastic_teeth, own
 
 
 def cycle_key(built: Model) -> tuple:

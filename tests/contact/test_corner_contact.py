@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
 from fenics_gears.contact.corner import corner_contact, corner_pair, corner_place, pair_reaches
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_span
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_reach
 from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 
@@ -187,4 +187,4 @@ def test_tips_reach_further_than_a_short_window(paper_pair):
     phase = paper_pair.contact_ratio - 1.0 + 1.4 / paper_pair.base_pitch
     plain, reaching = (pair_places(paper_pair, short, phase, corner=each) for each in (None, corner))
     assert {place.index for place in plain} < {place.index for place in reaching}
-    assert tooth_span(paper_pair, short, STEPS, corner=corner) >= tooth_span(paper_pair, short, STEPS)
+    assert tooth_reach(paper_pair, short, STEPS, corner=corner).same >= tooth_reach(paper_pair, short, STEPS).same

@@ -1,10 +1,13 @@
 """Contact operators: symmetry, reciprocity, rigid motions, against dense products and the step before."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from fenics_gears.contact.compliance_product import directions
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_span
+from fenics_gears.contact.corner import corner_contact
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_reach
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)
@@ -126,4 +129,22 @@ def test_every_pair_that_can_carry_is_there(paper_pair):
         positions = pair_places(paper_pair, GRID, phase)
         assert 1 <= len(positions) <= 3
         assert np.diff([place.contact_rolls[0] for place in positions]) == pytest.approx(paper_pair.pinion.angular_pitch)
-    assert tooth_span(paper_pair, GRID, 20) >= 2
+
+
+@pytest.mark.parametrize("coast", [False, True])
+@pytest.mark.parametrize("corner", [False, True])
+def test_reach_holds_between_steps_too(paper_pair, coast, corner):
+    """Brute force: all flanks that touch at any of 40 parts of a step, and those that did up to a step before."""
+    corner, steps, parts, found = corner_contact(paper_pair) if corner else None, 20, 40, {}
+    places = {i: pair_places(paper_pair, GRID, i / (steps * parts) % 1.0, coast, corner) for i in range(-parts, steps * parts)}
+    for i in range(0, steps * parts):
+        for j in range(i - i % parts - (parts if i % parts == 0 else 0), i + 1):
+            passed = 1 if j < 0 else 0
+            for one in places[i]:
+                for other in (*places[i], *(replace(place, index=place.index + passed) for place in places[j])):
+                    for gear in range(2):
+                        found.setdefault((one.flank, other.flank), set()).add(one.ahead(gear) - other.ahead(gear))
+    reach = tooth_reach(paper_pair, GRID, steps, coast, corner)
+    assert reach.same == max(max(found[sides]) for sides in found if sides[0] == sides[1])
+    across = found.get((0, 1), set()) | {-ahead for ahead in found.get((1, 0), set())}
+    assert reach.across == ((min(across), max(across)) if coast else None)

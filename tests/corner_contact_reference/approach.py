@@ -9,7 +9,7 @@ import numpy as np
 from fenics_gears.contact.corner import CornerContact
 from fenics_gears.contact.ladder import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_span
+from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_reach
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
@@ -33,11 +33,11 @@ def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int) -> Mes
     """Contact operators of a scene's teeth alone on finite elements, the wheel's rotation the only unknown."""
     built = model(scene)
     grid, resolution = built.resolution.contact_grid, built.resolution
-    reach = tooth_span(built.pair, grid, steps, corner=corner)
+    reach = tooth_reach(built.pair, grid, steps, corner=corner)
     compliances = tuple(
         flank_compliance(
             gear, scene.gears.material, element=resolution.element, flank_element_size=resolution.flank_element_size,
-            tooth_offsets=reach,
+            reach=reach,
         )
         for gear in (built.pair.pinion, built.pair.wheel)
     )  # fmt: skip

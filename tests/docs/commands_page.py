@@ -9,6 +9,7 @@ import re
 from tests.docs.markdown import capital, table
 
 from fenics_gears import cli
+from fenics_gears.elasticity.cache import DEFAULT_SIZE
 
 HEADING = """# Commands
 
@@ -82,6 +83,7 @@ def _environment() -> list[str]:
     rows = [
         ("`FENICS_GEARS_PYTHON`", "the Python that `./gears` uses; without it one is found or made"),
         ("`FENICS_GEARS_CACHE`", "folder of the condensed gears; without it the user's cache folder"),
+        ("`FENICS_GEARS_CACHE_SIZE`", f"the most that they take together, such as `500 MB`; without it {DEFAULT_SIZE}"),
         ("`OMP_NUM_THREADS`", "threads of the factorisation; 1 under mpirun"),
     ]
     return ["## Environment", "", *table(("variable", "is"), rows)]

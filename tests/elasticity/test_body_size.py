@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import HUB_ANGLE
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES, element_sizes, flank_compliance
@@ -15,7 +16,7 @@ def stretched(gear, steel, element, factor):
     order = element_named(element).order
     body = gear.module * DEFAULT_SIZES[order].body * factor
     found = flank_compliance(
-        gear, steel, element=element, flank_element_size=FLANK, tooth_offsets=0, body_element_size=body,
+        gear, steel, element=element, flank_element_size=FLANK, reach=Reach(0), body_element_size=body,
     )  # fmt: skip
     elements = (found.nodes - 1) // order
     shares = np.zeros(found.nodes)

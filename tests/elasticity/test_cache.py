@@ -1,9 +1,14 @@
 """The cache gives back what it was given, by its content. Damage, full disks and kills are hard case 27."""
 
+import os
+import time
+
 import numpy as np
 import pytest
 
-from fenics_gears.elasticity.cache import DIRECTORY_VARIABLE, Cache, content_key, user_cache
+from fenics_gears.cli import main
+from fenics_gears.elasticity.cache import DIRECTORY_VARIABLE, LONGEST_WRITING, SIZE_VARIABLE, Cache, content_key, user_cache
+from fenics_gears.errors import SceneError
 
 KEY = content_key({"gear": {"teeth": 16}, "size": 0.06})
 ARRAYS = {"blocks": np.arange(24.0).reshape(2, 3, 4) / 7.0, "unknowns": np.array(17)}
@@ -49,6 +54,90 @@ def test_key_depends_on_content_only():
 def test_environment_names_the_directory(tmp_path, monkeypatch):
     """FENICS_GEARS_CACHE overrides the user's cache directory."""
     monkeypatch.setenv(DIRECTORY_VARIABLE, str(tmp_path))
-    assert user_cache() == Cache(tmp_path)
+    assert user_cache() == Cache(tmp_path, 2e9)
     monkeypatch.delenv(DIRECTORY_VARIABLE)
     assert user_cache().directory.name == "fenics_gears"
+
+
+def used(cache, key, seconds_ago):
+    """Say that an entry was used some time ago."""
+    moment = time.time() - seconds_ago
+    os.utime(cache.path(key), (moment, moment))
+
+
+def size_of_entry(directory):
+    cache = Cache(directory)
+    cache.store("any", ARRAYS)
+    return cache.path("any").stat().st_size
+
+
+@pytest.mark.parametrize("room, left", [(3.5, {"b", "a", "new"}), (2.5, {"a", "new"}), (1.5, {"new"}), (0.5, {"new"})])
+def test_beyond_the_limit_the_longest_unused_go_first(tmp_path, room, left):
+    """By definition: reading is use, and the entry that was stored last stays whatever the limit."""
+    filled = Cache(tmp_path / "cache")
+    for ago, key in ((300.0, "a"), (200.0, "c"), (100.0, "b")):
+        filled.store(key, ARRAYS)
+        used(filled, key, ago)
+    assert filled.load("a") is not None
+    limited = Cache(filled.directory, room * size_of_entry(tmp_path / "other"))
+    limited.store("new", ARRAYS)
+    assert {path.stem for path in filled.directory.iterdir()} == left
+    assert limited.load("new").keys() == ARRAYS.keys()
+
+
+def test_files_that_are_being_written_stay(tmp_path):
+    """By definition; those that a killed run left a day before are no longer being written."""
+    for name, ago in (("now.part", 0.0), ("lost.part", LONGEST_WRITING + 60.0)):
+        (tmp_path / name).write_text("half")
+        moment = time.time() - ago
+        os.utime(tmp_path / name, (moment, moment))
+    Cache(tmp_path, 1.0).store("new", ARRAYS)
+    assert {path.name for path in tmp_path.iterdir()} == {"now.part", "new.h5"}
+    assert len(Cache(tmp_path).clear()) == 1
+    assert {path.name for path in tmp_path.iterdir()} == {"now.part"}
+
+
+def test_an_entry_that_another_run_removes_is_no_failure(tmp_path, monkeypatch, caplog):
+    """Two runs that keep to the limit at once: each finds files gone that it has just seen."""
+    for key in "abc":
+        Cache(tmp_path).store(key, ARRAYS)
+    entries = Cache.entries
+
+    def seen_then_removed(cache):
+        found = entries(cache)
+        for entry in found[:2]:
+            entry.path.unlink()
+        return found
+
+    monkeypatch.setattr(Cache, "entries", seen_then_removed)
+    Cache(tmp_path, 1.0).store("new", ARRAYS)
+    assert [path.name for path in tmp_path.iterdir()] == ["new.h5"] and not caplog.records
+
+
+@pytest.mark.parametrize("text, size", [("500 MB", 5e8), ("1.5GB", 1.5e9), ("0 MB", 0.0), ("", 2e9)])
+def test_environment_limits_the_size(monkeypatch, text, size):
+    """By definition of MB and GB."""
+    monkeypatch.setenv(SIZE_VARIABLE, text)
+    assert user_cache().limit == size
+
+
+@pytest.mark.parametrize("text", ["2", "-1 GB", "2 GiB", "much", "nan GB"])
+def test_a_size_that_is_none_is_refused(monkeypatch, text):
+    """Bad input is refused with its place, its value and what is allowed."""
+    monkeypatch.setenv(SIZE_VARIABLE, text)
+    with pytest.raises(SceneError, match=f"{SIZE_VARIABLE} = '{text}'.*Allowed"):
+        user_cache()
+
+
+def test_the_command_shows_and_empties_it(tmp_path, monkeypatch, capsys):
+    """What the files themselves say."""
+    monkeypatch.setenv(DIRECTORY_VARIABLE, str(tmp_path))
+    for key in "ab":
+        Cache(tmp_path).store(key, ARRAYS)
+    assert main(["cache"]) == 0
+    shown = capsys.readouterr().out
+    assert str(tmp_path) in shown and "2000 MB" in shown
+    assert main(["cache", "--clear"]) == 0
+    assert "2 entries" in capsys.readouterr().out and not list(tmp_path.iterdir())
+    assert main(["cache"]) == 0
+    assert "last used" not in capsys.readouterr().out

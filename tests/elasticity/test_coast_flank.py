@@ -5,26 +5,35 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
+from fenics_gears.elasticity.half_sector import centreline_direction
 from fenics_gears.elasticity.mesh_data import corner_areas
+from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_boundary import sector_boundary
-from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
+from fenics_gears.errors import ComputationError
+
+
+BOTH = Reach(2, (-2, 2))
 
 
 @pytest.fixture(scope="module", params=ELEMENTS)
 def either(request, pinion, steel):
     """Both flanks, for every element."""
-    return flank_compliance(pinion, steel, element=request.param, flank_element_size=0.4, tooth_offsets=2, coast_flank=True)
+    return flank_compliance(pinion, steel, element=request.param, flank_element_size=0.4, reach=BOTH)
 
 
 @pytest.fixture(scope="module")
 def both(pinion, steel):
-    return flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, tooth_offsets=2, coast_flank=True)
+    return flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, reach=BOTH)
 
 
 def split(both, offset):
-    block, size = both.blocks[offset], 2 * both.nodes
+    block, size = both.block(offset), 2 * both.nodes
     return block[:size, :size], block[:size, size:], block[size:, :size], block[size:, size:]
 
 
@@ -33,23 +42,46 @@ def difference(first, second):
     return np.linalg.norm(first - second) / np.linalg.norm(second)
 
 
-def test_coast_flank_is_the_drive_flanks_mirror_image(either):
-    """Exact identity: symmetry of the tooth, whose mesh is symmetric too."""
-    drive, to_drive, to_coast, coast = split(either, 0)
-    assert difference(drive, coast) < 1e-12
-    assert difference(to_drive, to_coast) < 1e-12
+@pytest.mark.parametrize("offset", [0, 1, 2, -1])
+def test_half_a_sector_does_for_the_whole(either, pinion, steel, request, offset):
+    """Brute force: the whole symmetric sector condensed with both flanks, the coast flank's components mirrored by dense products."""
+    element = ELEMENTS[request.node.callspec.params["either"]]
+    similar, sizes = pinion.of_module_one, replace(element_sizes(pinion, element, 0.4), both_flanks=True).in_modules_of(pinion)
+    mesh = sector_mesh(similar, sizes, element.quadrilateral)
+    flanks = np.vstack([by_radius(mesh.edge_nodes(side, element.order)) for side in ("flank", "coast")])
+    blocks = ring_compliance(condensed_sector(mesh, element, steel.poissons_ratio, flank=flanks), pinion.teeth, 2) / steel.youngs_modulus
+    direction = centreline_direction(half_sector_mesh(similar, sizes, element.quadrilateral))
+    frame = np.eye(2 * len(flanks))
+    coast = np.arange(len(flanks), 2 * len(flanks))
+    frame[np.ix_(coast, coast)] = np.kron(np.eye(len(flanks) // 2), 2.0 * np.outer(direction, direction) - np.eye(2))
+    expected = frame @ (blocks[offset] if offset >= 0 else blocks[-offset].T) @ frame.T
+    assert difference(either.block(offset), expected) < 1e-12
 
 
-def test_mirroring_turns_ahead_into_behind(either):
-    """Exact identity: seen in the mirror, the tooth ahead is the tooth behind."""
-    for offset in (1, 2):
-        drive, _, _, coast = split(either, offset)
-        assert difference(drive, coast.T) < 1e-11
+def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
+    """Exact identity: the same numbers in a smaller range; an offset outside of it is refused."""
+    fewer = flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, reach=Reach(1, (-2, 1)))
+    assert np.array_equal(fewer.between(1, 0), both.between(1, 0))
+    assert np.array_equal(fewer.between(0, 2, (0, 1)), both.between(0, 2, (0, 1)))
+    assert np.array_equal(fewer.between(2, 0, (1, 0)), both.between(2, 0, (1, 0)))
+    with pytest.raises(ComputationError, match="known are -2 to 1"):
+        fewer.between(2, 0, (0, 1))
+    with pytest.raises(ComputationError, match="known are -1 to 1"):
+        fewer.between(2, 0, (1, 1))
+
+
+def test_cache_gives_both_flanks_back(pinion, steel, both, tmp_path):
+    """Exact identity: what is kept without its lower triangles comes back bit for bit."""
+    options = {"element": "P2", "flank_element_size": 0.4, "reach": BOTH, "cache": Cache(tmp_path)}
+    computed, kept = (flank_compliance(pinion, steel, **options) for _ in range(2))
+    assert kept.timings["from_cache"] and not computed.timings["from_cache"]
+    for offset in (0, 1, -2):
+        assert np.array_equal(computed.block(offset), kept.block(offset))
 
 
 def test_drive_flank_is_as_without_the_coast_flank(both, pinion, steel):
     """Knowing more of the body changes nothing of it, but for the finer mesh along the coast flank."""
-    alone = flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, tooth_offsets=2)
+    alone = flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, reach=Reach(2))
     assert np.array_equal(alone.roll_angle, both.roll_angle)
     for offset in range(3):
         assert difference(split(both, offset)[0], alone.blocks[offset]) < 5e-3
@@ -57,8 +89,8 @@ def test_drive_flank_is_as_without_the_coast_flank(both, pinion, steel):
 
 def test_compliance_over_both_flanks_is_positive_definite(both):
     """Betti's theorem, and elastic energy is positive."""
-    assert np.array_equal(both.blocks[0], both.blocks[0].T)
-    assert np.linalg.eigvalsh(both.blocks[0]).min() > 0.0
+    assert np.array_equal(both.block(0), both.block(0).T)
+    assert np.linalg.eigvalsh(both.block(0)).min() > 0.0
 
 
 @pytest.mark.parametrize("element", ELEMENTS)

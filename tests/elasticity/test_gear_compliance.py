@@ -11,6 +11,7 @@ import pytest
 from fenics_gears.elasticity import gear_compliance
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
@@ -21,7 +22,7 @@ from fenics_gears.elasticity.whole_gear import whole_gear_compliance
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.geometry.involute import arc_length, canonical_normal
 
-COARSE = {"flank_element_size": 0.5, "tooth_offsets": 1}
+COARSE = {"flank_element_size": 0.5, "reach": Reach(1)}
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
@@ -113,7 +114,7 @@ def test_damaged_cache_entry_is_computed_again(pinion, steel, tmp_path):
         {"element": "P1"},
         {"flank_element_size": 0.51},
         {"body_element_size": 1.2},
-        {"tooth_offsets": 2},
+        {"reach": Reach(2)},
         {"gear": {"bore_radius": 15.1}},
         {"material": {"poissons_ratio": 0.29}},
     ],
@@ -133,7 +134,7 @@ def test_every_input_has_its_own_cache_entry(change, pinion, steel, tmp_path):
         ({"element": "Q3"}, "element 'Q3'"),
         ({"flank_element_size": 0.0}, "flank_element_size is 0.0 mm"),
         ({"body_element_size": float("nan")}, "body_element_size"),
-        ({"tooth_offsets": 16}, "between 0 and 15"),
+        ({"reach": Reach(16)}, "between 0 and 15"),
     ],
 )
 def test_impossible_inputs_are_refused(change, message, pinion, steel):

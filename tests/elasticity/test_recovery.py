@@ -10,6 +10,7 @@ from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.flank_pressure import flank_arcs, pressed, stress_across
 
 from fenics_gears.contact.flank_forces import unmirrored
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
@@ -34,9 +35,9 @@ def forces_on(recovery, flanks: int = 1) -> dict[int, np.ndarray]:
 @pytest.mark.parametrize("flanks", [1, 2], ids=["drive flank", "both flanks"])
 def test_flanks_move_as_their_compliance_says(name, flanks):
     """Exact identity: u_f = A f on the loaded teeth, their neighbours ahead and behind; the compliance is condensed another way."""
-    settings = {"element": name, "flank_element_size": SIZE, "coast_flank": flanks == 2}
-    compliance = flank_compliance(PINION, STEEL, tooth_offsets=2, **settings)
-    with gear_recovery(PINION, STEEL, **settings) as recovery:
+    settings = {"element": name, "flank_element_size": SIZE}
+    compliance = flank_compliance(PINION, STEEL, reach=Reach(2, (-2, 2) if flanks == 2 else None), **settings)
+    with gear_recovery(PINION, STEEL, coast_flank=flanks == 2, **settings) as recovery:
         forces = forces_on(recovery, flanks)
         moved = recovery.recovered(forces).displacement
         sides = ("flank", "coast")[:flanks]

@@ -73,7 +73,7 @@ def on_stand_ins(built):
     """Teeth without finite elements; None for rigid ones."""
     if built.scene.tooth_elasticity is None:
         return None
-    reach, coast = tooth_reach(built), built.scene.coast_flanks is not None
+    reach, coast = tooth_reach(built).farthest, built.scene.coast_flanks is not None
     return tuple(stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (built.pair.pinion, built.pair.wheel))
 
 

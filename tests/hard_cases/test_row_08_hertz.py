@@ -17,6 +17,7 @@ from fenics_gears.contact.operator import CompliancePairing, contact_operator
 from fenics_gears.contact.pressure import peak_pressure, without_oscillation
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.model import model
 from fenics_gears.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
@@ -43,7 +44,7 @@ def errors(paper_scene):
     def of(element, ratio, node_spacing=NODE_SPACING):
         size = half_width(nominal, pair.pitch_point) / ratio
         gears = (
-            flank_compliance(gear, material, element=element, flank_element_size=size, tooth_offsets=0)
+            flank_compliance(gear, material, element=element, flank_element_size=size, reach=Reach(0))
             for gear in (pair.pinion, pair.wheel)
         )
         flanks, found = Flanks(pair, tuple(gears)), []

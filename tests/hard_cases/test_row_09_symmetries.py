@@ -13,6 +13,7 @@ from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import pair_places
 from fenics_gears.contact.operator import CompliancePairing, contact_operator
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model import model
@@ -31,7 +32,7 @@ def elastic(pair, scene, element="P1", coast_flank=False):
     """Flank compliances of both gears by finite elements."""
     return tuple(
         flank_compliance(
-            gear, scene.gears.material, element=element, flank_element_size=scene.accuracy.flank_element_size, tooth_offsets=5,
+            gear, scene.gears.material, element=element, flank_element_size=scene.accuracy.flank_element_size, reach=Reach(5),
             coast_flank=coast_flank,
         )
         for gear in (pair.pinion, pair.wheel)

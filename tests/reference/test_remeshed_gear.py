@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
@@ -99,7 +100,7 @@ def distance_to_the_fast_route(element, name, size):
     rolls = flank_roll_angles(PINION, size)[6:15]
     stiffness = RemeshedGear(PINION, STEEL, element, sizes).stiffness((LoadedTooth(0.0, rolls),))
     compliance = np.linalg.inv(stiffness[:-3, :-3])
-    fast = flank_compliance(PINION, STEEL, element=name, flank_element_size=size, tooth_offsets=0).blocks[0]
+    fast = flank_compliance(PINION, STEEL, element=name, flank_element_size=size, reach=Reach(0)).blocks[0]
     rows = 2 * 6 * element.order + np.arange(len(compliance))
     return relative(compliance - fast[np.ix_(rows, rows)], compliance)
 

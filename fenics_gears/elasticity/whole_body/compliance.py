@@ -38,11 +38,13 @@ class WholeBodyCompliance:
         """Largest distance, in pitches, between two teeth whose interaction is known."""
         return len(self.blocks[0]) - 1
 
-    def between(self, responding: int, loaded: int) -> np.ndarray:
+    def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
         """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after a turn.
 
-        Raises ComputationError for teeth further apart than `offsets`.
+        sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart than `offsets`.
         """
+        if any(sides):
+            raise ComputationError("flank compliance: of a gear that is meshed as a whole only the drive flanks are known")
         ahead = (responding - loaded) % self.teeth
         if ahead <= self.offsets:
             return self.blocks[loaded % self.teeth][ahead]

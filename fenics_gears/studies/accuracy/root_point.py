@@ -30,7 +30,7 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
     resolution = built.resolution
     rows = _rows(
         built.pair.pinion, scene.gears.material, resolution.element, resolution.flank_element_size, resolution.body_element_size,
-        tooth_reach(built), scene.coast_flanks is not None,
+        tooth_reach(built).farthest + 1, scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
     steps = range(len(run["mesh_phase"]) - cycle.steps, len(run["mesh_phase"]))

@@ -1,34 +1,28 @@
 """What a run costs, counted from what it has to do: the same scene chooses the same settings on every machine.
 
-Gears: nodes of a sector mesh and the cube of a flank's displacements, which are condensed. March: contact operators at every position of a mesh
-cycle, by the square of their rows, and the steps of the whole run. Each count has a weight, what it took on one core of 2020s (s); only their
-ratios matter here.
+The counts and their weights are those of `fenics_gears.cost`, here of any sizes at once; only their ratios matter.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.memory import flank_unknowns, loaded_pairs
+from fenics_gears import cost
+from fenics_gears.cost import SECTOR_UNKNOWNS, Number, flank_unknowns, loaded_pairs
 from fenics_gears.model import Model
 
-# Displacements of a sector mesh of second order: those of tooth and rim at the default body size, and for each of a flank.
-BODY_UNKNOWNS, UNKNOWNS_PER_FLANK = 2300.0, 15.0
-PER_GEAR, PER_UNKNOWN, PER_FLANK_CUBE = 0.025, 2e-5, 3e-10
-PER_POSITION, PER_ROW_SQUARE, PER_STEP = 1.5e-3, 8e-8, 2e-4
 
-Size = float | np.ndarray
-
-
-def run_cost(built: Model, order: int, flank: Size, body: Size, step: Size, nodes: Size) -> np.ndarray:
+def run_cost(built: Model, element: str, flank: Number, body: Number, step: Number, nodes: Number) -> np.ndarray:
     """Cost of a run; sizes of flank elements (mm), body elements (parts of their default), steps (mesh cycles), and the contact nodes of a
     tooth pair: arrays are broadcast. `built`: the scene's, for its gears, effects and mesh cycles."""
-    flanks = 1.0 if built.scene.coast_flanks is None else 2.0
+    of_body, per_node = SECTOR_UNKNOWNS[element]
     total = 0.0
     for gear in (built.pair.pinion, built.pair.wheel):
-        displacements = flanks * flank_unknowns(gear, order, flank)
-        unknowns = BODY_UNKNOWNS * np.asarray(body, dtype=float) ** -2 + UNKNOWNS_PER_FLANK * displacements
-        total = total + PER_GEAR + PER_UNKNOWN * unknowns + PER_FLANK_CUBE * displacements**3
+        dofs = flank_unknowns(gear, 2 if element.endswith("2") else 1, flank)
+        # In the plane half the size is four times as many.
+        unknowns = of_body * np.asarray(body, dtype=float) ** -2 + 0.5 * per_node * dofs
+        total = total + cost.GEAR + cost.UNKNOWN * unknowns + cost.FLANK_CUBE * dofs**3
     rows = loaded_pairs(built) * nodes * (1 if built.scene.friction is None else 2)
     positions = 1.0 / np.asarray(step, dtype=float)
-    return total + positions * (PER_POSITION + PER_ROW_SQUARE * rows**2 + PER_STEP * built.scene.motion.mesh_cycles)
+    cycles = built.scene.motion.mesh_cycles
+    return total + positions * (cost.POSITION + cost.POSITION_SQUARE * rows**2 + cycles * (cost.STEP + cost.STEP_SQUARE * rows**2))

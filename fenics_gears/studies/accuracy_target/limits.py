@@ -8,7 +8,7 @@ import numpy as np
 
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
 from fenics_gears.errors import ComputationError
-from fenics_gears.memory import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
+from fenics_gears.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model import MOST_STORED_BYTES, Model, model
 from fenics_gears.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
@@ -29,14 +29,15 @@ class TargetNotReached(ComputationError):
 class Limits:
     """Of a scene whose `[accuracy]` is empty; sizes are of flank elements (mm), body elements (parts of their default), steps (mesh cycles)."""
 
-    def __init__(self, scene: Scene, order: int):
+    def __init__(self, scene: Scene, element: str):
         self._built: Model = model(scene)
-        self._friction, self._order, self._module = scene.friction is not None, order, scene.gears.module
+        self._element, self._order = element, 2 if element.endswith("2") else 1
+        self._friction, self._module = scene.friction is not None, scene.gears.module
         self._pairs = loaded_pairs(self._built)
 
     def cost(self, flank: Size, body: Size, step: Size, length: float) -> Size:
         """Of the whole run; see ``run_cost``."""
-        return run_cost(self._built, self._order, flank, body, step, self._nodes(flank, length))
+        return run_cost(self._built, self._element, flank, body, step, self._nodes(flank, length))
 
     def bytes_of(self, flank: Size, step: Size, length: float) -> Size:
         """Memory of contact operators over one mesh cycle, and of both gears."""

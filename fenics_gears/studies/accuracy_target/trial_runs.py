@@ -22,7 +22,7 @@ from fenics_gears.studies.accuracy_target.limits import Limits, Size, TargetNotR
 from fenics_gears.studies.work import Ticking
 from fenics_gears.validity import WINDOW_REACHED
 
-ELEMENT, ORDER = "P2", 2
+ELEMENT = "P2"
 FLANK = "flank elements and contact nodes"
 NAMES = (FLANK, BODY, STEPS)
 # Where refinement begins: elements in a half-width, body elements in parts of their default, steps in a cycle; and by how many levels.
@@ -47,7 +47,7 @@ class TrialRuns:
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
         self.scene = replace(without_settings(scene), output=Output(), motion=replace(scene.motion, recorded_cycles=1))
         self._begun, self._tick, self._gears = begun, tick, SharedGears(KEPT_GEARS)
-        self._limits = Limits(without_settings(scene), ORDER)
+        self._limits = Limits(without_settings(scene), ELEMENT)
         self._unit, built = half_width(self.scene), model(self.scene)
         self.length = built.resolution.contact_grid.length
         orders = expected_orders(self.scene)

@@ -11,6 +11,7 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import effects_on
+from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import ComputationError, GearsError, SceneError
 from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
@@ -165,7 +166,7 @@ class Gears:
             for key, arguments in self._models.items():
                 self._seconds[key].append(_condensing(gear_compliance(*arguments, None)))
 
-    def _gear(self, built: Model, name: str, reach: int):
+    def _gear(self, built: Model, name: str, reach: Reach):
         key = gear_key(built, name, reach)
         if key not in self._kept:
             self._kept[key], self._models[key] = gear_compliance(built, name, reach, None), (built, name, reach)

@@ -10,8 +10,8 @@ import pytest
 from tests.coarse import teeth_alone
 
 from fenics_gears.cli import main
+from fenics_gears.cost import expected_cost
 from fenics_gears.errors import SceneError
-from fenics_gears.memory import flank_unknowns, loaded_pairs
 from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.resolution import NODE_SPACING
@@ -19,10 +19,9 @@ from fenics_gears.effects.friction import Friction
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation import simulate
-from fenics_gears.studies.accuracy.setting import half_width
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
 from fenics_gears.studies.accuracy_target import choose as choosing
-from fenics_gears.studies.accuracy_target import cost as costs
 from fenics_gears.studies.accuracy_target import limits
 from fenics_gears.studies.accuracy_target import trial_runs
 from fenics_gears.studies.accuracy_target.choose import choose
@@ -129,22 +128,19 @@ def test_every_other_step_of_a_run_is_a_run_of_half_the_steps(scene):
     assert rubbing.runs == 2
 
 
-def test_costs_are_counted_as_by_hand(scene):
-    """By hand: two gears' nodes and cubes, positions and squares of rows, from the module's own counts; friction has twice the rows, a run of
-    more mesh cycles more steps, and finer is dearer in every size."""
-    built = model(replace(scene, accuracy=Accuracy()))
-    rows = loaded_pairs(built) * 30.0
-    gears = 0.0
-    for gear in (built.pair.pinion, built.pair.wheel):
-        n = flank_unknowns(gear, 2, 0.1)
-        gears += costs.PER_GEAR + costs.PER_UNKNOWN * (costs.BODY_UNKNOWNS / 4.0 + costs.UNKNOWNS_PER_FLANK * n) + costs.PER_FLANK_CUBE * n**3
-    march = 50 * (costs.PER_POSITION + costs.PER_ROW_SQUARE * rows**2 + costs.PER_STEP)
-    assert costs.run_cost(built, 2, 0.1, 2.0, 1.0 / 50.0, 30.0) == pytest.approx(gears + march, rel=1e-12)
-    rubbing = model(replace(scene, accuracy=Accuracy(), friction=Friction(0.1)))
-    more = costs.run_cost(rubbing, 2, 0.1, 2.0, 1.0 / 50.0, 30.0) - gears - march
-    assert more == pytest.approx(50 * costs.PER_ROW_SQUARE * 3.0 * rows**2, rel=1e-9)
-    bounds, plain = limits.Limits(scene, 2), dict(flank=0.1, body=2.0, step=0.02, length=3.0)
-    assert all(bounds.cost(**{**plain, name: 0.5 * plain[name]}) > bounds.cost(**plain) for name in ("flank", "body", "step"))
+def test_the_cost_of_any_sizes_is_that_of_the_scene_with_them(scene):
+    """Authority: the cost that `gears check` shows, of the scene with these settings, but for what no size changes the share of: the blocks of
+    compliance and the two positions that begin a run. Finer is dearer in every size; friction has twice the rows."""
+    bounds, fine = limits.Limits(replace(scene, accuracy=Accuracy()), "P2"), dict(flank=0.04, body=1.0, step=0.01)
+    ratios = []
+    for sizes in (fine, {**fine, "flank": 0.08}, {**fine, "step": 0.005}):
+        setting = Setting("P2", sizes["flank"], NODE_SPACING * sizes["flank"], 3.0, 1.0, round(1.0 / sizes["step"]))
+        expected = expected_cost(model(setting.of(scene)))
+        ratios.append(bounds.cost(**sizes, length=3.0) / (expected.condensing + expected.marching))
+    assert ratios == pytest.approx([1.0] * 3, rel=0.2)
+    plain = dict(**fine, length=3.0)
+    assert all(bounds.cost(**{**plain, name: 0.5 * plain[name]}) > bounds.cost(**plain) for name in fine)
+    assert limits.Limits(replace(scene, accuracy=Accuracy(), friction=Friction(0.1)), "P2").cost(**plain) > bounds.cost(**plain)
 
 
 def test_a_window_that_cuts_contact_off_is_lengthened(scene):
@@ -179,7 +175,7 @@ def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
     monkeypatch.setattr(limits, "MOST_BYTES", 1.5e8)
 
     def noted(runs, setting):
-        tried.append(limits.Limits(scene, 2).bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
+        tried.append(limits.Limits(scene, "P2").bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
         return run(runs, setting)
 
     monkeypatch.setattr(trial_runs.TrialRuns, "_run", noted)
@@ -200,13 +196,13 @@ def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
 
 def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
     """The schema's own bounds: the chosen settings are written into a scene."""
-    bounds, module = limits.Limits(scene, 2), scene.gears.module
+    bounds, module = limits.Limits(scene, "P2"), scene.gears.module
     assert bounds.allowed(0.01 * module, 1.0, 0.05, 1.0) and not bounds.allowed(0.9e-3 * module, 1.0, 0.05, 1.0)
     assert "finer than a scene may ask for" in bounds.why_not(0.9e-3 * module, 1.0, 1.0)
     many_cycles = replace(scene, motion=Motion(200.0, 50, 50))
-    assert limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 5e-3, 1.0)
-    assert not limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 1e-4, 1.0)
-    assert limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
+    assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 5e-3, 1.0)
+    assert not limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0)
+    assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
 
 
 def test_choosing_can_be_interrupted_within_a_run(scene):

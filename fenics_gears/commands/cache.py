@@ -1,0 +1,45 @@
+"""``gears cache``: where the condensed gears are kept and what they take; empties it where asked to."""
+
+from __future__ import annotations
+
+import argparse
+from datetime import datetime
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("cache", parents=[shared], help="show what the cache of condensed gears holds, or empty it")
+    command.add_argument("--clear", action="store_true", help="remove all entries; gears are condensed again when they are needed")
+    command.set_defaults(command=cache)
+
+
+def cache(options: argparse.Namespace) -> int:
+    """Print the state of the cache, or empty it and print what was removed."""
+    from fenics_gears.console import print_rows
+    from fenics_gears.elasticity.cache import user_cache
+
+    kept = user_cache()
+    if options.clear:
+        removed = kept.clear()
+        if not options.quiet:
+            print(f"{len(removed)} entries, {_megabytes(removed):.3g} MB, removed from {kept.directory}")
+        return 0
+    entries = kept.entries()
+    rows = [
+        ("directory", str(kept.directory), ""),
+        ("entries", len(entries), ""),
+        ("size", _megabytes(entries), "MB"),
+        ("limit", kept.limit / 1e6, "MB: beyond it entries go that were not used for the longest time"),
+    ]
+    if entries:
+        rows += [("longest not used", _time(entries[0].used), ""), ("last used", _time(entries[-1].used), "")]
+    print_rows("Cache of condensed gears", rows)
+    return 0
+
+
+def _megabytes(entries) -> float:
+    return sum(entry.size for entry in entries) / 1e6
+
+
+def _time(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds).isoformat(" ", "seconds")

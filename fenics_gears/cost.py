@@ -1,0 +1,151 @@
+"""What a run costs in time and memory, known before it: operations are counted, their times were measured on one machine.
+
+Seconds are those of one core of the reference machine (Intel Xeon of 2023, 2 cores, Debian 12's OpenBLAS, one thread); machines differ by a
+factor of two. `python -m tests.benchmarks.expected_cost` prints what is expected beside what is measured, of the examples.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import lcm
+
+import numpy as np
+
+from fenics_gears.contact.mesh_cycle import pair_places, tooth_reach
+from fenics_gears.effects import effects_on
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.model import Model
+from fenics_gears.resolution import EVERY_STEP
+
+Number = float | np.ndarray
+
+# Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the paper's pair.
+SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "Q1 incompatible": (6500, 31.0), "Q2": (3000, 35.0)}
+# Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for each block of compliance.
+GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.06, 1.7e-5, 2e-10, 4.5e-8
+# Two inverses of symmetric matrices by Cholesky, in those of a general one.
+BOTH_FLANKS_INVERSES = 0.75
+# Seconds of marching: a position and the square of its contact rows, a step and the square of its contact rows.
+POSITION, POSITION_SQUARE, STEP, STEP_SQUARE = 1e-3, 6e-8, 5e-5, 2e-9
+# The same of the reference route: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
+REMESHED_UNKNOWN, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 1.5e-10, 7.0
+# Bytes: the program with its libraries, with those that mesh and condense, a number.
+PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
+# Matrices of a flank's size that are held while its teeth are joined, and the tangential rows' own products (measured).
+MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
+
+
+@dataclass(frozen=True)
+class ExpectedCost:
+    """Seconds of condensing (None where nothing is condensed) and of marching, bytes of memory; unknowns (words, number) of the gears."""
+
+    condensing: float | None
+    marching: float
+    memory: float
+    unknowns: tuple[tuple[str, float], ...] = ()
+
+
+def loaded_pairs(built: Model) -> float:
+    """Pairs of flanks in contact windows, on the average over the mesh cycle."""
+    grid = built.resolution.contact_grid
+    pairs = [len(pair_places(built.pair, grid, phase / 16, built.scene.coast_flanks is not None, built.corner)) for phase in range(16)]
+    return sum(pairs) / len(pairs)
+
+
+def contact_rows(built: Model) -> float:
+    """Rows of the contact operator, normal and tangential, on the average over the mesh cycle."""
+    return (2 if built.scene.friction is not None else 1) * built.resolution.contact_grid.nodes * loaded_pairs(built)
+
+
+def operator_bytes(positions: Number, rows: Number, friction: bool) -> Number:
+    """Of the contact operators at a number of positions; `rows` count normal and tangential ones."""
+    return BYTES_OF_A_NUMBER * positions * rows**2 * (OPERATORS_WITH_FRICTION if friction else 1.0)
+
+
+def flank_unknowns(gear: Gear, order: int, size: Number) -> Number:
+    """Displacements of a flank's nodes; `order` of the element, its `size` in mm."""
+    arc = 0.5 * gear.base_radius * (gear.tip_roll_angle**2 - gear.form_roll_angle**2)
+    return 2.0 * (order * arc / size + 1.0)
+
+
+def flank_bytes(unknowns: Number) -> Number:
+    """Of a gear that is condensed onto so many displacements of a flank."""
+    return BYTES_OF_A_NUMBER * MATRICES_OF_A_FLANK * unknowns**2
+
+
+def expected_cost(built: Model) -> ExpectedCost:
+    """What a run of a scene costs, gears not being in the cache."""
+    resolution, scene = built.resolution, built.scene
+    if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
+        return ExpectedCost(None, built.steps * STEP, PROGRAM + built.stored_bytes)
+    gears = [_condensed(built, name) for name in ("pinion", "wheel")]
+    cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
+    condensing, marching, memory = cost(built, gears)
+    unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
+    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + built.stored_bytes + memory, unknowns)
+
+
+@dataclass(frozen=True)
+class _Gear:
+    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance, dense inverses of a flank's size."""
+
+    words: str
+    unknowns: float
+    flank_dofs: float
+    blocks: float
+    inverses: float = 1.0
+
+
+def _condensed(built: Model, name: str) -> _Gear:
+    resolution, gear = built.resolution, getattr(built.pair, name)
+    order = 2 if resolution.element.endswith("2") else 1
+    body, per_node = SECTOR_UNKNOWNS[resolution.element]
+    dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(built, name)
+    if meshed is not None:
+        # Of all teeth, where each has a compliance of its own.
+        return _Gear(f"the whole {name}", meshed, dofs, gear.teeth * 3.0, gear.teeth)
+    reach = tooth_reach(
+        built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None, built.corner
+    )
+    if reach.across is None:
+        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1)
+    # Half a symmetric sector, for motions of either symmetry.
+    blocks = reach.same + 1 + reach.across[1] - reach.across[0] + 1
+    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, blocks, BOTH_FLANKS_INVERSES)
+
+
+def _meshed(built: Model, name: str) -> int | None:
+    """Unknowns of a gear that an effect has a mesh of its own for; None for a ring of sectors."""
+    for effect in effects_on(built.scene):
+        if effect.unknowns_of is not None:
+            return effect.unknowns_of(getattr(built.scene, effect.section), built, name)
+    return None
+
+
+def _unlike_cycles(built: Model) -> int:
+    """Mesh cycles of the run that can have contact operators of their own: as many as pass until the same teeth of meshed gears meet."""
+    teeth = [getattr(built.pair, name).teeth for name in ("pinion", "wheel") if _meshed(built, name) is not None]
+    return min(lcm(*teeth), built.scene.motion.mesh_cycles)
+
+
+def _condensed_once_cost(built: Model, gears: list[_Gear]) -> tuple[float, float, float]:
+    """Seconds of condensing and of marching, bytes."""
+    rows = contact_rows(built)
+    positions = min(_unlike_cycles(built) * built.resolution.steps_per_mesh_cycle, built.steps + 2)
+    condensing = sum(
+        GEAR + UNKNOWN * gear.unknowns + gear.inverses * FLANK_CUBE * gear.flank_dofs**3 + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
+        for gear in gears
+    )
+    marching = positions * (POSITION + POSITION_SQUARE * rows**2) + built.steps * (STEP + STEP_SQUARE * rows**2)
+    held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * gear.blocks * gear.flank_dofs**2 for gear in gears)
+    return condensing, marching, operator_bytes(positions, rows, built.scene.friction is not None) + held
+
+
+def _remeshed_cost(built: Model, gears: list[_Gear]) -> tuple[float, float, float]:
+    """The same where every loaded sector is meshed anew at every position."""
+    order = 2 if built.resolution.element.endswith("2") else 1
+    positions, nodes, pairs = built.resolution.steps_per_mesh_cycle, built.resolution.contact_grid.nodes, loaded_pairs(built)
+    rows = 2.0 * pairs * (order * (nodes - 1) + 1)
+    condensing = positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears)
+    marching = built.steps * (5.0 * STEP + ROW_CUBE * rows**3)
+    return condensing, marching, BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2

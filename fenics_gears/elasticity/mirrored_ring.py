@@ -1,0 +1,93 @@
+"""A gear of symmetric tooth sectors, both of whose flanks are loaded: half a sector condensed, the other half by symmetry.
+
+Motions of a symmetric sector are sums of those that are their own mirror image and of those that are its negative. They do not feel one
+another, so that each has a stiffness of half the size: on the centreline the former do not move across it, the latter not along it.
+With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s s + a^T S_a a`` where
+``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half and ``(R_s - R_a) / 2`` across.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg.lapack import dpotrf, dpotri
+
+from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.cut_chain import Run
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.half_sector import centreline_direction
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.ring import cut_response, turned_nodes
+from fenics_gears.errors import ComputationError
+
+
+def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None) -> CondensedBody:
+    """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" (both without hub nodes) and "hub"."""
+    hub = mesh.edge_nodes("hub", element.order)
+    points = {
+        "flank": by_radius(mesh.edge_nodes("flank", element.order)),
+        "cut": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
+        "centreline": by_radius(without(mesh.edge_nodes("centreline", element.order), hub)),
+        "hub": hub,
+    }
+    return condense(mesh, element, poissons_ratio, points, comm)
+
+
+def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach) -> tuple[np.ndarray, np.ndarray]:
+    """Compliance of the ring, hub held, Young's modulus 1 MPa: `blocks` and `across` of `BothFlanksCompliance`.
+
+    axis: (2,), unit vector along the centreline. The formula is that of `ring.ring_compliance`.
+    """
+    along = np.asarray(axis)
+    parts = [_flank_free(_constrained(half, direction), len(half.dofs("flank"))) for direction in (along, np.array([-along[1], along[0]]))]
+    (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = (
+        tuple(0.5 * (same + sign * opposite) for same, opposite in zip(*parts)) for sign in (1.0, -1.0)
+    )
+    nodes = len(half.points["cut"])
+    turn, mirror = turned_nodes(teeth, nodes), np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
+    joint = cut_response(Run(mirror @ cut @ mirror, turn.T @ cut @ turn, mirror @ cut_cross @ turn), teeth, reach.farthest + 1)
+    # Forces on either flank reach the lower and the upper cut, whose motions are those in the frame of the lower one.
+    drive, coast = np.hstack([to_cut_cross @ mirror, to_cut @ turn]), np.hstack([to_cut @ mirror, to_cut_cross @ turn])
+
+    def response(offset: int) -> np.ndarray:
+        return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
+
+    blocks = np.stack([(drive @ response(offset)) @ drive.T for offset in range(reach.same + 1)])
+    blocks[0] = _symmetric(blocks[0] + held)
+    first, last = reach.across
+    across = np.stack([_symmetric((drive @ response(offset)) @ coast.T) for offset in range(first, last + 1)])
+    if first <= 0 <= last:
+        across[-first] += held_cross
+    return blocks, across
+
+
+def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
+    """Stiffness (F + C, F + C) over flank and cut where the centreline moves along a direction (2,) only, free of force, and the hub is held."""
+    kept = np.concatenate([half.dofs("flank"), half.dofs("cut")])
+    line = half.dofs("centreline").reshape(-1, 2)
+    stiffness = half.stiffness
+    coupling = sum(direction[i] * stiffness[np.ix_(line[:, i], kept)] for i in range(2))
+    own = sum(direction[i] * direction[j] * stiffness[np.ix_(line[:, i], line[:, j])] for i in range(2) for j in range(2))
+    return stiffness[np.ix_(kept, kept)] - coupling.T @ np.linalg.solve(own, coupling)
+
+
+def _flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut: the flank free."""
+    compliance, coupling = _inverse(stiffness[:flank, :flank]), stiffness[:flank, flank:]
+    response = compliance @ coupling
+    return compliance, response, stiffness[flank:, flank:] - coupling.T @ response
+
+
+def _inverse(stiffness: np.ndarray) -> np.ndarray:
+    """Of a symmetric positive definite matrix: by Cholesky, three eighths of a general one's operations."""
+    factor, failed = dpotrf(stiffness.T, lower=False)
+    if not failed:
+        upper, failed = dpotri(factor, lower=False, overwrite_c=True)
+    if failed:
+        raise ComputationError("ring of sectors: a flank's stiffness is not positive definite; is the hub held?")
+    strict = np.triu(upper, 1)
+    return strict + strict.T + np.diag(upper.diagonal())
+
+
+def _symmetric(matrix: np.ndarray) -> np.ndarray:
+    return 0.5 * (matrix + matrix.T)

@@ -1,0 +1,108 @@
+"""Expected cost beside measured, of the examples: `python -m tests.benchmarks.expected_cost [NAME ...]`.
+
+Every demo's scene, the paper's scene with one effect more or less than it has, and a pair of 23 and 47 teeth with and without coast flanks.
+Each runs in a process of its own on one thread with an empty cache; seconds are the processor's, which are those of an idle machine
+whatever else this one does. Memory is the process's peak.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PAPER = ROOT / "demos" / "lundvall2004.toml"
+DEMOS = (PAPER, *(ROOT / "demos" / name for name in ("flank_errors/flank_errors.toml", "cracked_tooth/cracked_tooth.toml", "speed_ramp/up.toml")))
+STAGES = ("condensing", "marching", "memory")
+
+LARGER_PAIR = """
+[gears]
+module = "3 mm"
+pressure_angle = "20 deg"
+centre_distance = "105.15 mm"
+face_width = "25 mm"
+pinion = { teeth = 23, profile_shift = 0, tip_diameter = "75 mm", root_diameter = "61.5 mm", bore_diameter = "30 mm" }
+wheel = { teeth = 47, profile_shift = 0, tip_diameter = "147 mm", root_diameter = "133.5 mm", bore_diameter = "50 mm" }
+material = { youngs_modulus = "206 GPa", poissons_ratio = 0.3 }
+[load]
+wheel_torque = "200 N m"
+[motion]
+mesh_frequency = "200 Hz"
+mesh_cycles = 4
+"""
+
+
+def cases() -> dict[str, str]:
+    """Text of each example's scene by its name."""
+    from tests.effects.examples import EXAMPLES
+
+    paper = PAPER.read_text(encoding="utf-8")
+    found = {path.stem: path.read_text(encoding="utf-8") for path in DEMOS}
+    found |= {f"paper - {name}": _without(paper, *names) for name, *names in (("friction", "friction"), ("inertia", "inertia", "damping"), ("shafts", "shafts"))}
+    bare = _without(paper, "friction", "inertia", "damping", "shafts", "bearings")
+    found |= {"paper, bare": bare, "paper, rigid flanks": _without(bare, "gears.material", "accuracy")}
+    more = [name for name in EXAMPLES if f"[{name}]" not in paper and name not in ("tooth_elasticity", "body_meshes", "speed_ramp")]
+    found |= {f"paper + {name}": f"{paper}\n{EXAMPLES[name]}" for name in more}
+    found["paper, ISO 6336"] = _without(paper, "accuracy") + '\n[accuracy]\nmodel = "ISO 6336-1"\n'
+    found["paper, its own condensation"] = _without(bare, "accuracy") + '\n[accuracy]\ncondensation = "every step"\ncontact_nodes = 11\nsteps_per_mesh_cycle = 10\n'
+    return found | {"23/47": LARGER_PAIR, "23/47 + coast_flanks": LARGER_PAIR + "[coast_flanks]\n"}
+
+
+def _without(text: str, *sections: str) -> str:
+    for section in sections:
+        text = re.sub(rf"^\[{re.escape(section)}\]\n(?:(?!\[).*\n)*", "", text, flags=re.MULTILINE)
+    return text
+
+
+def measure(name: str) -> dict[str, float]:
+    """Run an example in this process; seconds of condensing and marching, bytes, and what was expected."""
+    time.perf_counter = time.process_time
+    from fenics_gears.cost import expected_cost
+    from fenics_gears.elasticity.cache import Cache
+    from fenics_gears.model import model
+    from fenics_gears.scene.read import scene_from_text
+    from fenics_gears.simulation import simulate
+
+    beside = next((path.parent for path in DEMOS if path.stem == name), ROOT)
+    scene = scene_from_text(cases()[name], name, directory=beside)
+    expected = expected_cost(model(scene))
+    with tempfile.TemporaryDirectory() as directory:
+        attributes = simulate(scene, cache=Cache(Path(directory))).attrs
+    return {
+        "condensing": attributes["time_mesh"] + attributes["time_condense"], "marching": attributes["time_march"],
+        "memory": 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
+        **{f"expected {stage}": getattr(expected, stage) or 0.0 for stage in STAGES},
+    }  # fmt: skip
+
+
+def main(names: list[str]) -> None:
+    """Print a row of every example: expected, measured and their ratio, of each stage."""
+    print(f"{'example':30}" + "".join(f"{stage + ', expected for measured':>36}" for stage in STAGES) + "  load")
+    for name in names or cases():
+        call = [sys.executable, "-P", "-m", "tests.benchmarks.expected_cost", "--measure", name]
+        ended = subprocess.run(call, env={**os.environ, "OMP_NUM_THREADS": "1"}, capture_output=True, text=True, check=False)
+        if ended.returncode:
+            print(f"{name:30} {ended.stderr.strip().splitlines()[-1]}")
+            continue
+        found = json.loads(ended.stdout.splitlines()[-1])
+        print(f"{name:30}" + "".join(_cell(found[f"expected {stage}"], found[stage], stage) for stage in STAGES) + f"  {os.getloadavg()[0]:.1f}", flush=True)
+
+
+def _cell(expected: float, measured: float, stage: str) -> str:
+    scale, unit = (1e-6, "MB") if stage == "memory" else (1.0, "s")
+    ratio = f"{expected / measured:.2f}" if measured and expected else "-"
+    return f"{expected * scale:10.3g} for {measured * scale:8.3g} {unit:2} {ratio:>10}"
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["--measure"]:
+        print(json.dumps(measure(sys.argv[2])))
+    else:
+        main(sys.argv[1:])
