@@ -148,10 +148,10 @@ def test_single_settings_are_repeated_the_quickest_first_as_far_as_there_is_time
 
 
 def test_what_was_timed_less_often_is_told(report):
-    """Authority: house rule; a number says how it was reports."""
+    """Authority: house rule; a number says how it was measured."""
     assert table.timed(report).endswith("single settings as often.")
     fewer = replace(report, rounds=5)
-    assert f"0 of {sum(len(each.levels) for each in report.refinements)} settings" in table.timed(fewer) and "60 s that were given" in table.timed(fewer)
+    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(fewer) and "60 s that were given" in table.timed(fewer)
 
 
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
