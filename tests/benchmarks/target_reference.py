@@ -10,7 +10,7 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, answer
 from fenics_gears.studies.accuracy.convergence import richardson, together
-from fenics_gears.studies.accuracy.runs import SharedGears
+from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 
 # Elements in a half-width, contact nodes 0.7 of them apart; body elements in parts of their default; steps in a cycle. What one still
 # adds to the base is measured with few steps where it is not the steps'. The base's flank is fine: on a coarse one small steps find
@@ -50,7 +50,7 @@ class Reference:
 
 def reference(scene: Scene, window: float, told=print) -> Reference:
     """The reference of a scene whose `[accuracy]` is empty; `window` (mm): that of pressures."""
-    unit, gears = half_width(scene), SharedGears(4)
+    unit, gears = half_width(scene), shared_gears(4)
     length = model(scene).resolution.contact_grid.length
 
     def setting(values) -> Setting:
@@ -59,7 +59,7 @@ def reference(scene: Scene, window: float, told=print) -> Reference:
     def run(values) -> Answer:
         words = setting(values)
         told(words.words)
-        found = gears.run(replace(scene, accuracy=words.accuracy(scene.gears.module)))
+        found, _ = run_sharing(words.of(scene), gears)
         curve = found.transmission_error.values[:-1]
         found.attrs["peak_to_peak_transmission_error"] = highest(curve) + highest(-curve)
         return answer(found, window)

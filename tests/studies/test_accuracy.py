@@ -17,7 +17,7 @@ from fenics_gears.studies.accuracy import refinement, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.root_point import peak_root_stress, point_rows
-from fenics_gears.studies.accuracy.runs import SharedGears
+from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting
 
 TEETH = "tooth_elasticity"
@@ -117,7 +117,7 @@ def test_times_are_split_and_of_every_round(report):
 def test_the_root_stress_is_that_of_the_runs_own_output(sections):
     """Authority: `[output] root_stress` of the same run, its variable at 30 degrees; the pinion's largest over the last cycle."""
     scene = replace(scene_of(*sections), motion=Motion(200.0, 2, 2), output=Output(root_stress=True))
-    run, cycle = SharedGears().run_with_cycle(scene)
+    run, cycle = run_sharing(scene, shared_gears())
     last = run.isel(time=slice(len(run.mesh_phase) - cycle.steps, None), gear=0)
     assert peak_root_stress(run, scene, cycle) == pytest.approx(float(last["root_stress_at_30_degrees"].max()), rel=1e-9)
 
@@ -212,14 +212,12 @@ def test_without_load_there_is_nothing_to_measure(scene):
 
 def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
     """Authority: house style, a failed case is a record among the results."""
-    kept = reports.SharedGears.run_with_cycle
-
-    def fails(self, scene):
+    def fails(scene, gears):
         if scene.accuracy.interpolation == "collocated":
             raise ComputationError("no solution at step 3\nand a history")
-        return kept(self, scene)
+        return run_sharing(scene, gears)
 
-    monkeypatch.setattr(reports.SharedGears, "run_with_cycle", fails)
+    monkeypatch.setattr(reports, "run_sharing", fails)
     study = reports.Study(scene, reports.SilentProgress(), True, 1)
     study.refinements = tuple(each for each in study.refinements if each.name == "interpolation")
     (result,) = study.refine()

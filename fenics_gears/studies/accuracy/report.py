@@ -17,7 +17,7 @@ from fenics_gears.studies.accuracy.convergence import Limit, last_of, richardson
 from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, distance, distances, judged
 from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement, checked_model, fine, refinements
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.studies.accuracy.runs import SharedGears, Times, run_afresh
+from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting
 from fenics_gears.studies.effect_lattice.machine import machine
 from fenics_gears.warm_up import compile_kernels
@@ -137,7 +137,7 @@ class Study:
         self.window = max(level.setting.length for each in self.refinements for level in each.levels)
         self.failures: list[tuple[str, str]] = []
         self._known: dict[Setting, tuple[Answer, Times]] = {}
-        self._gears = SharedGears()
+        self._gears = shared_gears()
 
     def refine(self) -> tuple[RefinementResult, ...]:
         """Every level run with the other settings fine."""
@@ -191,7 +191,7 @@ class Study:
         try:
             if not whole.fits(self.scene, setting):
                 raise ComputationError(f"its contact operators would take more than {whole.MOST_BYTES / 1e9:g} GB")
-            run, cycle = self._gears.run_with_cycle(setting.of(self.scene))
+            run, cycle = run_sharing(setting.of(self.scene), self._gears)
             self._known[setting] = self._answer(run, setting.of(self.scene), cycle), Times().and_also(run)
         except GearsError as error:
             self.failures.append((name, str(error).splitlines()[0]))
@@ -210,11 +210,11 @@ class Study:
         if self.rounds > 1:
             self.progress.stage("single settings for the time")
         for turn in range(self.rounds - 1):
-            gears = SharedGears()
+            gears = shared_gears()
             for place, setting in enumerate(repeated):
                 self.progress.update(turn * len(repeated) + place, (self.rounds - 1) * len(repeated))
                 answers, times = self._known[setting]
-                self._known[setting] = answers, times.and_also(gears.run(setting.of(self.scene)))
+                self._known[setting] = answers, times.and_also(run_sharing(setting.of(self.scene), gears)[0])
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
         """Every scene once a round, so that whatever else the machine does meets all of them."""

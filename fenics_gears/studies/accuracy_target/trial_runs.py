@@ -16,7 +16,7 @@ from fenics_gears.scene.data import Output, Scene
 from fenics_gears.studies.accuracy.convergence import ErrorCurve, error_curve
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
 from fenics_gears.studies.accuracy.refinement import BODY, NODES, STEPS, expected_orders
-from fenics_gears.studies.accuracy.runs import SharedGears
+from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, without_settings
 from fenics_gears.studies.accuracy_target.limits import Limits, Size, TargetNotReached
 from fenics_gears.studies.work import Ticking
@@ -46,7 +46,7 @@ class TrialRuns:
 
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
         self.scene = replace(without_settings(scene), output=Output(), motion=replace(scene.motion, recorded_cycles=1))
-        self._begun, self._tick, self._gears = begun, tick, SharedGears(KEPT_GEARS)
+        self._begun, self._tick, self._gears = begun, tick, shared_gears(KEPT_GEARS)
         self._limits = Limits(without_settings(scene), ELEMENT)
         self._unit, built = half_width(self.scene), model(self.scene)
         self.length = built.resolution.contact_grid.length
@@ -119,7 +119,7 @@ class TrialRuns:
     def _run(self, setting: Setting) -> None:
         self.runs += 1
         try:
-            run = self._gears.run(setting.of(self.scene), Ticking(self._tick))
+            run, _ = run_sharing(setting.of(self.scene), self._gears, Ticking(self._tick))
         except MemoryError:
             raise TargetNotReached(f"there is not enough memory for the run with {setting.words}") from None
         except GearsError as error:

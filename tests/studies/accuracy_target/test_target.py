@@ -186,10 +186,10 @@ def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
 
 def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
     """What the estimate did not foresee."""
-    def no_memory(kept, scene, progress):
+    def no_memory(scene, gears, progress):
         raise MemoryError
 
-    monkeypatch.setattr(trial_runs.SharedGears, "run", no_memory)
+    monkeypatch.setattr(trial_runs, "run_sharing", no_memory)
     with pytest.raises(TargetNotReached, match="not enough memory for the run with P2"):
         choose(scene, TARGET, SilentProgress())
 
