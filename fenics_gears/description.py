@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf, lcm
 
 from fenics_gears.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
-from fenics_gears.effects import EFFECTS, Effect, result_variables
+from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.model import Model, model
 from fenics_gears.scene.data import Scene
@@ -50,6 +51,7 @@ def describe(scene: Scene) -> Description:
     built = model(scene)
     sections = [("Gear pair", characteristics(built.pair)), ("Model", _model_rows(built)), ("Accuracy", _accuracy_rows(built))]
     if built.drivetrain.mass is not None:
+        sections.append(("Inertia", _inertia_rows(built)))
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(built)))
     sections.append(("Expected cost (about)", _cost_rows(built)))
     if built.warnings:
@@ -67,6 +69,26 @@ def _model_rows(built: Model) -> Rows:
         ("equations in time", _method(built), ""),
         ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
     ]
+
+
+def _inertia_rows(built: Model) -> Rows:
+    """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the line of action."""
+    from fenics_gears.dynamics.gear_inertia import lumped_gears
+
+    rows: Rows = []
+    along = []
+    for name, lumped in lumped_gears(built.scene, built.pair).items():
+        given = built.scene.inertia.of(name)
+        kinds = (("mass", "kg"), ("moment_of_inertia", "kg mm^2"))
+        for field, unit in kinds:
+            origin = "" if getattr(given, field) is not None else ", of its body by the density"
+            rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
+        along.append(lumped.moment_of_inertia / getattr(built.pair, name).base_radius ** 2)
+    load = built.scene.inertia.shaft_end if built.scene.shafts is not None else built.scene.inertia.load
+    if load is not None:
+        rows.append(("load moment of inertia", 1e3 * load, "kg mm^2, " + ("far end of the output shaft" if built.scene.shafts is not None else "with the wheel")))
+    rows.append(("reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)", 1e3 * along[0] * along[1] / sum(along), "kg, of both gears along the line of action"))
+    return rows
 
 
 def _method(built: Model) -> str:
@@ -101,8 +123,25 @@ def _accuracy_rows(built: Model) -> Rows:
         *(condensation if built.scene.tooth_elasticity is not None else []),
         ("steps per mesh cycle", resolution.steps_per_mesh_cycle, origin(asked.steps_per_mesh_cycle).lstrip(", ")),
         ("time step" if built.scene.speed_ramp is None else "time step, the longest", built.time_step, "s"),
-        ("steps", built.steps, f"the last {built.stored_steps} stored"),
+        ("steps", built.steps, _contact_fields(built)),
+        *_period_rows(built),
     ]
+
+
+def _contact_fields(built: Model) -> str:
+    """Of how many steps contact fields are stored."""
+    if not built.scene.resolves_contact:
+        return "curves of all stored"
+    return f"curves of all stored, contact fields of the last {built.contact_steps}" if built.contact_steps else "curves of all stored, no contact fields"
+
+
+def _period_rows(built: Model) -> Rows:
+    """How many mesh cycles pass until all that differs between them has been gone through."""
+    period, gears = common_period(built.scene), built.scene.gears
+    if period == inf:
+        return [("mesh cycles of the common period", "none", "no two cycles are alike")]
+    whole = period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth)
+    return [("mesh cycles of the common period", period, "every tooth has met every other" if whole else "all cycles are alike" if period == 1 else "")]
 
 
 def _frequency_rows(built: Model) -> Rows:

@@ -45,7 +45,7 @@ def remeshed(
         gears.append(
             remeshed_stiffness(
                 getattr(built.pair, name),
-                built.scene.gears.material,
+                built.scene.gears.material_of(name),
                 [both[number] for both in teeth],
                 element=resolution.element,
                 flank_element_size=resolution.flank_element_size,

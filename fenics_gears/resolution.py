@@ -7,14 +7,16 @@ action; the time step from the mesh cycle and the drivetrain's frequencies.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import ceil, inf, pi, sqrt
+from math import ceil, pi, sqrt
 
 import numpy as np
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.geometry.iso_6336 import PAIR_STIFFNESS, mean_youngs_modulus, mesh_stiffness
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
@@ -22,9 +24,7 @@ DEFAULT_ELEMENT = "P2"
 ELEMENTS_PER_HALF_WIDTH = 4.0
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
 FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
-# ISO 6336-1 puts the stiffness of a steel tooth pair near 14 N/(mm um), in parts of Young's modulus; half of it bounds the
-# deflection from above.
-PAIR_STIFFNESS = 14e3 / 206e3
+# Half of the rough stiffness of a pair bounds its deflection from above.
 LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
 HALF_WIDTHS_BESIDE = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
@@ -69,7 +69,7 @@ class Resolution:
 def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:
     """Half-width (mm) of a Hertz line contact: sqrt(4 F' R / (pi E*)); Johnson, Contact Mechanics, 1985, eq. 4.43.
 
-    `line_load` N/mm; `relative_radius` mm; `plane_modulus` MPa: E* with 1/E* = 2 (1 - nu^2)/E for equal materials.
+    `line_load` N/mm; `relative_radius` mm; `plane_modulus` MPa: E*, see `plane_contact_modulus`.
     """
     return sqrt(4.0 * line_load * relative_radius / (pi * plane_modulus))
 
@@ -80,9 +80,15 @@ def relative_radius(pair: GearPair, xi: float) -> float:
 
 
 def plane_contact_modulus(scene: Scene) -> float:
-    """E* (MPa) of two gears of the scene's material."""
-    material = scene.gears.material
-    return 0.5 * material.youngs_modulus / (1.0 - material.poissons_ratio**2)
+    """E* (MPa) of the two gears, for the line load over the width at which they meet.
+
+    1/E* is the sum of (1 - nu^2)/E; a gear of a larger width spreads the load over that.
+    """
+    (first, second), widths = scene.gears.materials, scene.gears.face_widths
+    if first == second and widths[0] == widths[1]:
+        return 0.5 * first.youngs_modulus / (1.0 - first.poissons_ratio**2)
+    shares = [scene.gears.face_width / width for width in widths]
+    return 1.0 / sum(share * (1.0 - each.poissons_ratio**2) / each.youngs_modulus for share, each in zip(shares, (first, second)))
 
 
 def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
@@ -124,7 +130,7 @@ def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
 
 def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: float, size: float) -> float:
     """Window (mm) outside which nothing touches: there the flanks' own curvature opens more than the teeth deflect."""
-    deflection = line_load / (LEAST_PAIR_STIFFNESS * scene.gears.material.youngs_modulus)
+    deflection = line_load / (LEAST_PAIR_STIFFNESS * mean_youngs_modulus(scene.gears))
     middle = 0.5 * pair.line_of_action_length
     widest = max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end)))
     wanted = 2.0 * (sqrt(2.0 * widest * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
@@ -140,13 +146,6 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
     highest = natural_frequencies(drivetrain, mesh_stiffness(scene))[-1]
     wanted = ceil(STEPS_PER_PERIOD * highest / scene.mesh_frequencies[0])
     return int(np.clip(wanted, STEPS_PER_MESH_CYCLE, MOST_STEPS_PER_MESH_CYCLE))
-
-
-def mesh_stiffness(scene: Scene) -> float:
-    """Rough stiffness (N/mm) of one tooth pair along the line of action; ISO 6336-1, about 14 N/(mm um) for steel; infinite if rigid."""
-    if scene.tooth_elasticity is None:
-        return inf
-    return PAIR_STIFFNESS * scene.gears.material.youngs_modulus * scene.gears.face_width
 
 
 def resolution_warnings(resolution: Resolution) -> list[str]:
@@ -172,11 +171,12 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
     return found
 
 
-def locking_warnings(resolution: Resolution, material: Material | None) -> list[str]:
+def locking_warnings(resolution: Resolution, materials: Sequence[Material] | None) -> list[str]:
     """A sentence on an element that locks in a nearly incompressible material."""
-    if material is None or resolution.element not in LOCKING_ELEMENTS or material.poissons_ratio <= LOCKING_POISSONS_RATIO:
+    largest = max((material.poissons_ratio for material in materials or ()), default=-1.0)
+    if resolution.element not in LOCKING_ELEMENTS or largest <= LOCKING_POISSONS_RATIO:
         return []
     return [
-        f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is {material.poissons_ratio:g}, "
+        f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is {largest:g}, "
         f"above {LOCKING_POISSONS_RATIO}): the teeth are too stiff; choose accuracy.element P2 or Q2"
     ]

@@ -18,6 +18,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model import Model, model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.resolution import ONCE
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.results.stored_forces import StoredForces, stored_forces
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation import gear_compliances, mesh_cycle
@@ -64,14 +65,15 @@ class GearsInMesh:
 
 
 class RunStresses:
-    """Displacement and stress of both gears at any stored step of a result. Use it in a `with`, or `close` it.
+    """Displacement and stress of both gears at any step of a result whose contact fields are stored. Use it in a `with`, or `close` it.
 
     scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """
 
     def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None):
-        self.result, self.built = result, model(scene)
+        self.built = model(scene)
         self._check()
+        self.result = contact_times(result)
         cache = cache if cache is not None else user_cache()
         self.cycle: Cycle = mesh_cycle(self.built, gear_compliances(self.built, SilentProgress(), cache))
         self.recoveries = tuple(recovery_of(self.built, gear) for gear in (0, 1))
@@ -117,7 +119,7 @@ class RunStresses:
         about_centre = np.vstack([local @ turn.T for turn in turns])
         elastic = np.vstack([moved @ turn.T for moved, turn in zip(body.displacement, turns)])
         stress = np.vstack([turned_stress(sector, angle) for sector, angle in zip(body.stress, angles)])
-        across = self.built.scene.gears.material.poissons_ratio * (stress[:, 0] + stress[:, 1])
+        across = self.built.scene.gears.materials[gear].poissons_ratio * (stress[:, 0] + stress[:, 1])
         rigid = motion[:2] + motion[2] * np.column_stack([-about_centre[:, 1], about_centre[:, 0]])
         cells, outline = whole_cells(recovery)
         return GearInSpace(centre + about_centre, cells, outline, centre, elastic, elastic + rigid, np.column_stack([stress, across]))
@@ -140,7 +142,7 @@ def recovery_of(built: Model, gear: int) -> GearRecovery:
     """The recovery of a gear of a model, on the mesh of its compliance."""
     return gear_recovery(
         (built.pair.pinion, built.pair.wheel)[gear],
-        built.scene.gears.material,
+        built.scene.gears.materials[gear],
         element=built.resolution.element,
         flank_element_size=built.resolution.flank_element_size,
         body_element_size=built.resolution.body_element_size,

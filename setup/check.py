@@ -12,7 +12,7 @@ NEEDED = (
     "numpy", "scipy", "cvxopt", "numba", "h5py", "h5netcdf", "xarray", "pydantic", "pint", "rich", "platformdirs",
     "matplotlib", "threadpoolctl", "jinja2", "plotly",
 )
-NEEDED_BY_TESTS = ("pytest", "pytest_benchmark", "hypothesis", "sphinx", "myst_parser", "furo")
+NEEDED_BY_TESTS = ("pytest", "pytest_benchmark", "xdist", "hypothesis", "sphinx", "myst_parser", "furo")
 
 
 def lacking(names):

@@ -1,11 +1,18 @@
 """What tests of several folders share: the paper's pair, with and without finite elements."""
 
 import os
+import shutil
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 
 # BLAS sums in another order with other numbers of threads; programs that tests start shall have the same bits as the tests' own process.
 os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+# Gears are condensed once for all tests, workers and programs that they start, and never taken from what a user's runs have kept.
+IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
+if not IS_WORKER:
+    os.environ["FENICS_GEARS_CACHE"] = tempfile.mkdtemp(prefix="fenics_gears_tests_")
+SUITE_CACHE = Path(os.environ["FENICS_GEARS_CACHE"])
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -25,6 +32,21 @@ settings.register_profile("explore", deadline=None, suppress_health_check=PATIEN
 settings.load_profile("suite")
 
 DEMOS = Path(__file__).parents[1] / "demos"
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config):
+    """Two processes for the whole suite, each a file at a time; tests that are named, and `-n` of one's own, are left as they are."""
+    options = config.option
+    is_whole = config.args == config.getini("testpaths") and not (options.collectonly or options.usepdb)
+    if is_whole and getattr(options, "numprocesses", 0) is None and len(os.sched_getaffinity(0)) > 1:
+        options.numprocesses, options.dist, options.benchmark_disable = 2, "loadfile", True
+
+
+def pytest_unconfigure():
+    """The suite's own cache goes with it."""
+    if not IS_WORKER:
+        shutil.rmtree(SUITE_CACHE, ignore_errors=True)
 
 
 @pytest.fixture(scope="session", autouse=True)

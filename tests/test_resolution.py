@@ -8,13 +8,13 @@ import pytest
 from fenics_gears.description import describe
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
+from fenics_gears.geometry.iso_6336 import mesh_stiffness
 from fenics_gears.model import model
 from fenics_gears.resolution import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     MOST_STEPS_PER_MESH_CYCLE,
     hertz_half_width,
-    mesh_stiffness,
     resolve,
 )
 from fenics_gears.scene.data import Accuracy

@@ -12,7 +12,7 @@ from fenics_gears import load_scene, results
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.model import model
-from fenics_gears.resolution import mesh_stiffness
+from fenics_gears.geometry.iso_6336 import mesh_stiffness
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 

@@ -6,7 +6,9 @@ phase `i / steps`. All teeth being alike, the equations at a phase are the same 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,12 +34,22 @@ class Position:
 
 def pair_places(
     pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False, corner: CornerContact | None = None
-) -> list[Place]:
+) -> tuple[Place, ...]:
     """Every pair of flanks whose window is not empty at `phase` (0 <= phase < 1): drive flanks, then coast flanks if asked for.
 
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips touch by
     their edges too; places are theoretical ones all the same.
     """
+    # Asked for by the reach of teeth, the memory of a result and the cycle itself; edges of tips are no key.
+    return _pair_places(pair, grid, phase, coast_flanks) if corner is None else _places(pair, grid, phase, coast_flanks, corner)
+
+
+@lru_cache(maxsize=4096)
+def _pair_places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool) -> tuple[Place, ...]:
+    return _places(pair, grid, phase, coast_flanks, None)
+
+
+def _places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool, corner: CornerContact | None) -> tuple[Place, ...]:
     half = 0.5 * grid.length
 
     def can_touch(place: Place) -> bool:
@@ -53,7 +65,7 @@ def pair_places(
     candidates = range(-reach, int(np.ceil(pair.contact_ratio)) + reach)
     sides = (drive_place, coast_place) if coast_flanks else (drive_place,)
     places = (side(pair, k, pair.path_start + (phase + k) * pair.base_pitch) for side in sides for k in candidates)
-    return [place for place in places if can_touch(place)]
+    return tuple(place for place in places if can_touch(place))
 
 
 def tooth_reach(
@@ -62,7 +74,7 @@ def tooth_reach(
     """How far apart flanks are that interact at a step, from the step before it, or between both."""
     places = [pair_places(pair, grid, step / steps, coast_flanks, corner) for step in range(steps)]
     # Every pair's index rises by one with the end of a cycle. What touches between two steps touches at one of them too.
-    before = [[replace(place, index=place.index + 1) for place in places[-1]], *places[:-1]]
+    before = [tuple(replace(place, index=place.index + 1) for place in places[-1]), *places[:-1]]
     teeth: dict[int, set[int]] = {DRIVE: {0}, COAST: set()}
     for near in (now + earlier for now, earlier in zip(places, before)):
         for gear in range(2):
@@ -71,6 +83,15 @@ def tooth_reach(
                     if one.flank <= other.flank:
                         teeth[other.flank - one.flank].add(one.ahead(gear) - other.ahead(gear))
     return Reach(max(teeth[DRIVE]), (min(teeth[COAST]), max(teeth[COAST])) if teeth[COAST] else None)
+
+
+def pairs_at_once(positions: Iterable[Iterable[Place]]) -> int:
+    """How many tooth pairs, one after the other, can touch at once at any of some positions, drive and coast flank of a pair counted once."""
+    spans = [0]
+    for places in positions:
+        indices = [place.index for place in places]
+        spans += [max(indices) - min(indices) + 1] if indices else []
+    return max(spans)
 
 
 class Cycle:

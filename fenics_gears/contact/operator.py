@@ -122,7 +122,7 @@ class CompliancePairing:
 
     def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None):
         """`kept`: where blocks of either gear, over the face width, are kept; pairings of the same bodies may share it."""
-        self._width, self._gears = flanks.pair.face_width, flanks.compliance
+        self._widths, self._gears = flanks.pair.face_widths, flanks.compliance
         self._blocks = ({}, {}) if kept is None else kept
 
     def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
@@ -131,7 +131,7 @@ class CompliancePairing:
         sides = responding.place.flank, loaded.place.flank
         key = body.key(*teeth), *sides
         if key not in blocks:
-            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides)) / self._width
+            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides)) / self._widths[gear]
         return blocks[key]
 
     def product(

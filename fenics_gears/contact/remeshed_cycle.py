@@ -68,8 +68,8 @@ class RemeshedCycle(Cycle):
         return RemeshedPosition(operator, carried, index, partial(self._own_stiffness, index))
 
     def _own_stiffness(self, index: int) -> tuple[np.ndarray, np.ndarray]:
-        pairs, width = self.pairs_at(index), self.pair.face_width
-        return tuple(by_direction(width * self.stiffness[index][gear], pairs, gear) for gear in GEARS)
+        pairs, widths = self.pairs_at(index), self.pair.face_widths
+        return tuple(by_direction(widths[gear] * self.stiffness[index][gear], pairs, gear) for gear in GEARS)
 
     def _compliance(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         """Flank compliance of either gear, hub held."""

@@ -5,18 +5,22 @@ Rotations are carried as arc lengths rb phi (mm), so that all coordinates are le
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES
+from fenics_gears.effects.damping import RAYLEIGH
+from fenics_gears.effects.shafts import Shafts
+from fenics_gears.geometry.iso_6336 import mesh_stiffness
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.effects.inertia import Inertia
 from fenics_gears.scene.data import Scene
 
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 # Each centre's translations: of which gear, in which direction.
 TRANSLATIONS = {"centre_x1": ("pinion", "x"), "centre_y1": ("pinion", "y"), "centre_x2": ("wheel", "x"), "centre_y2": ("wheel", "y")}
+# Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
+SIDE = {name: gear for name, (gear, _) in TRANSLATIONS.items()} | {"rotation_1": "pinion", "rotation_2": "wheel", "shaft_twist": "wheel"}
 
 
 @dataclass(frozen=True)
@@ -84,15 +88,13 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
         for name, (gear, direction) in TRANSLATIONS.items():
             stiffness[names.index(name), names.index(name)] = scene.bearings.of(gear, direction)
     if scene.shafts is not None:
-        _add_torsion(stiffness, names, scene.shafts.torsional_stiffness)
+        _add_torsion(stiffness, names, scene.shafts)
     if scene.inertia is not None:
-        mass = _mass(names, scene.inertia)
+        mass = _mass(names, scene, pair)
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
-    damping = None
-    if scene.damping is not None and mass is not None:
-        damping = scene.damping.stiffness_proportional * stiffness + scene.damping.mass_proportional * mass
-    return Drivetrain(names, radii, stiffness, of_couple(names, radii, scene.load.wheel_torque), mass, damping)
+    undamped = Drivetrain(names, radii, stiffness, of_couple(names, radii, scene.load.wheel_torque), mass, damping=None)
+    return undamped if scene.damping is None or mass is None else replace(undamped, damping=_damping(scene, undamped))
 
 
 def of_couple(names: tuple[str, ...], radii: np.ndarray, couple: float) -> np.ndarray:
@@ -109,17 +111,35 @@ def _moving_coordinates(scene: Scene) -> tuple[str, ...]:
     return tuple(name for name in CENTRE_COORDINATES if name in moving)
 
 
-def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], torsional_stiffness: float) -> None:
+def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], shafts: Shafts) -> None:
     """Input shaft between the prescribed rotation and phi1; output shaft, whose twist is phi3 - phi2 [4]-[6]."""
-    for name in ("rotation_1", "shaft_twist"):
-        stiffness[names.index(name), names.index(name)] += torsional_stiffness
+    for name, shaft in (("rotation_1", "input"), ("shaft_twist", "output")):
+        stiffness[names.index(name), names.index(name)] += shafts.of(shaft)
 
 
-def _mass(names: tuple[str, ...], inertia: Inertia) -> np.ndarray:
-    """Lumped masses; J phi3'' with phi3 = phi2 + twist couples the wheel's rotation with the twist."""
-    mass = np.diag([inertia.mass if name in TRANSLATIONS else inertia.moment_of_inertia for name in names])
+def _mass(names: tuple[str, ...], scene: Scene, pair: GearPair) -> np.ndarray:
+    """Lumped masses; J3 phi3'' with phi3 = phi2 + twist couples the wheel's rotation with the twist."""
+    from fenics_gears.dynamics.gear_inertia import lumped_gears
+
+    gears, end = lumped_gears(scene, pair), scene.inertia.shaft_end
+    lumped = {name: gears[gear].mass if name in TRANSLATIONS else gears[gear].moment_of_inertia for name, gear in SIDE.items()}
+    mass, second = np.diag([lumped[name] for name in names]), names.index("rotation_2")
     if "shaft_twist" in names:
-        second, twist = names.index("rotation_2"), names.index("shaft_twist")
-        mass[second, second] += inertia.moment_of_inertia
-        mass[second, twist] = mass[twist, second] = inertia.moment_of_inertia
+        twist = names.index("shaft_twist")
+        mass[twist, twist] = end
+        mass[second, second] += end
+        mass[second, twist] = mass[twist, second] = end
+    elif scene.inertia.load is not None:
+        mass[second, second] += scene.inertia.load
     return mass
+
+
+def _damping(scene: Scene, undamped: Drivetrain) -> np.ndarray:
+    """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh."""
+    if scene.damping.ratios:
+        from fenics_gears.dynamics.modal_damping import modal_damping
+
+        return modal_damping(undamped, mesh_stiffness(scene), scene.damping.ratios)
+    # No spring and no mass joins both sides of the mesh: a row's factors are its column's too.
+    alpha, beta = (np.array([[scene.damping.of(SIDE[name], each)] for name in undamped.coordinates]) for each in RAYLEIGH)
+    return alpha * undamped.stiffness + beta * undamped.mass

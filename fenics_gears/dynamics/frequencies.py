@@ -45,12 +45,12 @@ class Vibration:
 
 def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float) -> np.ndarray:
     """Natural frequencies (k,), Hz, ascending, of a drivetrain with inertia and a mesh stiffness (N/mm)."""
-    return _modes(drivetrain, mesh_stiffness)[0]
+    return modes(drivetrain, mesh_stiffness)[0]
 
 
 def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = False) -> list[Vibration]:
     """The elastic modes by frequency; `friction`: whether contact also pulls across the line of action."""
-    frequencies, shapes = _modes(drivetrain, mesh_stiffness)
+    frequencies, shapes = modes(drivetrain, mesh_stiffness)
     directions = [MESH_DIRECTION, ACROSS_DIRECTION] if friction else [MESH_DIRECTION]
     moved = np.abs([[direction.get(name, 0.0) for name in drivetrain.coordinates] for direction in directions] @ shapes).max(axis=0)
     if np.isinf(mesh_stiffness):
@@ -65,8 +65,8 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
     ]
 
 
-def _modes(drivetrain: Drivetrain, mesh_stiffness: float) -> tuple[np.ndarray, np.ndarray]:
-    """Natural frequencies (k,), Hz, and shapes (k, k), one a column, of modal mass 1."""
+def modes(drivetrain: Drivetrain, mesh_stiffness: float) -> tuple[np.ndarray, np.ndarray]:
+    """Natural frequencies (k,), Hz, ascending, and shapes (k, k), one a column, of modal mass 1."""
     normal = np.array([MESH_DIRECTION.get(name, 0.0) for name in drivetrain.coordinates])
     if np.isinf(mesh_stiffness):
         return _tied_modes(drivetrain, normal)

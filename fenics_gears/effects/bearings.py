@@ -9,9 +9,9 @@ from typing import Optional
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.scene.fields import Section, quantity
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
+from fenics_gears.scene.tree import GEARS, Tree, table
 
-GEARS, DIRECTIONS = ("pinion", "wheel"), ("x", "y")
+DIRECTIONS = ("x", "y")
 
 
 @dataclass(frozen=True)
@@ -100,8 +100,8 @@ EFFECT = Effect(
     unknowns=("two displacements of each centre",),
     terms=("translational springs",),
     variables=(
-        ResultVariable("centre_x", "mm", "displacement of the centre along the line of action"),
-        ResultVariable("centre_y", "mm", "displacement of the centre off the line of action"),
+        ResultVariable("centre_x", "mm", "displacement of the centre along the line of action", dims=("time", "gear")),
+        ResultVariable("centre_y", "mm", "displacement of the centre off the line of action", dims=("time", "gear")),
         ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
     ),
     read=read,

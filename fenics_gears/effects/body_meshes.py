@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import lcm
 from pathlib import Path
 from typing import Optional
 
@@ -117,7 +118,7 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
     body = _body(meshes, name, model.pair, resolution.element)
     # Forces one tooth beyond those that interact still open or close a crack.
     return whole_body_compliance(
-        body.mesh, gear, model.scene.gears.material, element=resolution.element, tooth_offsets=reach.same + 1, cache=cache
+        body.mesh, gear, model.scene.gears.material_of(name), element=resolution.element, tooth_offsets=reach.same + 1, cache=cache
     )
 
 
@@ -132,11 +133,28 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     return 2 * len(element_nodes(_body(meshes, name, model.pair, element).mesh, element_named(element)).points)
 
 
-def findings(meshes: BodyMeshes, cycle, records) -> list[str]:
+def watched(meshes: BodyMeshes, cycle, records) -> dict:
+    """Smallest and largest openings (steps,), mm, of the cracks of either gear."""
+    from fenics_gears.results.crack_openings import crack_openings
+
+    return crack_openings(cycle, records)
+
+
+def findings(meshes: BodyMeshes, watched) -> list[str]:
     """Sentences on cracks that a run would have closed."""
     from fenics_gears.results.crack_openings import closed_cracks
 
-    return closed_cracks(cycle, records)
+    return closed_cracks(watched)
+
+
+def period(meshes: BodyMeshes, scene) -> int:
+    """Mesh cycles of whole turns of the gears meshed as a whole."""
+    return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if getattr(meshes, name) is not None))
+
+
+def given_mesh(meshes: BodyMeshes, name: str, pair, element: str):
+    """The mesh (``elasticity.mesh_data.BodyMesh``) of a gear that has one of its own."""
+    return _body(meshes, name, pair, element).mesh
 
 
 def _body(meshes: BodyMeshes, name: str, pair, element: str):
@@ -162,5 +180,7 @@ EFFECT = Effect(
     warnings=warnings,
     elasticity=elasticity,
     unknowns_of=unknowns_of,
+    watched=watched,
     findings=findings,
+    period=period,
 )

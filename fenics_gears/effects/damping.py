@@ -1,55 +1,144 @@
-"""``[damping]``: Rayleigh damping of each shaft (``dynamics.drivetrain``)."""
+"""``[damping]``: Rayleigh damping of each shaft (``dynamics.drivetrain``), or damping ratios of the modes (``dynamics.modal_damping``)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, quantity
+from fenics_gears.scene.fields import Section, number, numbers, quantity
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, quantity_in, table
+from fenics_gears.scene.tree import GEARS, Tree, material_sections, quantity_in, table
 from fenics_gears.scene.written import as_written
+
+RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 
 
 @dataclass(frozen=True)
-class Damping:
-    """Rayleigh damping of each shaft: alpha K + beta M, alpha in s, beta in 1/s."""
+class Rayleigh:
+    """Rayleigh damping of a shaft with its gear: alpha K + beta M, alpha in s, beta in 1/s; None as of both shafts."""
 
-    stiffness_proportional: float
-    mass_proportional: float
+    stiffness_proportional: float | None = None
+    mass_proportional: float | None = None
+
+
+@dataclass(frozen=True)
+class Damping(Rayleigh):
+    """Rayleigh damping of both shafts and what `pinion` and `wheel`, each with its shaft, have of their own; or `ratios` alone.
+
+    `ratios`: of the critical damping, by mode from the lowest frequency on; the last holds for all that follow.
+    """
+
+    pinion: Rayleigh | None = None
+    wheel: Rayleigh | None = None
+    ratios: tuple[float, ...] = ()
+
+    def of(self, gear: str, name: str) -> float:
+        """`name` of alpha and beta, of the shaft of the "pinion" or of the "wheel"."""
+        own = getattr(getattr(self, gear), name, None)
+        return getattr(self, name) if own is None else own
+
+
+def _stiffness_proportional(otherwise: str):
+    return quantity("0 s", "1e3 s", "0.4e-3 s", meaning="alpha of alpha K + beta M", otherwise=otherwise)
+
+
+def _mass_proportional(otherwise: str):
+    return quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s", meaning="beta of alpha K + beta M", otherwise=otherwise)
+
+
+class RayleighText(Section):
+    """``[damping.pinion]`` (with bearings and input shaft) and ``[damping.wheel]``; what is left out is taken from ``[damping]``."""
+
+    stiffness_proportional: Optional[float] = _stiffness_proportional("as of both gears")
+    mass_proportional: Optional[float] = _mass_proportional("as of both gears")
 
 
 class DampingText(Section):
-    """``[damping]``."""
+    """``[damping]``: Rayleigh damping, alike for both shafts where neither has its own, or ratios of the critical damping."""
 
-    stiffness_proportional: float = quantity("0 s", "1e3 s", "0.4e-3 s", meaning="alpha of alpha K + beta M")
-    mass_proportional: float = quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s", meaning="beta of alpha K + beta M")
+    stiffness_proportional: Optional[float] = _stiffness_proportional("each gear's own, or `ratio`")
+    mass_proportional: Optional[float] = _mass_proportional("each gear's own, or `ratio`")
+    ratio: Optional[float] = number(
+        0.05, meaning="damping ratio of every mode of the drivetrain with one tooth pair in mesh", above=0, below=1, otherwise="`ratios`, or Rayleigh damping"
+    )
+    ratios: Optional[tuple[float, ...]] = numbers(
+        0.0, 0.999, 0.05, meaning="damping ratios by mode from the lowest frequency on; the last holds for all that follow",
+        otherwise="`ratio`, or Rayleigh damping",
+    )  # fmt: skip
+    pinion: Optional[RayleighText] = None
+    wheel: Optional[RayleighText] = None
+
+
+def read(text: DampingText) -> Damping:
+    """Damping of both shafts beside what either has of its own, or ratios."""
+    own = {gear: getattr(text, gear) for gear in GEARS}
+    return Damping(
+        *(getattr(text, name) for name in RAYLEIGH),
+        **{gear: None if each is None else Rayleigh(*(getattr(each, name) for name in RAYLEIGH)) for gear, each in own.items()},
+        ratios=text.ratios or ((float(text.ratio),) if text.ratio is not None else ()),
+    )
 
 
 def damping_acts(tree: Tree) -> Iterator[Problem]:
-    """Damping must not be zero, nor proportional to a stiffness that is not there."""
+    """Damping is given in one way and whole, is not zero, and not proportional to a stiffness that is not there."""
     damping = table(tree, "damping")
     if damping is None:
         return
-    values = {name: quantity_in(damping.get(name)) for name in ("stiffness_proportional", "mass_proportional")}
-    if values["mass_proportional"] != 0 or values["stiffness_proportional"] is None:
+    modal, rayleigh = ([name for name in names if name in damping] for names in (MODAL, (*RAYLEIGH, *GEARS)))
+    if modal:
+        for name in [*rayleigh, *modal[1:]]:
+            message = f"stands beside {modal[0]}; allowed is one of the two. Leave one out."
+            yield Problem(("damping", name), as_written(damping[name]) or "", message)
+        ratios = damping.get("ratios")
+        if isinstance(ratios, list) and ratios and not any(ratios):
+            yield Problem(("damping", "ratios"), as_written(ratios), "damps nothing: all are zero. For an undamped pair, leave the section [damping] out.")
+        if not (material_sections(tree) or {"shafts", "bearings"} & set(tree)):
+            message = "damps nothing: between rigid flanks nothing vibrates without [shafts] or [bearings]. Add one of them, or [gears.material]."
+            yield Problem(("damping", modal[0]), as_written(damping[modal[0]]), message)
         return
-    if values["stiffness_proportional"] == 0:
+    yield from _rayleigh_is_complete(damping)
+    yield from _rayleigh_acts(tree, damping)
+
+
+_MISSING = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1/s"}
+
+
+def _rayleigh_is_complete(damping: Tree) -> Iterator[Problem]:
+    for name, example in _MISSING.items():
+        gears = [gear for gear in GEARS if name not in {*damping, *(table(damping, gear) or {})}]
+        if gears:
+            path = ("damping", name) if len(gears) == 2 else ("damping", *gears, name)
+            other = "ratio = 0.05 alone, of every mode" if len(gears) == 2 else f"{name} of [damping] for both gears"
+            yield Problem(path, None, f'is missing. Allowed: such as "{example}"; or {other}.')
+
+
+def _rayleigh_acts(tree: Tree, damping: Tree) -> Iterator[Problem]:
+    written = [(path, section) for path, section in ((("damping",), damping), *((("damping", gear), table(damping, gear) or {}) for gear in GEARS))]
+    values = {name: {path: quantity_in(section[name]) for path, section in written if name in section} for name in RAYLEIGH}
+    of_stiffness, of_mass = (values[name] for name in RAYLEIGH)
+    # A value that cannot be read is another's problem.
+    if any(value != 0 for value in of_mass.values()) or not of_stiffness or None in of_stiffness.values():
+        return
+    if not any(of_stiffness.values()):
         yield Problem(("damping",), "", "damps nothing: both values are zero. For an undamped pair, leave the section [damping] out.")
     elif "shafts" not in tree and "bearings" not in tree:
         message = "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or allow a mass_proportional value above 0."
-        yield Problem(("damping", "stiffness_proportional"), as_written(damping["stiffness_proportional"]), message)
+        path = next(path for path, value in of_stiffness.items() if value)
+        section = dict(written)[path]
+        yield Problem((*path, "stiffness_proportional"), as_written(section["stiffness_proportional"]), message)
 
 
 EFFECT = Effect(
     section="damping",
-    description="Rayleigh damping of each shaft",
+    description="Rayleigh damping of each shaft, or damping ratios of the modes",
     absent="undamped",
     text=DampingText,
     data=Damping,
-    terms=("damping forces, stiffness- and mass-proportional",),
+    terms=("damping forces: stiffness- and mass-proportional, or by mode",),
     variables=(ResultVariable("work_damping", "N mm", "work that damping takes"),),
     needs=("inertia",),
+    read=read,
     rules=damping_acts,
 )

@@ -1,26 +1,142 @@
-"""``[inertia]``: mass and moment of inertia; the march in time becomes dynamic (``dynamics``)."""
+"""``[inertia]``: mass and moment of inertia of each gear and of what the output shaft drives; the march in time becomes dynamic (``dynamics``)."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.scene.fields import Section, quantity
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import GEARS, Tree, table
+from fenics_gears.scene.written import as_written
+
+LUMPED = ("mass", "moment_of_inertia")
 
 
 @dataclass(frozen=True)
-class Inertia:
-    """Mass of a gear, N s^2/mm, and moment of inertia, N mm s^2; one value for both gears."""
+class GearInertia:
+    """Mass, N s^2/mm, and moment of inertia, N mm s^2, of a gear; where one is None, it is that of its body of `density`, N s^2/mm^4."""
 
-    mass: float
-    moment_of_inertia: float
+    mass: float | None = None
+    moment_of_inertia: float | None = None
+    density: float | None = None
+
+
+@dataclass(frozen=True)
+class Inertia(GearInertia):
+    """Of both gears, what `pinion` and `wheel` have of their own, and the moment of inertia of the `load` (None: as of both gears)."""
+
+    pinion: GearInertia | None = None
+    wheel: GearInertia | None = None
+    load: float | None = None
+
+    def of(self, gear: str) -> GearInertia:
+        """What the "pinion" or the "wheel" has; of its own, by its own density, or as of both."""
+        own = getattr(self, gear) or GearInertia()
+        if own.density is not None:
+            return own
+        return GearInertia(*(getattr(self if getattr(own, name) is None else own, name) for name in LUMPED), self.density)
+
+    @property
+    def shaft_end(self) -> float | None:
+        """Moment of inertia (N mm s^2) at the far end of the output shaft."""
+        return self.moment_of_inertia if self.load is None else self.load
+
+
+def _mass(meaning: str, otherwise: str):
+    return quantity("1e-9 kg", "1e9 kg", "4.9 kg", meaning=meaning, otherwise=otherwise)
+
+
+def _moment_of_inertia(meaning: str, otherwise: str = ""):
+    return quantity("1e-15 kg m^2", "1e15 kg m^2", "24.5e-3 kg m^2", meaning=meaning, otherwise=otherwise)
+
+
+def _density(otherwise: str):
+    meaning = "density of the body: teeth, rim and all between bore and tip over the gear's own face width, without shaft"
+    return quantity("1e-6 g/cm^3", "1e6 g/cm^3", "7.85 g/cm^3", meaning=meaning, otherwise=otherwise)
+
+
+class GearInertiaText(Section):
+    """``[inertia.pinion]`` and ``[inertia.wheel]``; what is left out follows from the gear's own density, or is as in ``[inertia]``."""
+
+    mass: Optional[float] = _mass("mass of this gear, with its shaft", "as of both gears")
+    moment_of_inertia: Optional[float] = _moment_of_inertia("moment of inertia of this gear", "as of both gears")
+    density: Optional[float] = _density("as of both gears")
+
+
+class LoadInertiaText(Section):
+    """``[inertia.load]``: what the output shaft drives; without ``[shafts]`` it turns with the wheel."""
+
+    moment_of_inertia: float = _moment_of_inertia("moment of inertia at the far end of the output shaft")
 
 
 class InertiaText(Section):
-    """``[inertia]``: lumped at the centres, alike for both gears."""
+    """``[inertia]``: lumped at the centres, alike for both gears where neither has its own; the input shaft's far end turns as prescribed."""
 
-    mass: float = quantity("1e-9 kg", "1e9 kg", "4.9 kg", meaning="mass of a gear, with its shaft")
-    moment_of_inertia: float = quantity(
-        "1e-15 kg m^2", "1e15 kg m^2", "24.5e-3 kg m^2", meaning="moment of inertia of a gear, and of the output shaft's end"
+    mass: Optional[float] = _mass("mass of a gear, with its shaft", "by the density, or each gear's own")
+    moment_of_inertia: Optional[float] = _moment_of_inertia(
+        "moment of inertia of a gear, and of the output shaft's far end where `[inertia.load]` does not say", "by the density, or each gear's own"
     )
+    density: Optional[float] = _density("mass and moment of inertia are given")
+    pinion: Optional[GearInertiaText] = None
+    wheel: Optional[GearInertiaText] = None
+    load: Optional[LoadInertiaText] = None
+
+
+def read(text: InertiaText) -> Inertia:
+    """What both gears have, beside what either and the load have of their own."""
+    own = {gear: getattr(text, gear) for gear in GEARS}
+    return Inertia(
+        text.mass, text.moment_of_inertia, text.density,
+        **{gear: None if each is None else GearInertia(each.mass, each.moment_of_inertia, each.density) for gear, each in own.items()},
+        load=None if text.load is None else text.load.moment_of_inertia,
+    )  # fmt: skip
+
+
+def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
+    """Either gear has mass and moment of inertia, in one way; the far end of an output shaft has a moment of inertia."""
+    both = table(tree, "inertia")
+    if both is None:
+        return
+    if "motor" in both:
+        message = (
+            "has no effect: the far end of the input shaft turns as prescribed, as behind a motor of any inertia whose speed is held. "
+            "Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft [shafts.input] lets the pinion's side swing."
+        )
+        yield Problem(("inertia", "motor"), "", message)
+    yield from _density_stands_alone(both)
+    missing = {name: [gear for gear in GEARS if not _given(both, gear, name)] for name in LUMPED}
+    for name, gears in missing.items():
+        if gears:
+            path = ("inertia", name) if len(gears) == 2 else ("inertia", *gears, name)
+            yield Problem(path, None, _MISSING[name].format(place="" if len(gears) == 2 else ", here or in [inertia] for both gears"))
+    if "shafts" in tree and not missing["moment_of_inertia"] and not {"moment_of_inertia", "load"} & set(both):
+        message = (
+            "is missing: the far end of the output shaft turns by itself and needs a moment of inertia of its own, which no gear's tells. "
+            'Allowed: such as "24.5e-3 kg m^2", or leave [shafts] out.'
+        )
+        yield Problem(("inertia", "load", "moment_of_inertia"), None, message)
+
+
+_MISSING = {
+    "mass": 'is missing. Allowed: such as "4.9 kg"{place}; or density = "7.85 g/cm^3", from which it is computed.',
+    "moment_of_inertia": 'is missing. Allowed: such as "24.5e-3 kg m^2"{place}; or density = "7.85 g/cm^3", from which it is computed.',
+}
+
+
+def _density_stands_alone(both: Tree) -> Iterator[Problem]:
+    """In one section a density stands beside neither of what follows from it."""
+    for path, section in ((("inertia",), both), *((("inertia", gear), table(both, gear) or {}) for gear in GEARS)):
+        beside = [name for name in LUMPED if name in section]
+        if "density" in section and beside:
+            message = f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or {' and '.join(beside)}."
+            yield Problem((*path, "density"), as_written(section["density"]), message)
+
+
+def _given(both: Tree, gear: str, name: str) -> bool:
+    return bool({*both, *(table(both, gear) or {})} & {name, "density"})
 
 
 EFFECT = Effect(
@@ -31,4 +147,6 @@ EFFECT = Effect(
     data=Inertia,
     terms=("inertia forces, average acceleration in time",),
     variables=(ResultVariable("energy_kinetic", "N mm", "kinetic energy"),),
+    read=read,
+    rules=inertia_is_complete,
 )

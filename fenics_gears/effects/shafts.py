@@ -1,24 +1,75 @@
 """``[shafts]``: torsion of the input and the output shaft (``dynamics.drivetrain``)."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.scene.fields import Section, quantity
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import Tree, table
+
+SHAFTS = ("input", "output")
+
+
+@dataclass(frozen=True)
+class Shaft:
+    """Torsional stiffness of one shaft, N mm/rad."""
+
+    torsional_stiffness: float
 
 
 @dataclass(frozen=True)
 class Shafts:
-    """Torsional stiffness of either shaft, N mm/rad."""
+    """Torsional stiffness, N mm/rad, of either shaft that has none of its own, and what `input` and `output` have."""
 
-    torsional_stiffness: float
+    torsional_stiffness: float | None = None
+    input: Shaft | None = None
+    output: Shaft | None = None
+
+    def of(self, shaft: str) -> float:
+        """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft."""
+        own = getattr(self, shaft)
+        return self.torsional_stiffness if own is None else own.torsional_stiffness
+
+
+def _stiffness(meaning: str, otherwise: str = ""):
+    return quantity("1e-6 N mm/rad", "1e24 N mm/rad", "0.203e9 N mm/rad", meaning=meaning, otherwise=otherwise)
+
+
+class ShaftText(Section):
+    """``[shafts.input]`` (from the prescribed rotation to the pinion) and ``[shafts.output]`` (from the wheel to the load)."""
+
+    torsional_stiffness: float = _stiffness("stiffness of this shaft")
 
 
 class ShaftsText(Section):
     """``[shafts]``."""
 
-    torsional_stiffness: float = quantity(
-        "1e-6 N mm/rad", "1e24 N mm/rad", "0.203e9 N mm/rad", meaning="stiffness of the input and of the output shaft, each"
-    )
+    torsional_stiffness: Optional[float] = _stiffness("stiffness of the input and of the output shaft, each", "from the shafts' own")
+    input: Optional[ShaftText] = None
+    output: Optional[ShaftText] = None
+
+
+def read(text: ShaftsText) -> Shafts:
+    """The stiffness of both shafts, beside what either has of its own."""
+    own = {name: getattr(text, name) for name in SHAFTS}
+    return Shafts(text.torsional_stiffness, **{name: None if each is None else Shaft(each.torsional_stiffness) for name, each in own.items()})
+
+
+def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
+    """Either shaft has a stiffness."""
+    both = table(tree, "shafts")
+    if both is None or "torsional_stiffness" in both:
+        return
+    missing, example = [name for name in SHAFTS if name not in both], 'Allowed: such as "0.203e9 N mm/rad"'
+    if len(missing) == 2:
+        yield Problem(("shafts", "torsional_stiffness"), None, f"is missing. {example}, or one each in [shafts.input] and [shafts.output].")
+    elif missing:
+        path = ("shafts", *missing, "torsional_stiffness")
+        yield Problem(path, None, f"is missing: only the other shaft has a stiffness. {example}, or torsional_stiffness of [shafts] for both.")
 
 
 EFFECT = Effect(
@@ -33,4 +84,6 @@ EFFECT = Effect(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the output shaft's end"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
     ),
+    read=read,
+    rules=shafts_are_complete,
 )

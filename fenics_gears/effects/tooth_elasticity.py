@@ -1,9 +1,15 @@
 """``[gears.material]``: teeth and gear bodies that give way (``elasticity``); without it the flanks are rigid (``contact.rigid_cycle``)."""
 
-from dataclasses import dataclass
+from __future__ import annotations
 
-from fenics_gears.effects.effect import Effect, ResultVariable
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Optional
+
+from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
 from fenics_gears.scene.fields import Section, number, quantity
+from fenics_gears.scene.problem import Problem
+from fenics_gears.scene.tree import GEARS, Tree, material_sections, table
 
 
 @dataclass(frozen=True)
@@ -14,11 +20,52 @@ class Material:
     poissons_ratio: float
 
 
-class MaterialText(Section):
-    """``[gears.material]``."""
+def _youngs_modulus(otherwise: str = ""):
+    return quantity("1 kPa", "1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
 
-    youngs_modulus: float = quantity("1 kPa", "1e9 GPa", "206 GPa", meaning="Young's modulus")
-    poissons_ratio: float = number(0.3, meaning="Poisson's ratio", above=-1, below=0.5)
+
+def _poissons_ratio(otherwise: str = ""):
+    return number(0.3, meaning="Poisson's ratio", above=-1, below=0.5, otherwise=otherwise)
+
+
+class MaterialText(Section):
+    """``[gears.material]``: of both gears."""
+
+    youngs_modulus: float = _youngs_modulus()
+    poissons_ratio: float = _poissons_ratio()
+
+
+class OwnMaterialText(Section):
+    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; what is left out is taken from ``[gears.material]``."""
+
+    youngs_modulus: Optional[float] = _youngs_modulus("from `[gears.material]`")
+    poissons_ratio: Optional[float] = _poissons_ratio("from `[gears.material]`")
+
+
+def own_material(text: OwnMaterialText | None, shared: MaterialText | None) -> Material | None:
+    """The material of a gear that has one of its own; None for one that has what both share."""
+    if text is None:
+        return None
+    values = {name: getattr(text, name) if getattr(text, name) is not None else getattr(shared, name) for name in type(text).model_fields}
+    return Material(**{name: float(value) for name, value in values.items()})
+
+
+def materials_are_complete(tree: Tree) -> Iterator[Problem]:
+    """Where one gear gives way so does the other, and each has both constants."""
+    gears = table(tree, "gears") or {}
+    if "material" in gears or not material_sections(tree):
+        return
+    for gear in GEARS:
+        own = table(gears, gear)
+        if own is None or not any(path[1] == gear for path in material_sections(tree)):
+            message = "is missing: the other gear has a material, and both give way or none. Add it, or [gears.material] for both gears."
+            yield Problem(("gears", gear, "material"), None, message)
+            continue
+        written = table(own, "material")
+        for name in OwnMaterialText.model_fields:
+            if written is not None and name not in written:
+                message = "is missing. Add it, or [gears.material] with what both gears share."
+                yield Problem(("gears", gear, "material", name), None, message)
 
 
 EFFECT = Effect(
@@ -32,8 +79,9 @@ EFFECT = Effect(
     terms=("compliance of the flanks",),
     variables=(
         ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
-        ResultVariable("contact_pressure", "MPa", "contact pressure"),
-        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion"),
-        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank"),
+        ResultVariable("contact_pressure", "MPa", "contact pressure", dims=OF_NODES),
+        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion", dims=OF_NODES),
+        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES),
     ),
+    rules=materials_are_complete,
 )

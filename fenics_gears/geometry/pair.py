@@ -20,12 +20,21 @@ WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class GearPair:
-    """Two gears in mesh; lengths in mm, angles in rad. Built and checked by ``gear_pair``."""
+    """Two gears in mesh; lengths in mm, angles in rad. Built and checked by ``gear_pair``.
+
+    `face_width`: over which they meet; `own_face_widths`: of pinion and wheel where they are not as wide.
+    """
 
     pinion: Gear
     wheel: Gear
     centre_distance: float
     face_width: float
+    own_face_widths: tuple[float, float] | None = None
+
+    @property
+    def face_widths(self) -> tuple[float, float]:
+        """Width (mm) of the pinion and of the wheel, over which a line load spreads in its body."""
+        return self.own_face_widths or (self.face_width, self.face_width)
 
     @property
     def rotation_ratio(self) -> float:
@@ -177,7 +186,7 @@ def gear_pair(data: GearPairData) -> GearPair:
     pinion, wheel = _gear(data, data.pinion), _gear(data, data.wheel)
     check_gear(pinion, "pinion")
     check_gear(wheel, "wheel")
-    pair = GearPair(pinion=pinion, wheel=wheel, centre_distance=data.centre_distance, face_width=data.face_width)
+    pair = GearPair(pinion, wheel, data.centre_distance, data.face_width, data.face_widths)
     check_pair(pair)
     return pair
 

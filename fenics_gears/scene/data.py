@@ -14,7 +14,7 @@ from fenics_gears.effects.tooth_elasticity import Material
 
 @dataclass(frozen=True)
 class GearData:
-    """One gear: diameters in mm, rack tip radius in modules."""
+    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` of its own, None for the pair's."""
 
     teeth: int
     profile_shift: float
@@ -22,11 +22,16 @@ class GearData:
     root_diameter: float
     bore_diameter: float
     rack_tip_radius: float
+    face_width: float | None = None
+    material: Material | None = None
 
 
 @dataclass(frozen=True)
 class GearPairData:
-    """The pair: module, centre distance and face width in mm, pressure angle in rad; rigid without a material."""
+    """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
+
+    `face_width`, mm, is that over which both gears meet, the smaller of their own; `material` that of gears without one of their own.
+    """
 
     module: float
     pressure_angle: float
@@ -36,6 +41,21 @@ class GearPairData:
     wheel: GearData
     material: Material | None
 
+    @property
+    def materials(self) -> tuple[Material, Material] | None:
+        """What pinion and wheel are made of; None where they are rigid."""
+        found = (self.material_of("pinion"), self.material_of("wheel"))
+        return None if None in found else found
+
+    def material_of(self, name: str) -> Material | None:
+        """What the "pinion" or the "wheel" is made of."""
+        return getattr(self, name).material or self.material
+
+    @property
+    def face_widths(self) -> tuple[float, float]:
+        """Width (mm) of the pinion and of the wheel."""
+        return self.pinion.face_width or self.face_width, self.wheel.face_width or self.face_width
+
 
 @dataclass(frozen=True)
 class Load:
@@ -44,15 +64,17 @@ class Load:
     wheel_torque: float
 
 
+# As many mesh cycles as pass until every tooth has met every other; the number follows from the teeth.
+HUNTING_TOOTH_PERIOD = "hunting tooth period"
 # As many are kept where nothing is said of it and all are alike, or all would be too many.
 LAST_CYCLES = 2
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Mesh frequency in Hz (mesh cycles a second) and how many cycles are run and kept.
+    """Mesh frequency in Hz (mesh cycles a second), how many cycles are run, and of how many of them, the last, contact fields are stored and pictures show.
 
-    ``fewer_where_too_large``: where the result could not hold the recorded cycles, only the last two are; the scene does not ask for them by number.
+    ``fewer_where_too_large``: where the result could not hold the contact fields of so many, those of fewer are stored; the scene does not ask for them by number.
     """
 
     mesh_frequency: float
@@ -91,6 +113,7 @@ class Output:
     """Results besides those that every run has."""
 
     root_stress: bool = False
+    contact_fields: bool = True
 
 
 @dataclass(frozen=True)
@@ -111,9 +134,9 @@ class _AlwaysThere:
         return min(ends), max(ends)
 
     @property
-    def tooth_elasticity(self) -> Material | None:
-        """What makes the flanks elastic; None for rigid ones."""
-        return None if self.accuracy.model == RIGID_TEETH else self.gears.material
+    def tooth_elasticity(self) -> tuple[Material, Material] | None:
+        """What makes the flanks of pinion and wheel elastic; None for rigid ones."""
+        return None if self.accuracy.model == RIGID_TEETH else self.gears.materials
 
     @property
     def resolves_contact(self) -> bool:

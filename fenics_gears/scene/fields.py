@@ -85,6 +85,13 @@ def out_of_range(number: float, lowest: float, highest: float) -> str:
     return "is negative." if number < 0 else "is zero."
 
 
+def _bare(entry: Any) -> float:
+    """A bare number of a list. Raises PydanticCustomError for anything else."""
+    if isinstance(entry, bool) or not isinstance(entry, (int, float)):
+        raise refused("is not a number.")
+    return float(entry)
+
+
 @dataclass(frozen=True)
 class AllowedList(Allowed):
     """A list of at most ``longest`` quantities of one kind, each within ``bounds`` (in N, mm, s, rad)."""
@@ -102,7 +109,7 @@ class AllowedList(Allowed):
 
     def _entry(self, number: int, entry: Any) -> float:
         try:
-            converted = super().convert(entry)
+            converted = super().convert(entry) if self.kind is not None else _bare(entry)
             reason = out_of_range(converted, *self.bounds)
         except PydanticCustomError as error:
             reason = error.context["reason"]
@@ -241,12 +248,13 @@ def number(
     highest: float | None = None,
     default: Any = ...,
     too_low: str = "",
+    otherwise: str = "",
 ) -> Any:
     """A bare number; ``above`` and ``below`` are excluded, ``lowest`` and ``highest`` included."""
     least = f"above {above:g}" if lowest is None else f"from {lowest:g}"
     most = f"below {below:g}" if highest is None else f"up to {highest:g}"
-    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", below=too_low, meaning=meaning)
-    return Field(default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
+    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", below=too_low, meaning=meaning, otherwise=otherwise)
+    return Field(None if otherwise else default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
 
 
 def quantities(lowest: str, highest: str, example: str, *, meaning: str, otherwise: str) -> Any:
@@ -254,6 +262,12 @@ def quantities(lowest: str, highest: str, example: str, *, meaning: str, otherwi
     (low, kind), high = units.quantity(lowest), units.quantity(highest)[0]
     description = f'a list of quantities, each {kind} from {lowest} to {highest}, with its unit, such as ["{example}", "{example}"]'
     return _field(AllowedList(description, kind, units.unit_of(example), bounds=(low, high), meaning=meaning, otherwise=otherwise))
+
+
+def numbers(lowest: float, highest: float, example: float, *, meaning: str, otherwise: str) -> Any:
+    """A list of bare numbers, optional; bounds of each entry, both included."""
+    description = f"a list of numbers, each from {lowest:g} to {highest:g}, without unit, such as [{example:g}, {example:g}]"
+    return _field(AllowedList(description, bounds=(lowest, highest), meaning=meaning, otherwise=otherwise))
 
 
 def either(*ranges: tuple[str, str, str], words: dict[str, Any], meaning: str, otherwise: str) -> Any:

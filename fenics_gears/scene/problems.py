@@ -23,10 +23,16 @@ def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
 
 
 def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
-    """The problems without those that only repeat another: a second one of a field, a field missing because it is misspelt."""
-    first = {problem.path: problem for problem in reversed(list(problems))}
+    """The problems without those that only repeat another: a second one of a field, a field missing because it is misspelt.
+
+    What a rule says of a name stands before that no scene has it.
+    """
+    by_path: dict[Path, list[Problem]] = {}
+    for problem in problems:
+        by_path.setdefault(problem.path, []).append(problem)
+    first = {path: next((each for each in found if not each.unknown), found[0]) for path, found in by_path.items()}
     unknown = [problem.path for problem in first.values() if problem.unknown]
-    return [problem for problem in reversed(first.values()) if problem.written is not None or not _is_misspelt(problem.path, unknown)]
+    return [problem for problem in first.values() if problem.written is not None or not _is_misspelt(problem.path, unknown)]
 
 
 def _is_misspelt(missing: Path, unknown: Iterable[Path]) -> bool:

@@ -5,20 +5,23 @@ The rules read the parsed TOML file, so that they speak even where some field is
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from math import inf, lcm
 
 from fenics_gears import effects
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
+from fenics_gears.scene.fields import allowed_in
 from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears
-from fenics_gears.scene.tree import Tree, quantity_in, table, teeth_in
+from fenics_gears.scene.tree import GEARS, Tree, material_sections, quantity_in, table, teeth_in
 from fenics_gears.scene.written import as_written
 
 # In modules: the dense compliance of a flank of such elements has gigabytes.
 FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2
 EVERY_STEP = "every step"
+TEETH = "tooth_elasticity"
 
 
 def broken_rules(tree: Tree) -> list[Problem]:
@@ -30,16 +33,22 @@ def broken_rules(tree: Tree) -> list[Problem]:
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
     known = [effect.section for effect in effects.top_level()]
     sections = {nearest(name, known) or name for name in tree}  # a misspelt section is another problem
-    for effect in effects.EFFECTS:
-        home = table(tree, effect.within[0]) if effect.within else None
-        # Without its home nothing can be said.
-        if effect.within and (home is None or any(nearest(name, effect.within[1:]) for name in home)):
-            sections.add(effect.section)
+    # Without [gears] nothing can be said.
+    if table(tree, "gears") is None or material_sections(tree):
+        sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
         missing = effects.effect(need).written
         yield Problem((effect.section,), "", f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out.")
     for effect, other in effects.conflicts(sections):
         yield Problem((effect.section,), "", f"cannot stand beside [{other}]. Leave one of the two out.")
+
+
+def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
+    gears = table(tree, "gears")
+    if gears is None or "face_width" in gears or all("face_width" in (table(gears, gear) or {}) for gear in GEARS):
+        return
+    allowed = allowed_in(Gears, "face_width").description
+    yield Problem(("gears", "face_width"), None, f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel].")
 
 
 def _one_speed(tree: Tree) -> Iterator[Problem]:
@@ -60,6 +69,17 @@ def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
         count = "" if motion["recorded_cycles"] == recorded else f"({recorded} mesh cycles) "
         message = f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as are run."
         yield Problem(("motion", "recorded_cycles"), as_written(motion["recorded_cycles"]), message)
+
+
+def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Iterator[Problem]:
+    written, motion = (table(tree, "output") or {}).get("contact_fields"), table(tree, "motion") or {}
+    place = ("output", "contact_fields")
+    if written is not None and "recorded_cycles" in motion:
+        yield Problem(place, as_written(written), "stands beside motion.recorded_cycles, which says the same in another way. Leave one of the two out.")
+    asked, run = re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None, _cycles(tree, motion.get("mesh_cycles"))
+    if asked and type(run) is int and int(asked[1]) > run > 0:
+        message = f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as are run, or true."
+        yield Problem(place, as_written(written), message)
 
 
 def _cycles(tree: Tree, written) -> object:
@@ -103,7 +123,7 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
 
 
 def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
-    accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
+    accuracy = table(tree, "accuracy") or {}
     chosen = accuracy.get("model")
     if chosen not in (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336):
         return
@@ -111,7 +131,7 @@ def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
     def problem(message: str) -> Problem:
         return Problem(("accuracy", "model"), as_written(chosen), message)
 
-    if chosen != RIGID_TEETH and "material" not in gears:
+    if chosen != RIGID_TEETH and not material_sections(tree):
         yield problem("needs the section [gears.material], which is missing. Add it, or leave accuracy.model out.")
     if accuracy.get("condensation") == EVERY_STEP:
         yield problem(f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.')
@@ -143,7 +163,7 @@ def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
     def problem(message: str) -> Problem:
         return Problem(("accuracy", "target"), as_written(accuracy["target"]), message)
 
-    if gears and not any(nearest(name, ["material"]) for name in gears):
+    if gears and not material_sections(tree):
         yield problem("needs teeth that give way. Add [gears.material], or leave the target out.")
     if quantity_in((table(tree, "load") or {}).get("wheel_torque")) == 0.0:
         yield problem("has no meaning without a load: nothing gives way then. Give load.wheel_torque, or leave the target out.")
@@ -154,8 +174,7 @@ def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
 def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
     if (table(tree, "output") or {}).get("root_stress") is not True:
         return
-    gears = table(tree, "gears")
-    if gears is not None and not any(nearest(name, ["material"]) for name in gears):
+    if table(tree, "gears") is not None and not material_sections(tree):
         yield Problem(("output", "root_stress"), "true", "needs teeth that give way. Add [gears.material], or leave root_stress out.")
     accuracy = table(tree, "accuracy") or {}
     if accuracy.get("model", ELASTIC) != ELASTIC:
@@ -166,8 +185,10 @@ def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
 
 _RULES = (
     _effects_fit_together,
+    _both_gears_have_a_width,
     _one_speed,
     _recorded_cycles_are_run,
+    _contact_fields_are_of_cycles_that_run,
     _resolution_fits_the_teeth,
     _body_is_no_finer_than_the_flank,
     _remeshing_has_its_own_nodes,

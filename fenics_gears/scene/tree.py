@@ -6,10 +6,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from fenics_gears.scene import units
+from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problem import Path, Problem
 from fenics_gears.scene.written import as_written
 
 Tree = Mapping[str, Any]
+GEARS = ("pinion", "wheel")
 MOST_TEETH = 1000
 # In modules: errors of manufacture are far below, and the model moves flanks by them without moving their points of contact.
 LARGEST_ERROR = 0.1
@@ -35,6 +37,13 @@ def teeth_in(tree: Tree, gear: str) -> int | None:
     """Teeth of the "pinion" or the "wheel"; None where the number is missing or none that a gear has."""
     teeth = (table(table(tree, "gears") or {}, gear) or {}).get("teeth")
     return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
+
+
+def material_sections(tree: Tree) -> list[Path]:
+    """Paths of the sections, misspelt ones too, that say what gears are made of; none of rigid gears."""
+    gears = table(tree, "gears") or {}
+    homes = {("gears",): gears, **{("gears", gear): table(gears, gear) or {} for gear in GEARS}}
+    return [(*path, name) for path, home in homes.items() for name in home if nearest(name, ["material"])]
 
 
 def too_large_for_the_module(tree: Tree, path: Path, written: Any) -> Iterator[Problem]:

@@ -68,6 +68,7 @@ _KINDS = {
     "N/mm": "a stiffness",
     "N mm/rad": "a torsional stiffness",
     "N s^2/mm": "a mass",
+    "N s^2/mm^4": "a density",
     "N mm s^2": "a moment of inertia",
     "1/s": "a frequency (1/time)",
     "rad/s": "an angular speed",

@@ -78,7 +78,7 @@ def gear_key(built: Model, name: str, reach: Reach) -> tuple:
     resolution = built.resolution
     sizes = resolution.flank_element_size, resolution.body_element_size
     own = tuple(getattr(getattr(built.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(built.pair, name), built.scene.gears.material, resolution.element, sizes, reach, resolution.elastic_teeth, own
+    return getattr(built.pair, name), built.scene.gears.material_of(name), resolution.element, sizes, reach, resolution.elastic_teeth, own
 
 
 def cycle_key(built: Model) -> tuple:

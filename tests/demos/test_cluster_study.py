@@ -64,6 +64,7 @@ def test_the_study_is_what_the_readme_says():
     assert all(case.scene.friction is not None for case in study.cases)
 
 
+@pytest.mark.nightly
 def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
     """Authority: exact identity; how a study came to its end changes no number of it. Exit code 130 is an interrupted study's (design.md)."""
     first, kept, second = stopped
@@ -74,6 +75,7 @@ def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
     assert together.drop_vars("wall_time").equals(alone.drop_vars("wall_time"))
 
 
+@pytest.mark.nightly
 def test_relief_helps_at_its_load_and_harms_far_below(folder, stopped):
     """The README's findings, on coarse teeth. Known behaviour too: a relief suits one load (Harris, Proc. IMechE 172, 1958)."""
     found = gain(folder / "out" / "study.nc")
@@ -85,6 +87,7 @@ def test_relief_helps_at_its_load_and_harms_far_below(folder, stopped):
     assert np.all(found.with_relief[1] < found.with_relief[0])  # with relief there is a valley
 
 
+@pytest.mark.nightly
 def test_picture_and_table_show_it(folder, stopped):
     """Axes with units; a row for each torque, columns at the run frequencies nearest to the table's."""
     pictures = speed_and_load.shown(folder / "out")

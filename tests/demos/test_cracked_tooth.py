@@ -43,6 +43,7 @@ def test_the_scene_has_the_mesh_that_lies_in_the_repository():
     assert [words for words in model(scene).warnings if "body_meshes" in words]
 
 
+@pytest.mark.nightly
 def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_those_of_the_mesh(turns):
     """On fine teeth the pair alone is 14.7 % more compliant at this depth (README); coarse ones are within 1 %. Exact: equal teeth have
     no orders but the mesh's."""
@@ -58,6 +59,7 @@ def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_thos
     assert rows[2].startswith("| no crack |") and "+0.0%" in rows[2] and rows[3].startswith("| crack of 3 mm |")
 
 
+@pytest.mark.nightly
 def test_the_picture_shows_every_depth_with_its_units(turns, scene):
     """A legend entry for each run; every axis names its quantity and unit; the crack is drawn."""
     gear = model(healthy(scene)).pair.pinion
@@ -70,6 +72,7 @@ def test_the_picture_shows_every_depth_with_its_units(turns, scene):
     assert length == pytest.approx(SHOWN.depth)
 
 
+@pytest.mark.nightly
 def test_the_crack_is_open_while_its_tooth_carries_and_closed_while_the_one_before_it_does(scene):
     """README's table, on coarser teeth: along the whole crack, under the whole load."""
     built = model(healthy(scene))

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from tests.coarse import COARSE
 
 from demos.flank_errors.order_spectrum import SCENE, named_lines
@@ -10,6 +11,7 @@ from fenics_gears.show.spectrum import order_spectrum
 from fenics_gears.simulation import simulate
 
 
+@pytest.mark.nightly
 def test_the_picture_names_every_error_of_the_scene():
     """The scene's own sections: run-out of both gears, 37 waves on the pinion, tolerance class 6; a whole hunting tooth period of 48 mesh
     cycles, so that every line stands alone. On coarse teeth."""

@@ -89,6 +89,7 @@ def test_relief_depths_reach_from_none_to_50_um(loaded):
         assert depth[0] < 0.01 and depth[-1] == 50.0 and np.all(np.diff(depth) > 0)
 
 
+@pytest.mark.nightly
 def test_claim_5_shape_is_kept_at_200_hz_and_the_frictionless_curve_lags(measured):
     """Fig. 5; holds with J as we read it and not as printed (model.md, section 5)."""
     static = measured.study("figure02")
@@ -96,6 +97,7 @@ def test_claim_5_shape_is_kept_at_200_hz_and_the_frictionless_curve_lags(measure
     assert claims.claim_5(static, measured.study(f"{PRINTED}figure05")).verdict != claims.HELD
 
 
+@pytest.mark.nightly
 def test_claim_7_friction_of_the_modified_pair_passes_smoothly(measured):
     """Fig. 8: within 0.02 cycles R_y1 changes by less than 15 % of mu T2/rb2; the unmodified pair's by more than twice as much."""
     unmodified, modified = (measured.run(name, friction=WITH) for name in ("figure04", "figure08"))
@@ -103,6 +105,7 @@ def test_claim_7_friction_of_the_modified_pair_passes_smoothly(measured):
     assert claims.sudden_change(unmodified) > 2.0 * claims.sudden_change(modified)
 
 
+@pytest.mark.nightly
 def test_claim_8_the_best_depth_is_near_30_um(measured):
     """Fig. 9: of 0, 20, 28, 31 and 36 um the best lies within 30 +- 5 um, static and at 200 Hz."""
     static, dynamic = measured.study("figure09_static"), measured.study("figure09_dynamic")
@@ -110,6 +113,7 @@ def test_claim_8_the_best_depth_is_near_30_um(measured):
         assert 25.0 <= claims.best_depth(curve, friction) <= 31.0
 
 
+@pytest.mark.nightly
 def test_claim_9_relief_gains_less_with_friction(measured):
     """Figs. 9, 10: the share of T_EPP that 31 um take away is smaller with friction, static and at 200 Hz."""
     for name in ("figure09_static", "figure09_dynamic"):
@@ -118,6 +122,7 @@ def test_claim_9_relief_gains_less_with_friction(measured):
         assert 0.0 < gain.sel(friction=WITH) < gain.sel(friction=WITHOUT)
 
 
+@pytest.mark.nightly
 def test_claim_10_contact_is_lost_without_damping(measured):
     """Section 5: near the first torsional mode the teeth separate by more than the backlash, and the program says so."""
     for text in measured.study("undamped").warnings.values.ravel():
@@ -134,6 +139,7 @@ def test_a_shifted_wave_lags_by_its_shift():
     assert spectrum.lag(np.sin(2 * np.pi * (phase + 0.1)), np.sin(2 * np.pi * phase))[1] == -0.1
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("draw", [figures.figure02, figures.figure04, figures.figure05, figures.figure08])
 def test_lines_are_solid_with_friction_and_dashed_without(measured, draw):
     """The captions of the paper's Figs. 5, 6 and 10: solid mu = 0.1, dashed mu = 0; every axis has its unit."""

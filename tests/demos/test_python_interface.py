@@ -48,6 +48,7 @@ def test_it_opens_as_a_notebook():
             compile(text, "cell", "exec")
 
 
+@pytest.mark.nightly
 def test_results_are_those_that_it_speaks_of(ran):
     """The paper, Sections 5 and 6: at 200 Hz friction raises the transmission error; the torsional resonance is near 213 Hz; relief lowers the error."""
     names, _ = ran
@@ -60,6 +61,7 @@ def test_results_are_those_that_it_speaks_of(ran):
     assert np.ptp(names["micrometres"](names["relieved"]).values) < 0.75 * np.ptp(with_friction.values)
 
 
+@pytest.mark.nightly
 def test_orders_add_up(ran):
     """Exact (Parseval): the variance of the transmission error is half the sum of its orders' squares, up to those left out."""
     names, _ = ran
@@ -68,6 +70,7 @@ def test_orders_add_up(ran):
     assert 0.5 * np.sum(orders**2) == pytest.approx(np.var(error), rel=1e-3)
 
 
+@pytest.mark.nightly
 def test_pictures_and_the_kept_run_are_there(ran):
     """Authority: the script's last cell; the run on disk is the one in memory, pictures are no empty pages."""
     names, folder = ran

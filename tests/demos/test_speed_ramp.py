@@ -30,7 +30,8 @@ def coarsened(path):
     return replace(scene, accuracy=accuracy, motion=Motion(scene.motion.mesh_frequency, 165, 1), speed_ramp=replace(scene.speed_ramp, hold_cycles=5))
 
 
-@pytest.mark.parametrize("frequency", [200.0, pytest.param(240.0, marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("frequency", [200.0, 240.0])
 def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
     """Known behaviour of gears with backlash (Kahraman and Singh, Journal of Sound and Vibration 142, 1990: jumps, the branch depends on the
     direction): at 200 Hz the steady vibration reached from above is several times that reached from below; at 240 Hz they are the same."""

@@ -57,6 +57,7 @@ def test_without_load_the_relief_is_the_transmission_error(benches, length):
     assert np.ptp(error) == pytest.approx(depth * (1.0 - 0.5 / length), abs=1.5)  # the kink lies between two of 40 steps
 
 
+@pytest.mark.nightly
 def test_the_chosen_relief_is_the_best(benches, best):
     """Definition of a minimum: no relief of a coarse map or beside the chosen one is better; at both ends of its ranges a micrometre more is left."""
     bench, design, least = benches["μ = 0"], best.design, best.peak_to_peak
@@ -71,6 +72,7 @@ def test_the_chosen_relief_is_the_best(benches, best):
     assert least < 0.25 * bench.peak_to_peak(None)
 
 
+@pytest.mark.nightly
 def test_friction_matters_by_the_shafts_and_bearings(benches, best):
     """The README's finding, with the paper's (Section 6, Fig. 9: the optimum may be sought without friction): friction leaves several times as much, and
     the relief chosen without it is nearly the best with it; on stiff shafts and bearings friction hardly matters."""
@@ -82,6 +84,7 @@ def test_friction_matters_by_the_shafts_and_bearings(benches, best):
     assert left[findings.STIFF] < 0.35 * left["μ = 0.1"]
 
 
+@pytest.mark.nightly
 def test_a_relief_suits_one_load(benches, best):
     """Known behaviour (Harris, Proc. IMechE 172, 1958; Palmer and Fish, AGMA 10FTM10): a long relief is smooth at its load and harms at half of it; a short one harms no light load, and is
     no better than true involutes at full load; the best depth is proportional to the load."""
@@ -95,6 +98,7 @@ def test_a_relief_suits_one_load(benches, best):
     assert half == pytest.approx(0.5 * full, rel=0.1)
 
 
+@pytest.mark.nightly
 def test_the_best_depth_is_below_the_deflection_of_one_pair(benches, best):
     """The rule that relief is deflection (Harris) holds where two pairs are twice as stiff as one; here they are less, so that less will do: the README's bounds."""
     low, high = findings.single_pair_deflection(benches["teeth alone"])
@@ -103,6 +107,7 @@ def test_the_best_depth_is_below_the_deflection_of_one_pair(benches, best):
     assert 2.0 * (low - two_pairs) < findings.best_depth(benches["μ = 0"], 1.0, tolerance=0.5) < low < high
 
 
+@pytest.mark.nightly
 def test_pictures_and_table_say_what_was_measured(benches, best):
     """Authority: what they are made from; axes with units, optima marked where they are."""
     bench, designs = benches["μ = 0"], findings.compared(best.design)

@@ -37,6 +37,7 @@ def test_the_study_sweeps_150_to_260_hz_with_coast_flanks_and_without():
     assert all(case.scene.damping is None and case.scene.accuracy.steps_per_mesh_cycle >= 480 for case in study.cases)
 
 
+@pytest.mark.nightly
 def test_contact_is_kept_far_from_resonance_and_lost_at_it(small):
     """Claim 10 (Section 5): undamped near the first torsional mode contact is lost; while it is kept coast flanks change nothing."""
     found = sweeps(small[0])
@@ -48,6 +49,7 @@ def test_contact_is_kept_far_from_resonance_and_lost_at_it(small):
     assert list(found[WITHOUT].meaningless) == list(found[WITHOUT].opening > 0.099)
 
 
+@pytest.mark.nightly
 def test_picture_shows_both_curves_and_marks_what_was_lost(small):
     """Axes with units, a curve each, open or crossed marks exactly where contact was lost, the same in the panel below."""
     assert small[1].name == "undamped_resonance.png" and small[1].stat().st_size > 10_000

@@ -9,7 +9,7 @@ import pytest
 from tests.docs.blocks import PAGES, ROOT, name_of
 
 MATHJAX = Path("/usr/share/javascript/mathjax")
-pytestmark = pytest.mark.skipif(shutil.which("sphinx-build") is None, reason="Sphinx is not installed")
+pytestmark = [pytest.mark.nightly, pytest.mark.skipif(shutil.which("sphinx-build") is None, reason="Sphinx is not installed")]
 
 
 def built(checkout, site):

@@ -4,7 +4,6 @@ import ast
 import inspect
 import itertools
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +13,6 @@ from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
 
 from fenics_gears.cli import main
 from fenics_gears.effects import EFFECTS, effect, effects_on, result_variables
-from fenics_gears.elasticity.cache import Cache
 from fenics_gears.simulation import simulate
 
 CHECKOUT = Path(__file__).parents[2]
@@ -34,18 +32,31 @@ METHODS = {
 RARE = {"inertia": {"fenics_gears.dynamics.mean_equilibrium"}, "friction": {"fenics_gears.contact.tresca", "cvxopt"}}
 
 
-def closures():
-    """Every effect on elastic teeth, and on rigid flanks where it can be; every pair of effects that may stand together."""
-    rigid = [with_needs(section) for section in SECTIONS]
-    singles = [with_needs(section, TEETH) for section in SECTIONS]
-    pairs = [with_needs(*pair, TEETH) for pair in itertools.combinations(SECTIONS, 2)]
-    return [each for each in dict.fromkeys([(), *rigid, *singles, *pairs]) if not set(each) & {x for s in each for x in effect(s).excludes}]
+def may_stand_together(sections):
+    return not set(sections) & {other for section in sections for other in effect(section).excludes}
 
 
-@pytest.fixture(scope="session")
-def gears(tmp_path_factory):
-    """A cache that the runs of this file share."""
-    return Cache(tmp_path_factory.mktemp("gears"))
+def alone():
+    """Nothing, and every effect on elastic teeth, and on rigid flanks where it can be."""
+    each = [(), *(with_needs(section) for section in SECTIONS), *(with_needs(section, TEETH) for section in SECTIONS)]
+    return list(filter(may_stand_together, dict.fromkeys(each)))
+
+
+def pairs():
+    """Every pair of effects that may stand together, on elastic teeth."""
+    return list(filter(may_stand_together, dict.fromkeys(with_needs(*pair, TEETH) for pair in itertools.combinations(SECTIONS, 2))))
+
+
+def crowds():
+    """A few scenes of as many effects as may stand together, so that every pair of them is in one."""
+    found = []
+    for crowd in pairs():
+        if not any(set(crowd) <= set(other) for other in found):
+            for section in SECTIONS:
+                more = with_needs(*crowd, section)
+                crowd = more if may_stand_together(more) else crowd
+            found.append(crowd)
+    return found
 
 
 def test_every_effect_has_an_example():
@@ -53,12 +64,17 @@ def test_every_effect_has_an_example():
     assert set(EXAMPLES) == set(SECTIONS)
 
 
-@pytest.mark.parametrize("sections", closures(), ids=lambda sections: "+".join(sections) or "nothing")
-def test_effects_run_together_and_the_result_has_their_variables_and_no_others(sections, gears):
+def of(scenes, marks=()):
+    """Parameters of the test below."""
+    return [pytest.param(sections, id="+".join(sections) or "nothing", marks=marks) for sections in scenes]
+
+
+@pytest.mark.parametrize("sections", [*of(alone()), *of(crowds()), *of(sorted({*pairs()} - {*alone()}), pytest.mark.nightly)])
+def test_effects_run_together_and_the_result_has_their_variables_and_no_others(sections):
     """Authority: house rule 9 and the list; any two effects run, and the result's variables are exactly those that the list says."""
     scene = scene_of(*sections)
     assert tuple(each.section for each in effects_on(scene)) == sections
-    result = simulate(scene, cache=gears)
+    result = simulate(scene)
     assert result.attrs["complete"] == 1 and result.attrs["steps"] == 20
     assert set(result.data_vars) == {variable.name for variable in result_variables(scene)}
 
@@ -105,14 +121,11 @@ print(json.dumps(loaded))
 
 
 @pytest.fixture(scope="module")
-def loaded(tmp_path_factory):
+def loaded():
     """Modules loaded after runs one after another in one process: rigid flanks, the bare scene, and each effect on it."""
     runs = {"nothing": (), TEETH: (TEETH,)} | {section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH}
-    environment = {**os.environ, "FENICS_GEARS_CACHE": str(tmp_path_factory.mktemp("cache")), "OMP_NUM_THREADS": "1"}
     texts = json.dumps([text_of(*sections) for sections in runs.values()])
-    run = subprocess.run(
-        [sys.executable, "-c", PROGRAM], input=texts, cwd=CHECKOUT, env=environment, capture_output=True, text=True, check=True
-    )
+    run = subprocess.run([sys.executable, "-c", PROGRAM], input=texts, cwd=CHECKOUT, capture_output=True, text=True, check=True)
     return {name: set(modules) for name, modules in zip(runs, json.loads(run.stdout.splitlines()[-1]))}
 
 

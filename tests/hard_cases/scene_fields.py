@@ -15,11 +15,20 @@ from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
 
 DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 RELIEF = {"depth": "31 um", "start": "HPSTC"}
+LUMPED = {"mass": "4.9 kg", "moment_of_inertia": "24.5e-3 kg m^2"}
+RAYLEIGH = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1/s"}
+SHAFT = {"torsional_stiffness": "0.203e9 N mm/rad"}
+# What a field stands instead of: it cannot be beside these.
+INSTEAD = {
+    ("motion", "pinion_speed"): ["mesh_frequency"],
+    **{(*path, "density"): [*LUMPED] for path in (("inertia",), ("inertia", "pinion"), ("inertia", "wheel"))},
+    **{("damping", name): [*RAYLEIGH, "pinion", "wheel"] for name in ("ratio", "ratios")},
+}
 SUPPORT = {name: "0.155e6 N/mm" for name in ("stiffness", "stiffness_x", "stiffness_y")}
 # Units of every kind of quantity that a scene has, by what `units` calls it.
 UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a couple": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
-    "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2", "a time": "s",
+    "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2", "a density": "g/cm^3", "a time": "s",
 }  # fmt: skip
 
 
@@ -103,7 +112,11 @@ def whole_scene() -> dict[str, Any]:
     tree["flank_errors"] = {"tolerance_class": 6, "seed": 1, **wavy}
     tree["eccentricity"] = {"pinion": {"distance": "10 um"}, "wheel": {"distance": "10 um"}}
     tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
-    tree["gears"]["pinion"]["rack_tip_radius"] = tree["gears"]["wheel"]["rack_tip_radius"] = 0.38
+    for gear in ("pinion", "wheel"):
+        tree["gears"][gear] |= {"rack_tip_radius": 0.38, "face_width": "15 mm", "material": tree["gears"]["material"]}
+    tree["shafts"] = {**SHAFT, "input": SHAFT, "output": SHAFT}
+    tree["inertia"] = {**LUMPED, "pinion": LUMPED, "wheel": LUMPED, "load": {"moment_of_inertia": "24.5e-3 kg m^2"}}
+    tree["damping"] = {**RAYLEIGH, "pinion": RAYLEIGH, "wheel": RAYLEIGH}
     tree["accuracy"] |= {"body_element_size": "1.3 mm", "interpolation": "averaged", "elastic_teeth": 2, "model": "elastic"}
     ripple = {"harmonics": [{"order": 1, "amplitude": "20 N m", "phase": "30 deg"}]}
     return tree | {"coast_flanks": {}, "output": {"root_stress": True}, "torque_ripple": ripple, "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0}}
@@ -112,8 +125,8 @@ def whole_scene() -> dict[str, Any]:
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None) -> str:
     """The whole scene's text with `literal` (TOML) at a path, nothing there where that is None; under another `name` if given."""
     tree = whole_scene()
-    if path == ("motion", "pinion_speed"):
-        tree = changed(tree, ("motion", "mesh_frequency"), ABSENT)
+    for name in INSTEAD.get(path, ()):
+        tree = changed(tree, (*path[:-1], name), ABSENT)
     tree = changed(tree, path, ABSENT)
     if literal is None:
         return as_toml(tree)

@@ -7,7 +7,6 @@ from tests.coarse import coarse_scene, quasi_static
 from tests.hard_cases.invariants import run_of, worst_of
 
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.errors import ComputationError
 from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.simulation import gear_compliances, simulate
@@ -29,15 +28,23 @@ def with_friction(scene, coefficient, absent=()):
     return replace(scene, friction=replace(scene.friction, coefficient=coefficient), **dict.fromkeys(absent))
 
 
-def outcome(scene):
+def marched(scene):
+    """A run with all its steps."""
+    built = model(scene)
+    return run_of(built, gear_compliances(built, SilentProgress(), user_cache()))
+
+
+def outcome(run):
     """How a run ends: what its warnings or its error say of friction, and whether it converged."""
-    try:
-        result = simulate(scene)
-    except ComputationError as failure:
-        return failure.reason, False, {}
-    said = [line for line in result.attrs["warnings"].splitlines() if any(words in line for words in WORDS)]
-    rungs = {key.split(": ")[1]: int(count) for key, count in result.attrs.items() if key.startswith("steps_by_rung")}
-    return "; ".join(said), True, rungs
+    if run.failure is not None:
+        return run.failure.reason, False, {}
+    said = [line for line in run.result.attrs["warnings"].splitlines() if any(words in line for words in WORDS)]
+    return "; ".join(said), True, rungs_of(run.result)
+
+
+def rungs_of(result):
+    """Steps by what solved them."""
+    return {key.split(": ")[1]: int(count) for key, count in result.attrs.items() if key.startswith("steps_by_rung")}
 
 
 def locks_from(pair):
@@ -51,10 +58,8 @@ def locks_from(pair):
 def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
     """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and friction have
     the arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of contact), and not below."""
-    scene = with_friction(DYNAMIC[dynamic](coarse), friction, absent)
-    said, converged, rungs = outcome(scene)
-    built = model(scene)
-    worst = worst_of(run_of(built, gear_compliances(built, SilentProgress(), user_cache())))
+    run = marched(with_friction(DYNAMIC[dynamic](coarse), friction, absent))
+    (said, converged, rungs), worst = outcome(run), worst_of(run)
     case = f"mu = {friction:g}, {dynamic}, {'all springs' if not absent else 'without ' + ' and '.join(absent)}"
     ladder = ", ".join(f"{count} by {rung}" for rung, count in rungs.items() if rung != "newton")
     measured(case, ("converges" if converged else "error") + (f" ({ladder})" if ladder else "") + (f"; {said}" if said else ""), "row 20")
@@ -71,7 +76,9 @@ def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse
 def test_locking_begins_where_the_arms_say(dynamic, coarse, paper_pair, measured):
     """Exact: rb2/(L - x) at the first point where the teeth touch; just below nothing locks, well above something does."""
     limit = locks_from(paper_pair)
-    below, above = (outcome(with_friction(DYNAMIC[dynamic](coarse), factor * limit, ("shafts", "bearings")))[0] for factor in (0.98, 1.15))
+    below, above = (
+        outcome(marched(with_friction(DYNAMIC[dynamic](coarse), factor * limit, ("shafts", "bearings"))))[0] for factor in (0.98, 1.15)
+    )
     measured(f"{dynamic}: friction coefficient from which the paper's pair can lock", limit, "rb2/(L - x)")
     measured(f"{dynamic}: 2 % below", "self-locking" if "self-locking" in below else "no word of locking", "no word of locking")
     measured(f"{dynamic}: 15 % above", "self-locking" if "self-locking" in above else "no word of locking", "self-locking")
@@ -83,7 +90,7 @@ def test_the_summary_counts_the_ladder(coarse, measured):
     """Message: the summary has a line on the ladder, with the result's own counts; none where Newton alone was used."""
     scene = with_friction(quasi_static(coarse), 2.0, ("shafts", "bearings"))
     result = simulate(scene)
-    counts = {key.split(": ")[1]: int(count) for key, count in result.attrs.items() if key.startswith("steps_by_rung")}
+    counts = rungs_of(result)
     (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by the fallback ladder"]
     measured("summary at mu = 2", line, "the counts of the result")
     assert sum(counts.values()) == result.attrs["steps"] and len(counts) > 1

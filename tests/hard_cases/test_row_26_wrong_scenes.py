@@ -104,10 +104,21 @@ KINDS = {
 }
 
 
+# By day every field has one mistake of each kind, another one than its neighbours; by night all of them.
+breadth = pytest.mark.parametrize("every", [pytest.param(False, id="one each"), pytest.param(True, id="all", marks=pytest.mark.nightly)])
+
+
+def tries_of(every: bool, mistakes) -> list[tuple[Field, str]]:
+    """Fields with the mistakes (a function of the field) that are made in them."""
+    found = [(field, mistakes(field)) for field in fields()]
+    return [(field, literal) for at, (field, all_of) in enumerate(found) if all_of for literal in (all_of if every else [all_of[at % len(all_of)]])]
+
+
+@breadth
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind):
+def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind, every):
     """Every field that the kind of mistake can be made in; "negative" and "zero" only where the field's own range leaves them out."""
-    tries = [(field, literal) for field in fields() for literal in KINDS[kind](field)]
+    tries = tries_of(every, KINDS[kind])
     wrong = []
     for field, literal in tries:
         said = outcome(scene_with(field.path, literal))
@@ -285,35 +296,41 @@ def check_edited(place: Path, edits, capsys) -> int:
     return code
 
 
-def test_a_scene_edited_at_random_is_described_or_refused(place, capsys, measured):
+@pytest.mark.parametrize("examples", [80, pytest.param(250, marks=pytest.mark.nightly)])
+def test_a_scene_edited_at_random_is_described_or_refused(place, capsys, measured, examples):
     """Lines deleted, doubled, moved, cut, values and names exchanged, a character overwritten: exit code 0 or 2, never a traceback."""
     codes = []
 
-    @settings(max_examples=250)
+    @settings(max_examples=examples)
     @given(st.lists(EDIT, min_size=1, max_size=3))
     def edits(each):
         codes.append(check_edited(place, each, capsys))
 
     edits()
     measured("scenes edited at random", f"{codes.count(0)} taken, {codes.count(2)} refused in words", "each one or the other")
-    assert len(codes) >= 250
+    assert len(codes) >= examples
 
 
-def test_a_wrong_value_in_a_study_is_refused(tmp_path, monkeypatch, capsys, measured):
+def in_a_study(field: Field) -> list[str]:
+    """A mistake of each kind."""
+    return [*not_numbers(field)[:1], *huge(field)[:1], *negative(field)[:1], *zero(field)[:1], *wrong_unit(field)[:1], wrong_type(field)[0]]
+
+
+@breadth
+def test_a_wrong_value_in_a_study_is_refused(tmp_path, monkeypatch, capsys, measured, every):
     """The same through [sweep] and [set] of a study, in every field: exit code 2, the field named, nothing written."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "pair.toml").write_text(scene_with(("title",), '"whole"'), encoding="utf-8")
+    made = [(field, literal) for field, literal in tries_of(every, in_a_study) if field.path != ("title",)]
     tries, wrong = 0, []
-    for field in fields():
-        if field.path == ("title",):
-            continue
-        for literal in [*not_numbers(field)[:1], *huge(field)[:1], *negative(field)[:1], *zero(field)[:1], *wrong_unit(field)[:1], wrong_type(field)[0]]:
-            for study in (f"[sweep]\n{field.name} = [{literal}]", f'[set]\n{field.name} = {literal}\n[sweep]\nfriction = ["absent", "present"]'):
-                tries += 1
-                text = 'scene = "pair.toml"\n' + ('without = ["motion.mesh_frequency"]\n' if "pinion_speed" in field.name else "") + study + "\n"
-                (tmp_path / "study.toml").write_text(text, encoding="utf-8")
-                code, said = main(["study", "study.toml"]), capsys.readouterr()
-                if code != 2 or field.name not in said.err or "Nothing was computed or written." not in said.err:
-                    wrong.append((field.name, literal, code, said.err))
+    for at, (field, literal) in enumerate(made):
+        both = (f"[sweep]\n{field.name} = [{literal}]", f'[set]\n{field.name} = {literal}\n[sweep]\nfriction = ["absent", "present"]')
+        for study in both if every else both[at % 2 : at % 2 + 1]:
+            tries += 1
+            text = 'scene = "pair.toml"\n' + ('without = ["motion.mesh_frequency"]\n' if "pinion_speed" in field.name else "") + study + "\n"
+            (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+            code, said = main(["study", "study.toml"]), capsys.readouterr()
+            if code != 2 or field.name not in said.err or "Nothing was computed or written." not in said.err:
+                wrong.append((field.name, literal, code, said.err))
     measured("wrong values in a study: refused", f"{tries - len(wrong)} of {tries}", "all")
     assert wrong == [] and {each.name for each in tmp_path.rglob("*")} == {"pair.toml", "study.toml"}

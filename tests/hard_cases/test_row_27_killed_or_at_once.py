@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
 from tests.studies.conftest import cache, command, environment, folder, gears, stamps, write_study  # noqa: F401
-from tests.studies.test_run_study import FOUR, MANY, load, stopped_in_the_middle
+from tests.studies.test_run_study import FOUR, SIX, load, stopped_in_the_middle
 
 from fenics_gears import results
 from fenics_gears.cli import main
@@ -56,14 +56,30 @@ def kills(folder, measured, moments, what):
     assert ended.returncode == 0 and again
 
 
-def test_a_run_killed_at_any_moment(folder, measured):
-    """kill -9 while gears are meshed, the cache and the result written."""
-    kills(folder, measured, 2, "a run killed")
+@pytest.mark.parametrize(("number", "what"), [(2, "before its second gear is kept"), (3, "before its result has its name")])
+def test_a_run_killed_between_its_files(folder, measured, number, what):
+    """kill -9 with the first gear kept and the second written aside, and with the result written aside."""
+    program = (
+        "import os, signal, sys\n"
+        "from fenics_gears import cli\n"
+        "replace, left = os.replace, [None] * int(sys.argv[1])\n"
+        "def killed(*files): left.pop(); replace(*files) if left else os.kill(os.getpid(), signal.SIGKILL)\n"
+        "os.replace = killed\n"
+        "cli.main(sys.argv[2:])\n"
+    )
+    call = [sys.executable, "-c", program, str(number), "run", "pair.toml", "--output", "here", "--quiet"]
+    ended = subprocess.run(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": "own"}, timeout=60)
+    results_kept, entries = list(Path("here").glob("*.nc")), list(Path("own").glob("*.h5"))
+    measured(f"a run killed {what}", f"{len(results_kept)} results, {len(entries)} gears kept", "no half of either, run again the same to the bit")
+    assert ended.returncode == -signal.SIGKILL and results_kept == [] and len(entries) == number - 1
+    assert all(Cache(Path("own")).load(entry.stem) is not None for entry in entries)
+    assert main(["run", "pair.toml", "--output", "usual", "--quiet"]) == main(["run", "pair.toml", "--output", "here", "--quiet"]) == 0
+    assert results.load("here/run.nc").transmission_error.equals(results.load("usual/run.nc").transmission_error)
 
 
 @pytest.mark.nightly
 def test_a_run_killed_at_many_moments(folder, measured):
-    """As above, at moments a few hundredths of a second apart."""
+    """kill -9 while gears are meshed, the cache and the result written, at moments a few hundredths of a second apart."""
     kills(folder, measured, 60, "a run killed, by night")
 
 
@@ -114,16 +130,16 @@ def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
 
 def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, measured):
     """kill -9: nothing lost, nothing computed twice, nothing left half-written."""
-    study = write_study(folder, MANY)
-    assert stopped_in_the_middle(folder, study, signal.SIGKILL)[0] == -signal.SIGKILL
+    study = write_study(folder, SIX)
+    assert stopped_in_the_middle(folder, study, signal.SIGKILL).returncode == -signal.SIGKILL
     before = stamps("here")
     again = gears(folder, "study", study, "--output", "here")
     after = stamps("here")
     repeated = sum(after[name] != before[name] for name in before)
     measured("study killed: cases computed again", f"{repeated} of {len(before)} done", "none")
-    assert 3 <= len(before) < 30 and repeated == 0
-    assert again.returncode == 0 and f"{len(before)} kept, {30 - len(before)} to be computed" in again.stderr
-    assert len(after) == 30 and left_over("here")[1] == []
+    assert len(before) == 3 and repeated == 0
+    assert again.returncode == 0 and "3 kept, 3 to be computed" in again.stderr
+    assert len(after) == 6 and left_over("here")[1] == []
     assert load("here").attrs["complete"] == 1
 
 

@@ -8,7 +8,7 @@ from tests.report.pages import seen
 
 from fenics_gears.cli import main
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium")
+pytestmark = [pytest.mark.nightly, pytest.mark.skipif(CHROMIUM is None, reason="no chromium")]
 
 PLOTS = "[...document.querySelectorAll('.curves')]"
 LINKED = f"{PLOTS}.filter(plot => plot.dataset.linked === 'time')"

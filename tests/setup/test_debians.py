@@ -52,10 +52,9 @@ def test_every_suite_has_its_lists_of_packages(suite):
     assert (CHECKOUT / f"setup/{suite}.apt").exists() and (CHECKOUT / f"setup/{suite}-test.apt").exists()
 
 
-@pytest.mark.parametrize("path", [*OF_RANKS, *QUICK, *QUICK_OF_RANKS])
-def test_tests_that_are_chosen_exist(path):
+def test_tests_that_are_chosen_exist():
     """pytest given a path that is gone runs nothing."""
-    assert (CHECKOUT / path).exists()
+    assert [path for path in (*OF_RANKS, *QUICK, *QUICK_OF_RANKS) if not (CHECKOUT / path).exists()] == []
 
 
 def test_outcomes_of_all_ranks_count(tmp_path):

@@ -29,11 +29,11 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
     built = model(scene)
     resolution = built.resolution
     rows = _rows(
-        built.pair.pinion, scene.gears.material, resolution.element, resolution.flank_element_size, resolution.body_element_size,
+        built.pair.pinion, scene.gears.material_of("pinion"), resolution.element, resolution.flank_element_size, resolution.body_element_size,
         tooth_reach(built).farthest + 1, scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
-    steps = range(len(run["mesh_phase"]) - cycle.steps, len(run["mesh_phase"]))
+    steps = range(run.sizes["contact_time"] - cycle.steps, run.sizes["contact_time"])
     stresses = [_stress(point, stored_forces(run, built, cycle, index), built) for index in steps]
     return max(stresses, default=0.0)
 

@@ -94,6 +94,7 @@ def test_a_scene_without_text_can_have_a_target(scene, monkeypatch):
     assert result.attrs["scene"] == "" and result.attrs["element"] == "P1"
 
 
+@pytest.mark.nightly
 def test_a_tighter_target_takes_finer_settings(scene, run):
     """By definition of a target."""
     tighter = choose(scene, 0.04, SilentProgress())
@@ -152,16 +153,27 @@ def test_a_window_that_cuts_contact_off_is_lengthened(scene):
     assert not runs.window_cuts_contact() and runs.length > 0.13 * trial_runs.TrialRuns(scene, lambda words: None).length
 
 
-def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
-    """With little memory no fine settings fit, and the target named instead is one that the same runs reach."""
+def refusal(scene, monkeypatch):
+    """What is said of 0.1 % with little memory."""
     monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
     with pytest.raises(TargetNotReached, match=r"accuracy.target = 0.1 %.*contact operators and gears.*sharp edges.*; [\d.]+ % can be") as failure:
         choose(scene, 0.001, SilentProgress())
-    assert failure.value.exit_code == 3
-    reachable = 0.01 * float(re.search(r"; ([\d.]+) % can be", str(failure.value))[1])
+    return failure.value
+
+
+def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
+    """With little memory no fine settings fit."""
+    assert refusal(scene, monkeypatch).exit_code == 3
+
+
+@pytest.mark.nightly
+def test_the_target_named_instead_can_be_reached(scene, monkeypatch):
+    """By the same runs."""
+    reachable = 0.01 * float(re.search(r"; ([\d.]+) % can be", str(refusal(scene, monkeypatch)))[1])
     assert 0.001 < choose(scene, 1.05 * reachable, SilentProgress()).estimated_error <= 1.05 * reachable
 
 
+@pytest.mark.nightly
 def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
     """Its contact is narrower than any element that trial runs begin with."""
     monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
@@ -169,6 +181,7 @@ def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
         choose(scene_from_text(text.replace('"437 N m"', '"1 N m"')), 0.001, SilentProgress())
 
 
+@pytest.mark.nightly
 def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
     """The check, which halves a size at settings that just fit, least of all."""
     tried, run = [], trial_runs.TrialRuns._run

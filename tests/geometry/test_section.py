@@ -1,0 +1,73 @@
+"""Area and polar second moment of a gear's cross-section."""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from tests.random_pairs import valid_pairs
+
+from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.section import cells_section, gear_section
+
+
+def polygon(gear, points=4001):
+    """Half a tooth's outline (n, 2), mm, densely: from the middle of the tip over involute, fillet and root to the middle of the space."""
+    outline = tooth_outline(gear, points)
+    fillet, involute = outline.fillet, outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, points))
+    tip, root = (np.arctan2(*point[::-1]) for point in (involute[-1], fillet[0]))
+
+    def arc(radius, first, last):
+        at = np.linspace(first, first + (last - first + pi) % (2 * pi) - pi, points)
+        return radius * np.column_stack([np.cos(at), np.sin(at)])
+
+    return np.vstack([
+        arc(gear.tip_radius, outline.centreline_angle, tip), involute[::-1], fillet[::-1], arc(gear.root_radius, root, outline.space_angle)
+    ])  # fmt: skip
+
+
+def brute_force(gear):
+    """Fans of thin triangles from the centre to the outline's polygon, less the bore's exact circle."""
+    half = polygon(gear)
+    corners = np.vstack([np.zeros((1, 2)), half])
+    cells = np.column_stack([np.zeros(len(half) - 1, int), np.arange(1, len(half)), np.arange(2, len(half) + 1)])
+    found, bore = cells_section(corners, cells), gear.bore_radius
+    return 2 * gear.teeth * found.area - pi * bore**2, 2 * gear.teeth * found.polar_moment - 0.5 * pi * bore**4
+
+
+@settings(max_examples=15)
+@given(valid_pairs())
+def test_any_gear_is_its_outline_s_polygon(pair):
+    """Brute force: triangles to a polygon of sixteen thousand sides on half a tooth, whose chords cut off less than 1e-7."""
+    for gear in (pair.pinion, pair.wheel):
+        found, expected = gear_section(gear), brute_force(gear)
+        assert (found.area, found.polar_moment) == pytest.approx(expected, rel=1e-7)
+
+
+def test_cells_of_a_regular_polygon():
+    """Exact: of n corners on radius R the area is n/2 R^2 sin(2 pi/n), the polar moment A R^2 (2 + cos(2 pi/n))/6; and that of a disc in the limit."""
+    for corners, radius in ((5, 3.0), (100_000, 20.0)):
+        at = 2.0 * pi * np.arange(corners) / corners
+        points = np.vstack([[0.0, 0.0], radius * np.column_stack([np.cos(at), np.sin(at)])])
+        cells = np.column_stack([np.zeros(corners, int), 1 + np.arange(corners), 1 + (1 + np.arange(corners)) % corners])
+        found, step = cells_section(points, cells), 2.0 * pi / corners
+        area = 0.5 * corners * radius**2 * sin(step)
+        assert found.area == pytest.approx(area, rel=1e-12)
+        assert found.polar_moment == pytest.approx(area * radius**2 * (2.0 + cos(step)) / 6.0, rel=1e-12)
+    assert (found.area, found.polar_moment) == pytest.approx((pi * radius**2, 0.5 * pi * radius**4), rel=1e-8)
+
+
+def test_quadrilaterals_are_two_triangles_each():
+    """Identity: a cell cut along its diagonal."""
+    points = np.array([[1.0, 0.0], [3.0, 1.0], [2.5, 4.0], [0.5, 2.0]])
+    whole, halves = cells_section(points, np.array([[0, 1, 2, 3]])), cells_section(points, np.array([[0, 1, 2], [0, 2, 3]]))
+    assert (whole.area, whole.polar_moment) == pytest.approx((halves.area, halves.polar_moment), rel=1e-14)
+
+
+def test_the_paper_s_gears_against_their_reference_discs(paper_pair):
+    """Common practice: a gear weighs what a disc of its reference diameter, shifted by the profile shift, weighs, within some per cent."""
+    for gear in (paper_pair.pinion, paper_pair.wheel):
+        radius = gear.reference_radius + gear.profile_shift * gear.module
+        disc = pi * (radius**2 - gear.bore_radius**2), 0.5 * pi * (radius**4 - gear.bore_radius**4)
+        found = gear_section(gear)
+        assert (found.area, found.polar_moment) == pytest.approx(disc, rel=0.05)

@@ -1,0 +1,31 @@
+"""`gears study` that a signal reaches in its middle: python -m tests.studies.stopped_study SIGNAL CASES RANK ARGUMENTS OF THE COMMAND.
+
+The process sends itself the signal when it has done so many cases, which is the same moment every time; one from outside is not. Under
+mpirun only the rank of that number does, and every other one that has done as many waits for mpirun to end it.
+"""
+
+import os
+import signal
+import sys
+
+from fenics_gears import cli
+from fenics_gears.studies import run_study, work
+
+done = 0
+
+
+def run_case(task, tick=None):
+    """As the program does, then the signal."""
+    global done
+    outcome = work.run_case(task, tick)
+    done += 1
+    if done == int(sys.argv[2]):
+        if os.environ.get("OMPI_COMM_WORLD_RANK", "0") != sys.argv[3]:
+            signal.pause()
+        os.kill(os.getpid(), signal.Signals[sys.argv[1]])
+    return outcome
+
+
+if __name__ == "__main__":
+    run_study.run_case = run_case
+    sys.exit(cli.main(sys.argv[4:]))
