@@ -51,7 +51,7 @@ def simulate(
     progress = progress if progress is not None else SilentProgress()
     if scene.accuracy.target is not None:
         # Imported here: settings are chosen by simulating scenes that have them.
-        from fenics_gears.studies.target.run import simulate_to_target
+        from fenics_gears.studies.accuracy_target.run import simulate_to_target
 
         return simulate_to_target(scene, progress=progress, cache=cache, preparation=preparation, comm=comm)
     built = model(scene)

@@ -83,7 +83,7 @@ def _root_stress(dataset) -> list[tuple[str, str, str]]:
 
 
 def _estimated_error(attributes) -> list[tuple[str, str, str]]:
-    """What a target asked for and what is estimated, with the settings and the knob that limits them; nothing without a target."""
+    """What a target asked for and what is estimated, with the settings and which of them limits it; nothing without a target."""
     if "target" not in attributes:
         return []
     parts = {name.removeprefix(ESTIMATED): error for name, error in attributes.items() if name.startswith(ESTIMATED)}

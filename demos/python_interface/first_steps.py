@@ -91,13 +91,13 @@ figure.savefig(PICTURES / "curves.png", dpi=110)
 # %% [markdown]
 # ## A small parameter study
 #
-# A loop is enough. A `Workshop` keeps the gears and their contact operators from run to run, so that runs which differ in speed, torque or drivetrain take only the time to march.
+# A loop is enough. A `GearStore` keeps the gears and their contact operators from run to run, so that runs which differ in speed, torque or drivetrain take only the time to march.
 # (Large studies: `gears study`, under mpirun, with files that a stopped study goes on from.)
 
 # %%
-from fenics_gears.studies.workshop import Workshop
+from fenics_gears.studies.gear_store import GearStore
 
-workshop = Workshop()
+store = GearStore()
 frequencies = [100, 150, 180, 200, 210, 220, 240, 280, 350, 500]  # Hz
 torques = [200, 437, 700]  # N m
 
@@ -106,7 +106,7 @@ for i, torque in enumerate(torques):
     for j, frequency in enumerate(frequencies):
         load = replace(paper.load, wheel_torque=1e3 * torque)  # N mm
         motion = replace(paper.motion, mesh_frequency=frequency)
-        run = simulate(replace(paper, load=load, motion=motion), preparation=workshop.prepared)
+        run = simulate(replace(paper, load=load, motion=motion), preparation=store.prepared)
         values[i, j] = run.attrs["peak_to_peak_transmission_error"] * radius * 1e3
 
 study = xr.DataArray(values, {"torque": torques, "mesh_frequency": frequencies}, name="T_EPP")

@@ -20,11 +20,11 @@ def main(arguments: list[str] | None = None) -> int:
     from demos.speed_ramp.sweeps import ramps, steady
     from fenics_gears.output import written_aside
     from fenics_gears.show.panels import DOTS_PER_INCH
-    from fenics_gears.studies.workshop import Workshop
+    from fenics_gears.studies.gear_store import GearStore
 
-    begun, workshop = time.perf_counter(), Workshop()
-    passed = ramps(workshop)
-    held = {name: np.array([steady(name, frequency, workshop) for frequency in STEADY]) for name in passed}
+    begun, store = time.perf_counter(), GearStore()
+    passed = ramps(store)
+    held = {name: np.array([steady(name, frequency, store) for frequency in STEADY]) for name in passed}
     written: list[Path] = []
     with written_aside(directory, written) as aside:
         draw(passed, np.array(STEADY), held).savefig(aside / "speed_ramp.png", dpi=DOTS_PER_INCH)

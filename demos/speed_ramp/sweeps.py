@@ -17,7 +17,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model import Model, model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.scene.data import Motion, Scene
-from fenics_gears.studies.workshop import Workshop
+from fenics_gears.studies.gear_store import GearStore
 
 HERE = Path(__file__).parent
 # A run at a steady speed: so many cycles until it is steady, and so many to tell its amplitude from.
@@ -32,10 +32,10 @@ class Sweep:
     amplitude: np.ndarray
 
 
-def sweep(scene: Scene, workshop: Workshop, cycles: int | None = None) -> Sweep:
+def sweep(scene: Scene, store: GearStore, cycles: int | None = None) -> Sweep:
     """March a scene without friction, over more `cycles` than it has if asked to; after its ramp the speed is that of its end."""
     built = model(scene)
-    _, cycle = workshop.prepared(built, SilentProgress(), user_cache())
+    _, cycle = store.prepared(built, SilentProgress(), user_cache())
     marcher = Marcher(cycle, built.drivetrain, built.time_step, 0.0, built.pace, built.clock, built.loads)
     cycles = cycles or scene.motion.mesh_cycles
     per_cycle = built.resolution.steps_per_mesh_cycle
@@ -56,17 +56,17 @@ def _transmission_error(built: Model, states: np.ndarray) -> np.ndarray:
     return built.drivetrain.value(states, "rotation_2") + ratio * built.drivetrain.value(states, "rotation_1")
 
 
-def ramps(workshop: Workshop) -> dict[str, Sweep]:
+def ramps(store: GearStore) -> dict[str, Sweep]:
     """Both ramps of this folder, by the names "up" and "down", less the cycles held before them."""
     found = {}
     for name in ("up", "down"):
         scene = load_scene(HERE / f"{name}.toml")
-        passed, held = sweep(scene, workshop), scene.speed_ramp.hold_cycles
+        passed, held = sweep(scene, store), scene.speed_ramp.hold_cycles
         found[name] = Sweep(passed.frequency[held:], passed.amplitude[held:])
     return found
 
 
-def steady(name: str, frequency: float, workshop: Workshop) -> float:
+def steady(name: str, frequency: float, store: GearStore) -> float:
     """Mean peak-to-peak transmission error (rad) at a steady mesh frequency (Hz) that is reached by the ramp "up" or "down"."""
     scene = load_scene(HERE / f"{name}.toml")
     start, end, ramp = scene.motion.mesh_frequency, scene.speed_ramp.end_frequency, scene.speed_ramp
@@ -74,5 +74,5 @@ def steady(name: str, frequency: float, workshop: Workshop) -> float:
     part = (frequency**2 - start**2) / (end**2 - start**2)
     ramped = ramp.hold_cycles + max(round(part * (scene.motion.mesh_cycles - ramp.hold_cycles)), 1)
     changed = replace(scene, motion=Motion(start, ramped, 1), speed_ramp=SpeedRamp(frequency, ramp.hold_cycles))
-    passed = sweep(changed, workshop, ramped + SETTLING_CYCLES + MEASURED_CYCLES)
+    passed = sweep(changed, store, ramped + SETTLING_CYCLES + MEASURED_CYCLES)
     return float(passed.amplitude[-MEASURED_CYCLES:].mean())

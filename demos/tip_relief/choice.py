@@ -30,11 +30,11 @@ def measured(directory: Path) -> list[Path]:
     from demos.tip_relief.table import table
     from fenics_gears.output import written_aside
     from fenics_gears.show.plots import save_figure
-    from fenics_gears.studies.workshop import Workshop
+    from fenics_gears.studies.gear_store import GearStore
 
-    workshop = Workshop()
-    benches = {name: Bench(scene, workshop) for name, scene in conditions(paper_scene()).items()}
-    teeth_alone = Bench(replace(benches[findings.STIFF].scene, friction=None), workshop)
+    store = GearStore()
+    benches = {name: Bench(scene, store) for name, scene in conditions(paper_scene()).items()}
+    teeth_alone = Bench(replace(benches[findings.STIFF].scene, friction=None), store)
     _say("maps over depth and length")
     maps = {name: findings.relief_map(benches[name]) for name in findings.DRAWN}
     _say("best reliefs")

@@ -16,7 +16,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model import model
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
-from fenics_gears.studies.workshop import Workshop
+from fenics_gears.studies.gear_store import GearStore
 
 SHAPES = (LINEAR, PARABOLIC)
 SHORT, LONG = 0.5, 1.0
@@ -61,8 +61,8 @@ def relief(pair: GearPair, design: Design) -> TipRelief:
 class Bench:
     """Runs a scene with one relief after another."""
 
-    def __init__(self, scene: Scene, workshop: Workshop):
-        self.scene, self.pair, self._workshop = scene, model(scene).pair, workshop
+    def __init__(self, scene: Scene, store: GearStore):
+        self.scene, self.pair, self._store = scene, model(scene).pair, store
 
     def torque(self, load: float | np.ndarray = 1.0) -> float | np.ndarray:
         """Couple on the wheel, N m, at a `load` in parts of the scene's."""
@@ -73,7 +73,7 @@ class Bench:
         changed = replace(self.scene, load=Load(load * self.scene.load.wheel_torque))
         if design is not None and design.depth > 0.0:
             changed = replace(changed, tip_relief=relief(self.pair, design))
-        return simulate(changed, preparation=self._workshop.prepared)
+        return simulate(changed, preparation=self._store.prepared)
 
     def error(self, design: Design | None, load: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Time (n,) in mesh cycles, and transmission error (n,) in um on the wheel's base circle, load included."""

@@ -14,23 +14,23 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("accuracy", parents=[shared], help=words)
     add_scene_argument(command)
     add_output_argument(command)
-    command.add_argument("--quick", action="store_true", help="few and coarse rungs, each timed once")
+    command.add_argument("--quick", action="store_true", help="few and coarse values of each setting, each timed once")
     command.add_argument(
         "--timing-seconds", type=float, metavar="SECONDS",
-        help="how long settings of single knobs may be run again for their times, the quickest first, five times each (60 unless given)",
+        help="how long single settings may be run again for their times, the quickest first, five times each (60 unless given)",
     )  # fmt: skip
     command.set_defaults(command=accuracy)
 
 
 def accuracy(options: argparse.Namespace) -> int:
-    """Measure the ladder of a scene, print and write the report."""
+    """Measure the settings of a scene, print and write the report."""
     scene, directory = scene_to_measure(options, "accuracy")
     from fenics_gears.show.work_precision import work_precision
-    from fenics_gears.studies.accuracy.measured import SECONDS_ON_RUNGS, measure
+    from fenics_gears.studies.accuracy.report import SECONDS_ON_SINGLE, measure
     from fenics_gears.studies.accuracy.table import write_csv
 
-    seconds = SECONDS_ON_RUNGS if options.timing_seconds is None else options.timing_seconds
-    report = measured(lambda progress: measure(scene, progress, options.quick, seconds_on_rungs=seconds), options.quiet)
+    seconds = SECONDS_ON_SINGLE if options.timing_seconds is None else options.timing_seconds
+    report = measured(lambda progress: measure(scene, progress, options.quick, seconds_on_single=seconds), options.quiet)
     files = write_report(report, directory, "accuracy", write_csv, work_precision)
     if not options.quiet:
         _print(report, files)
@@ -41,9 +41,9 @@ def _print(report, files) -> None:
     from fenics_gears.console import print_rows, print_table
     from fenics_gears.studies.accuracy import table
 
-    title = f"{report.scene.title}: each knob's error, the others at {report.fine.words}"
+    title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
     print_table(title, [table.HEADINGS, table.UNITS], table.table_rows(report))
-    print_table("Whole settings and cheaper models; * pays", [table.WHOLE_HEADINGS, table.WHOLE_UNITS], table.whole_rows(report))
+    print_table("Whole settings and cheaper models; * on the Pareto front", [table.WHOLE_HEADINGS, table.WHOLE_UNITS], table.whole_rows(report))
     print_rows("In one sentence", [("", table.in_one_sentence(report), "")])
     print_rows("Remarks", [("", remark, "") for remark in (*table.remarks(report), table.timed(report))])
     if report.failures:

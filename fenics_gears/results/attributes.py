@@ -1,6 +1,6 @@
 """The attributes of a result: what each is, and when it is there. A test holds the results of runs to this list.
 
-What may be in a result beside them: one attribute for each rung of the solver's ladder, by the prefix ``RUNG``, and one for each knob whose
+What may be in a result beside them: one attribute for each rung of the solver's ladder, by the prefix ``RUNG``, and one for each setting whose
 error was estimated, by the prefix ``ESTIMATED``.
 """
 
@@ -69,7 +69,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("target", "1", "the error asked for, in parts of 1", WITH_TARGET),
     ResultAttribute("estimated_error", "1", "estimated error of the transmission error's curve and of its height, the larger, in parts of 1", WITH_TARGET),
     ResultAttribute("target_runs", "1", "runs by which the settings were chosen", WITH_TARGET),
-    ResultAttribute("target_remarks", "", "knobs with much of the error that does not fall with the order expected, and what else to know, a line each", WITH_TARGET),
+    ResultAttribute("target_remarks", "", "settings with much of the error that does not fall with the order expected, and what else to know, a line each", WITH_TARGET),
     ResultAttribute("steps", "1", "time steps of the whole run"),
     ResultAttribute("newton_iterations_total", "1", "Newton iterations of the whole run"),
     ResultAttribute("time_choose", "s", "wall time of choosing settings", WITH_TARGET),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from math import acos, cos, isclose, pi, tan
+from math import acos, cos, isclose, tan
 
 from fenics_gears.rexs.attributes import Reading, every, first, given, needed
 from fenics_gears.rexs.stage import GearParts, Stage
@@ -17,10 +17,9 @@ ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = 1.0, 1.25, 0.38
 BORE = 0.4
 # ISO 6336-1: Young's modulus (N/mm^2) and Poisson's ratio of steel.
 STEEL = (206e3, 0.3)
+MATERIAL = ("youngs_modulus", "poissons_ratio")
 # What repeats module, teeth or shifts may be rounded, in modules.
 ROUNDED = 1e-3
-# In N s^2/mm (a tonne) and N mm s^2.
-KILOGRAM, KILOGRAM_SQUARE_METRE = 1e-3, 1e3
 
 
 def gear_sections(reading: Reading, stage: Stage) -> Sections:
@@ -35,23 +34,12 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     for part, count in zip(stage.gears, teeth):
         reading.attempt(_check_reference_diameter, part, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
-    modulus, ratio = reading.attempt(_material, stage) or (None, None)
-    width = reading.attempt(_face_width, stage)
-    return {
-        "gears": {"module": module, "pressure_angle": angle, "centre_distance": distance, "face_width": width},
-        "gears.pinion": gears[0],
-        "gears.wheel": gears[1],
-        "gears.material": {"youngs_modulus": modulus, "poissons_ratio": ratio},
-    }
-
-
-def mass_in_words(density: Value, gear: dict[str, Value], pair: dict[str, Value]) -> str:
-    """Mass and moment of inertia of a ring from the bore to the reference circle: a scene has one of each for both shafts, so that the user
-    has to choose."""
-    outer, inner = pair["module"].number * gear["teeth"].number, gear["bore_diameter"].number
-    mass = density.number * 0.25 * pi * (outer**2 - inner**2) * pair["face_width"].number
-    inertia = mass * (outer**2 + inner**2) / 8.0
-    return f"{mass / KILOGRAM:.4g} kg and {inertia / KILOGRAM_SQUARE_METRE:.4g} kg m^2 as a ring from its bore to its reference circle, with {density.origin}"
+    pair, widths = {"module": module, "pressure_angle": angle, "centre_distance": distance}, reading.attempt(_face_widths, stage) or [None]
+    if len(widths) == 1:
+        pair["face_width"] = widths[0]
+    else:
+        gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
+    return {"gears": pair, "gears.pinion": gears[0], "gears.wheel": gears[1], **(reading.attempt(_materials, stage) or {})}
 
 
 def _of_both(stage: Stage, asked: str, different: str) -> Value:
@@ -73,15 +61,13 @@ def _pressure_angle(stage: Stage) -> Value:
     return agreed(angles, "The gears have different pressure angles")
 
 
-def _face_width(stage: Stage) -> Value:
+def _face_widths(stage: Stage) -> list[Value]:
+    """The width of both gears, or of each where they differ."""
     common = first(stage, "common_face_width")
     if common is not None:
-        return common
+        return [common]
     widths = [needed(part, "face_width") for part in stage.gears]
-    if isclose(widths[0].number, widths[1].number):
-        return agreed(widths, "")
-    narrow = min(widths, key=lambda width: width.number)
-    return Value(narrow.number, narrow.written, f"{narrow.origin}, the narrower gear")
+    return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number) else widths
 
 
 def _profile_shifts(reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None]) -> list[Value | None]:
@@ -174,14 +160,17 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
     return computed(BORE * root.number, 1.0, "mm", f"{why}; {BORE} of the root diameter, held rigidly", assumed=True)
 
 
-def _material(stage: Stage) -> tuple[Value, Value]:
-    parts = [part for part in stage.gears if part.material]
-    if not parts:
+def _materials(stage: Stage) -> Sections:
+    """The material of both gears, or of each where they differ."""
+    found = {name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in zip(("pinion", "wheel"), stage.gears) if part.material}
+    if not found:
         why = "no material; that of steel (ISO 6336-1)"
-        return computed(STEEL[0], 1e3, "GPa", why, assumed=True), bare(STEEL[1], why, assumed=True)
-    different = "The gears have different materials, a scene has one for both"
-    modulus, ratio = (agreed([needed(part, asked) for part in parts], different) for asked in ("youngs_modulus", "poissons_ratio"))
-    return modulus, ratio
+        steel = computed(STEEL[0], 1e3, "GPa", why, assumed=True), bare(STEEL[1], why, assumed=True)
+        return {"gears.material": dict(zip(MATERIAL, steel))}
+    try:
+        return {"gears.material": {asked: agreed([each[asked] for each in found.values()], "") for asked in MATERIAL}}
+    except ValueProblem:
+        return {f"gears.{name}.material": each for name, each in found.items()}
 
 
 def _check_reference_diameter(part: GearParts, module: Value, teeth: Value) -> None:

@@ -9,12 +9,12 @@ from pathlib import Path
 from fenics_gears.errors import SceneError
 from fenics_gears.rexs.attributes import Reading, first
 from fenics_gears.rexs.flanks import note_what_is_left_out, relief_sections, tolerance_class
-from fenics_gears.rexs.gears import Sections, gear_sections, mass_in_words
+from fenics_gears.rexs.gears import Sections, gear_sections
 from fenics_gears.rexs.loads import loaded_model, pinion_speed, wheel_torque
 from fenics_gears.rexs.model import Model
 from fenics_gears.rexs.read import read_model
 from fenics_gears.rexs.scene_text import scene_text
-from fenics_gears.rexs.stage import GearParts, Stage, chosen_stage
+from fenics_gears.rexs.stage import Stage, chosen_stage
 from fenics_gears.rexs.values import Value, ValueProblem
 from fenics_gears.scene import units
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD
@@ -57,24 +57,19 @@ def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
     sections |= relief_sections(reading, stage, sections)
     sections |= _load_sections(reading, loaded, stage, sections, by_call)
     sections |= _error_sections(reading, stage, sections)
-    masses = [_mass(reading, name, part, sections) for name, part in zip(("pinion", "wheel"), stage.gears)]
+    densities = {name: reading.attempt(first, part, "density") for name, part in zip(("pinion", "wheel"), stage.gears)}
     note_what_is_left_out(reading, stage)
     _check_all_found(reading, path)
     assumed = [f"{section}.{name} = {value.words}: {value.origin}" for section, found in sections.items() for name, value in found.items() if value.assumed]
     notes = {
         "Assumed, since the file does not say it:": assumed,
         "Left out, since a scene has no place for it:": reading.left_out,
-        "For [inertia], which has one mass and one moment of inertia for both gears:": filter(None, masses),
+        "For [inertia], from which the masses and moments of inertia of both gears follow:": [
+            f"[inertia.{name}] density = {density.written}, {density.origin}" for name, density in densities.items() if density is not None
+        ],
     }
     text = scene_text(path.name, model, stage, sections, notes)
     return ImportedScene(text, stage, tuple(assumed), tuple(reading.left_out))
-
-
-def _mass(reading: Reading, name: str, part: GearParts, sections: Sections) -> str | None:
-    """What a gear weighs, in words; None where the file has no density."""
-    density, gear, pair = reading.attempt(first, part, "density"), sections[f"gears.{name}"], sections["gears"]
-    known = density and None not in (pair["module"], pair["face_width"], gear["teeth"], gear["bore_diameter"])
-    return f"{name}: {mass_in_words(density, gear, pair)}" if known else None
 
 
 def _check_all_found(reading: Reading, path: Path) -> None:

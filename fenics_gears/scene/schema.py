@@ -109,7 +109,7 @@ class Accuracy(Section):
         0.05,
         50.0,
         1.0,
-        meaning="error in the transmission error's curve and its height that no knob of this section, all together, may exceed; the cheapest "
+        meaning="error in the transmission error's curve and its height that the settings of this section may cause, all together; the cheapest "
         "settings that reach it are chosen by test runs",
         otherwise="nothing is measured, and each setting is as given or by its own default",
     )

@@ -1,4 +1,4 @@
-"""The picture of `gears accuracy`: error against time of whole settings and cheaper models, and of every knob's rungs alone."""
+"""The picture of `gears accuracy`: error against time of whole settings and cheaper models, and of every setting's values alone."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run_scene import conditions
-from fenics_gears.studies.accuracy.measured import OWN, Report, WholeResult
+from fenics_gears.studies.accuracy.report import OWN, Report, WholeResult
 from fenics_gears.studies.accuracy.measures import judged
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 
@@ -21,7 +21,7 @@ LEAST_SHOWN = 1e-6
 
 @styled
 def work_precision(report: Report) -> Figure:
-    """Left: whole settings with the front labelled, the scene's own, cheaper models. Right: each knob's rungs, the others fine."""
+    """Left: whole settings with the front labelled, the scene's own, cheaper models. Right: each setting alone, the others fine."""
     figure = Figure(figsize=(15.0, 9.2), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.09, 1, 0.91))
     whole, alone = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.35, 1.0)})
@@ -35,15 +35,15 @@ def _whole(axes: Axes, report: Report) -> None:
     front = report.front
     for each in report.settings:
         if each.name != OWN and each not in front:
-            axes.plot(each.times.total, each.counted, "o", color=GREY, markersize=5)
-    axes.plot([each.times.total for each in front], [each.counted for each in front], "-o", color=PALETTE[0], label="settings that pay")
-    axes.plot(report.own.times.total, report.own.counted, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
+            axes.plot(each.times.total, each.charged, "o", color=GREY, markersize=5)
+    axes.plot([each.times.total for each in front], [each.charged for each in front], "-o", color=PALETTE[0], label="Pareto front of settings")
+    axes.plot(report.own.times.total, report.own.charged, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
     for place, each in enumerate(report.models):
-        axes.plot(each.times.total, each.counted, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
+        axes.plot(each.times.total, each.charged, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
     axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")
     _logarithmic(axes, [*report.settings, *report.models], report.floor)
     _labels(axes, front)
-    axes.set_title("Whole settings: error charged (sum of its knobs', or distance from the reference)")
+    axes.set_title("Whole settings: error charged (sum of its parts, or distance from the reference)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=10.5)
 
 
@@ -51,7 +51,7 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
     """Numbers at the points, and what they are in the corner that a falling front leaves free."""
     lines = []
     for number, each in enumerate(front, 1):
-        axes.annotate(str(number), (each.times.total, each.counted), xytext=(6, 5), textcoords="offset points", fontsize=11, color=PALETTE[0])
+        axes.annotate(str(number), (each.times.total, each.charged), xytext=(6, 5), textcoords="offset points", fontsize=11, color=PALETTE[0])
         lines.append(f"{number}  {each.setting.words if each.setting else each.name}; limited by {limits_it(each)}")
     axes.text(
         0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=9.0, color=DARK, linespacing=1.5,
@@ -60,7 +60,7 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
 
 
 def _logarithmic(axes: Axes, results, floor: float) -> None:
-    errors = np.array([each.counted for each in results])
+    errors = np.array([each.charged for each in results])
     axes.set_xscale("log")
     axes.set_yscale("log")
     # Room above for the list of settings.
@@ -70,20 +70,20 @@ def _logarithmic(axes: Axes, results, floor: float) -> None:
 
 
 def _alone(axes: Axes, report: Report) -> None:
-    for place, result in enumerate(report.knobs):
-        points = [(each.times.total, judged(each.errors)) for each in result.rungs if judged(each.errors) > LEAST_SHOWN]
+    for place, result in enumerate(report.refinements):
+        points = [(each.times.total, judged(each.errors)) for each in result.levels if judged(each.errors) > LEAST_SHOWN]
         if not points:
             continue
-        order, expected = result.order("T_E"), result.knob.expected
-        aside = f" ({result.knob.why})" if result.knob.base else ""
+        order, expected = result.order("T_E"), result.refinement.expected
+        aside = f" ({result.refinement.why})" if result.refinement.base else ""
         told = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
         style = "-" if expected is not None else ":"
         colour = PALETTE[place % len(PALETTE)]
-        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.knob.name + told)
+        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.refinement.name + told)
     axes.set_xscale("log")
     axes.set_yscale("log")
     _percent_over_seconds(axes)
-    axes.set_title("Each knob alone, all others fine")
+    axes.set_title("Each setting alone, all others fine")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=9.5, columnspacing=1.0)
 
 

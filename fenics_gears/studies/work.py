@@ -19,7 +19,7 @@ from fenics_gears.simulation import simulate, tooth_reach
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.record import Record
 from fenics_gears.studies.study import Case
-from fenics_gears.studies.workshop import GEARS, cycle_key, gear_key, has_gears, own_workshop
+from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, has_gears, own_gear_store
 
 Tick = Callable[[], None]
 
@@ -77,14 +77,14 @@ def in_order_of_sharing(cases: list[Case]) -> list[Case]:
 
 def condense(task: GearTask, tick: Tick | None = None) -> None:
     """Bring a gear's flank compliance into the cache, and into this process."""
-    own_workshop().gear(model(task.scene), task.name, task.reach, user_cache())
+    own_gear_store().gear(model(task.scene), task.name, task.reach, user_cache())
 
 
 def run_case(task: CaseTask, tick: Tick | None = None) -> Record | Failure:
     """Run a case and write its file; a failure is written too. Raises KeyboardInterrupt where Ctrl-C ended it."""
     begun = time.perf_counter()
     try:
-        run = simulate(task.case.scene, progress=Ticking(tick), preparation=own_workshop().prepared)
+        run = simulate(task.case.scene, progress=Ticking(tick), preparation=own_gear_store().prepared)
         if not run.attrs["complete"]:
             raise KeyboardInterrupt
         return save_case(run.assign_attrs(wall_time=time.perf_counter() - begun), task.case, task.directory)

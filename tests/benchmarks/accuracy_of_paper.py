@@ -18,7 +18,7 @@ from fenics_gears.progress import LineProgress
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.accuracy import table
-from fenics_gears.studies.accuracy.measured import Report, measure
+from fenics_gears.studies.accuracy.report import Report, measure
 
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE, PICTURES = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md", ROOT / "docs" / "pictures"
@@ -52,8 +52,8 @@ def section(name: str, report: Report) -> str:
     remarks = [f"* {remark}" for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))]
     return "\n".join([
         f"**{table.in_one_sentence(report)}**", "", f"![](pictures/accuracy_{name}.png)", "",
-        f"Whole settings and cheaper models; \\* pays. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
-        *(line.replace(" *|", " \\*|") for line in whole), "", f"Each knob alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
+        f"Whole settings and cheaper models; \\* on the Pareto front. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
+        *(line.replace(" *|", " \\*|") for line in whole), "", f"Each setting alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
     ])  # fmt: skip
 
 
@@ -70,13 +70,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on settings of single knobs run again for their times")
+    parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on single settings run again for their times")
     parser.add_argument("--write-again", action="store_true", help="the README's picture and table from what is saved, without measuring")
     options = parser.parse_args()
     for name in [] if options.write_again else options.names:
         progress = LineProgress()
         print(name, flush=True)
-        report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_rungs=options.timing_seconds)
+        report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_single=options.timing_seconds)
         progress.close()
         save_figure(work_precision(report), PICTURES / f"accuracy_{name}.png")
         table.write_csv(report, PICTURES / f"accuracy_{name}.csv")

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.studies.accuracy.measured import OWN
+from fenics_gears.studies.accuracy.report import OWN
 from fenics_gears.studies.accuracy.table import percent, seconds
 
 TITLES = {

@@ -24,12 +24,12 @@ from fenics_gears.progress import SilentProgress
 from fenics_gears.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import load_scene
-from fenics_gears.studies.accuracy.ladder import Setting, half_width
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
-from fenics_gears.studies.accuracy.timing import KeptGears, Times, run_afresh
+from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
 from fenics_gears.studies.effect_lattice.machine import machine
-from fenics_gears.studies.target.chosen import choose
-from fenics_gears.studies.target.errors import TargetNotReached
+from fenics_gears.studies.accuracy_target.choose import choose
+from fenics_gears.studies.accuracy_target.limits import TargetNotReached
 from fenics_gears.warm_up import compile_kernels
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -78,13 +78,13 @@ def true_error(found, known: Reference) -> float:
 
 def searched(scene: Scene, known: Reference, window: float, kinds=SEARCHED, counts=STEPS) -> list[tuple[float, float, Setting]]:
     """Seconds, true error and setting of all that are searched. Quasi-static and frictionless, fewer steps are some of many steps."""
-    unit, gears, found = half_width(scene), KeptGears(2), []
+    unit, gears, found = half_width(scene), shared_gears(2), []
     length = model(scene).resolution.contact_grid.length
     for element, flank, body in kinds:
         spacing = NODE_SPACING if element.endswith("2") else 1.0
         setting = Setting(element, unit / flank, spacing * unit / flank, length, body, counts[-1])
         try:
-            run = gears.run(replace(scene, accuracy=setting.accuracy(scene.gears.module)))
+            run, _ = run_sharing(setting.of(scene), gears)
         except GearsError as error:
             print(f"  {setting.words}: {error}")
             continue

@@ -1,4 +1,4 @@
-"""The reference that settings are judged by: one fine run and what each knob, refined alone, still adds by Richardson's limit."""
+"""The reference that settings are judged by: one fine run and what each setting, refined alone, still adds by Richardson's limit."""
 
 from dataclasses import dataclass, replace
 
@@ -7,16 +7,15 @@ import numpy as np
 from fenics_gears.model import model
 from fenics_gears.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.accuracy import ladder
-from fenics_gears.studies.accuracy.ladder import Setting
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, answer
-from fenics_gears.studies.accuracy.reference import richardson, together
-from fenics_gears.studies.accuracy.timing import KeptGears
+from fenics_gears.studies.accuracy.convergence import richardson, together
+from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 
-# Elements in a half-width, contact nodes 0.7 of them apart; body elements in parts of their default; steps in a cycle. What a knob still
+# Elements in a half-width, contact nodes 0.7 of them apart; body elements in parts of their default; steps in a cycle. What one still
 # adds to the base is measured with few steps where it is not the steps'. The base's flank is fine: on a coarse one small steps find
 # extremes that belong to single nodes as they come into contact (0.3 % of T_EPP at 2.8 elements).
-RUNGS = {"flank": (2.8, 5.6, 11.2), "body": (1.0, 0.5, 0.25), "steps": (640, 1280, 2560)}
+LEVELS = {"flank": (2.8, 5.6, 11.2), "body": (1.0, 0.5, 0.25), "steps": (640, 1280, 2560)}
 BASE = {"flank": 5.6, "body": 0.5, "steps": 640}
 FEW_STEPS = 320
 EXPECTED = {"flank": 1.5, "body": 2.0, "steps": 1.5}
@@ -41,7 +40,7 @@ def highest(curve: np.ndarray) -> float:
 
 @dataclass(frozen=True)
 class Reference:
-    """Answers at all limits, relative uncertainty of each measure, of it each knob's part, and orders observed by knob."""
+    """Answers at all limits, relative uncertainty of each measure, of it each setting's part, and orders observed."""
 
     answer: Answer
     uncertainty: dict[str, float]
@@ -51,7 +50,7 @@ class Reference:
 
 def reference(scene: Scene, window: float, told=print) -> Reference:
     """The reference of a scene whose `[accuracy]` is empty; `window` (mm): that of pressures."""
-    unit, gears = ladder.half_width(scene), KeptGears(4)
+    unit, gears = half_width(scene), shared_gears(4)
     length = model(scene).resolution.contact_grid.length
 
     def setting(values) -> Setting:
@@ -60,19 +59,19 @@ def reference(scene: Scene, window: float, told=print) -> Reference:
     def run(values) -> Answer:
         words = setting(values)
         told(words.words)
-        found = gears.run(replace(scene, accuracy=words.accuracy(scene.gears.module)))
+        found, _ = run_sharing(words.of(scene), gears)
         curve = found.transmission_error.values[:-1]
         found.attrs["peak_to_peak_transmission_error"] = highest(curve) + highest(-curve)
         return answer(found, window)
 
     base, limits, orders = run(BASE), {name: [] for name in JUDGED}, {}
-    for knob, rungs in RUNGS.items():
-        others = BASE if knob == "steps" else {**BASE, "steps": FEW_STEPS}
-        answers = [base if {**others, knob: rung} == BASE else run({**others, knob: rung}) for rung in rungs]
-        own_base = answers[rungs.index(BASE[knob])]
-        sizes = [rung if knob == "body" else 1.0 / rung for rung in rungs]
-        found = {name: richardson([each[name] for each in answers], sizes, EXPECTED[knob]) for name in JUDGED}
-        orders[knob] = {name: limit.order for name, limit in found.items()}
+    for size, levels in LEVELS.items():
+        others = BASE if size == "steps" else {**BASE, "steps": FEW_STEPS}
+        answers = [base if {**others, size: level} == BASE else run({**others, size: level}) for level in levels]
+        own_base = answers[levels.index(BASE[size])]
+        halved = [level if size == "body" else 1.0 / level for level in levels]
+        found = {name: richardson([each[name] for each in answers], halved, EXPECTED[size]) for name in JUDGED}
+        orders[size] = {name: limit.order for name, limit in found.items()}
         for name, limit in found.items():
             limits[name].append(replace(limit, value=base[name] + limit.value - own_base[name]))
     whole = {name: together(base[name], limits[name]) for name in JUDGED}
@@ -80,8 +79,8 @@ def reference(scene: Scene, window: float, told=print) -> Reference:
         {name: limit.value for name, limit in whole.items()},
         {name: limit.uncertainty / float(np.linalg.norm(limit.value)) for name, limit in whole.items()},
         {
-            knob: {name: limits[name][place].uncertainty / float(np.linalg.norm(whole[name].value)) for name in JUDGED}
-            for place, knob in enumerate(RUNGS)
+            size: {name: limits[name][place].uncertainty / float(np.linalg.norm(whole[name].value)) for name in JUDGED}
+            for place, size in enumerate(LEVELS)
         },
         orders,
     )

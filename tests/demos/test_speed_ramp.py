@@ -11,7 +11,7 @@ from tests.coarse import COARSE
 from fenics_gears import load_scene
 from fenics_gears.model import model
 from fenics_gears.scene.data import Motion
-from fenics_gears.studies.workshop import Workshop
+from fenics_gears.studies.gear_store import GearStore
 
 
 def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
@@ -37,8 +37,8 @@ def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
     direction): at 200 Hz the steady vibration reached from above is several times that reached from below; at 240 Hz they are the same."""
     monkeypatch.setattr(sweeps, "load_scene", coarsened)
     monkeypatch.setattr(sweeps, "SETTLING_CYCLES", 60 if frequency == 200.0 else 120)
-    workshop = Workshop()
-    below, above = (sweeps.steady(name, frequency, workshop) for name in ("up", "down"))
+    store = GearStore()
+    below, above = (sweeps.steady(name, frequency, store) for name in ("up", "down"))
     if frequency == 200.0:
         assert above > 4.0 * below
     else:

@@ -10,15 +10,15 @@ from demos.tip_relief.optimum import ALLOWED, Optimum, optimum
 from demos.tip_relief.table import table
 from tests.coarse import COARSE
 
-from fenics_gears.studies.workshop import Workshop
+from fenics_gears.studies.gear_store import GearStore
 
 
 @pytest.fixture(scope="module")
 def benches():
     """A bench for every condition of the demonstration, and one of teeth alone without friction."""
-    workshop = Workshop()
-    made = {name: Bench(scene, workshop) for name, scene in conditions(paper_scene(COARSE)).items()}
-    return made | {"teeth alone": Bench(replace(made[findings.STIFF].scene, friction=None), workshop)}
+    store = GearStore()
+    made = {name: Bench(scene, store) for name, scene in conditions(paper_scene(COARSE)).items()}
+    return made | {"teeth alone": Bench(replace(made[findings.STIFF].scene, friction=None), store)}
 
 
 @pytest.fixture(scope="module")

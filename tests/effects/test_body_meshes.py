@@ -21,9 +21,9 @@ from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.simulation import simulate
-from fenics_gears.studies.accuracy.ladder import checked_model
+from fenics_gears.studies.accuracy.refinement import checked_model
 from fenics_gears.studies.study_file import load_study
-from fenics_gears.studies.workshop import Workshop
+from fenics_gears.studies.gear_store import GearStore
 
 TEETH = "tooth_elasticity"
 COARSE = {"element": "P1", "flank_element_size": 0.4, "body_element_size": 3.0}
@@ -124,16 +124,16 @@ def test_files_are_found_from_the_scene_file_on(tmp_path, monkeypatch):
     assert found[0] == mesh and found[0].digest == found[1].digest
 
 
-def test_a_workshop_tells_meshes_apart_by_their_content(tmp_path, healthy, cache):
+def test_a_gear_store_tells_meshes_apart_by_their_content(tmp_path, healthy, cache):
     """A file that is written anew is another gear, and the same file is not read twice."""
     file = tmp_path / "pinion.msh"
     shutil.copy(healthy / "pinion.msh", file)
-    workshop, made = Workshop(), []
+    store, made = GearStore(), []
     for content in (None, None, MESHES / "cracked_pinion.msh"):
         if content is not None:
             shutil.copy(content, file)
         built = model(scene_from_text(text_with(f'pinion = "{file}"')))
-        made.append(simulate(built.scene, preparation=workshop.prepared, cache=cache).transmission_error.values)
+        made.append(simulate(built.scene, preparation=store.prepared, cache=cache).transmission_error.values)
     assert np.array_equal(made[0], made[1]) and np.abs(made[2] - made[0]).max() > 1e-3 * np.abs(made[0]).max()
 
 

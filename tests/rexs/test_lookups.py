@@ -11,6 +11,7 @@ from tests.rexs.test_paper_pair import imported
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Motion
 from fenics_gears.rexs.imported import Choice
+from fenics_gears.scene.read import scene_from_text
 
 GEARS = (rexs.PINION, rexs.WHEEL)
 
@@ -125,11 +126,22 @@ def test_solid_gear_and_bore_of_its_body(tmp_path):
     assert scene.gears.wheel.bore_diameter == 44.0 and not assumed_fields(found)
 
 
-def test_masses_are_offered(tmp_path):
-    """Ring of steel: rho pi/4 (d^2 - bore^2) b and m (d^2 + bore^2)/8, in the comment, since a scene has one inertia for both gears."""
+def test_densities_are_offered(tmp_path):
+    """Authority: the scene's own section; with what the comment offers written out, both gears have the mass of a body of that density."""
     _, found = scene_of(tmp_path, rexs.paper_model())
-    mass = 7.85e-6 * 0.25 * 3.141592653589793 * (72.0**2 - 30.0**2) * 15.0
-    assert f"{mass:.4g} kg and {mass * (72.0**2 + 30.0**2) / 8 * 1e-6:.4g} kg m^2" in found.text
+    assert '#   [inertia.pinion] density = "7.85 g / cm^3", density of component 11' in found.text
+    scene = scene_from_text(found.text + '\n[inertia.pinion]\ndensity = "7.85 g / cm^3"\n\n[inertia.wheel]\ndensity = "7.85 g / cm^3"\n', "inert")
+    assert scene.inertia.pinion.density == pytest.approx(7.85e-9)
+
+
+def test_each_gear_has_its_own_material_and_width(tmp_path):
+    """Where they differ; where they do not, it is the pair's."""
+    model = rexs.with_component(changed((rexs.PINION, "face_width", 17.0, "mm")), 21, "material", ("elastic_modulus", 70.0, "GPa"), ("poisson_ratio", 0.33))
+    reference = next(each for each in model["model"]["relations"] if each["type"] == "reference" and each["refs"][0]["id"] == rexs.WHEEL)
+    reference["refs"][1]["id"] = 21
+    gears = scene_of(tmp_path, model)[0].gears
+    assert [(each.youngs_modulus, each.poissons_ratio) for each in gears.materials] == [(206e3, 0.3), (70e3, 0.33)]
+    assert gears.face_widths == (17.0, 15.0) and gears.face_width == 15.0
 
 
 @pytest.mark.parametrize("version", ["1.0", "1.1", "1.2"])

@@ -80,14 +80,6 @@ def test_wrong_arrays_are_named(tmp_path, array, words):
         assert f"component 5 (cylindrical_gear 'pinion'): normal_module {words}" in str(raised.value)
 
 
-def test_different_materials_are_refused(tmp_path):
-    """A scene has one material."""
-    model = rexs.with_component(rexs.paper_model(), 21, "material", ("elastic_modulus", 70000.0, "N / mm^2"), ("poisson_ratio", 0.3))
-    reference = next(each for each in model["model"]["relations"] if each["type"] == "reference" and each["refs"][0]["id"] == W)
-    reference["refs"][1]["id"] = 21
-    assert "different materials, a scene has one for both: elastic_modulus of component 11 is 206000.0 N / mm^2" in refused(tmp_path, model)
-
-
 def test_all_mistakes_are_told_at_once(tmp_path):
     """Three mistakes, three sentences; what only follows from them is not repeated."""
     said = refused(tmp_path, changed((P, "normal_module", None), (W, "face_width", 15.0, "kg"), (MATERIAL, "poisson_ratio", None)))

@@ -1,4 +1,4 @@
-"""`gears accuracy`: the ladder of a small scene measured, told, written and drawn; times of this machine, errors of the method."""
+"""`gears accuracy`: the settings of a small scene refined, told, written and drawn; times of this machine, errors of the method."""
 
 import csv
 from dataclasses import replace
@@ -13,13 +13,15 @@ from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model import model
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
 from fenics_gears.simulation import simulate
-from fenics_gears.studies.accuracy import ladder, measured, table
+from fenics_gears.studies.accuracy import refinement, table
+from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.root_point import peak_root_stress, point_rows
-from fenics_gears.studies.accuracy.timing import KeptGears
+from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
+from fenics_gears.studies.accuracy.setting import Setting, own_setting
 
 TEETH = "tooth_elasticity"
-# Fewer and coarser than --quick: what is tested here is the way, not the ladder.
+# Fewer and coarser than --quick: what is tested here is the way, not the numbers.
 TINY = {"flank elements": (0.5, 1.0), "contact nodes": (1.0,), "body elements": (4.0,), "contact length": (1.0,), "steps": (10, 20, 40)}
 TINY_FINE = {"flank elements": 1.0, "contact nodes": 1.0, "body elements": 4.0, "contact length": 1.0, "steps": 20}
 SETTINGS = Accuracy("P1", 0.25, 3.0, 13, 20)
@@ -27,10 +29,10 @@ SETTINGS = Accuracy("P1", 0.25, 3.0, 13, 20)
 
 @pytest.fixture(scope="module", autouse=True)
 def tiny():
-    """Few rungs for `quick`."""
+    """Few levels for `quick`."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(ladder, "QUICK", TINY)
-        patch.setattr(ladder, "QUICK_FINE", TINY_FINE)
+        patch.setattr(refinement, "QUICK", TINY)
+        patch.setattr(refinement, "QUICK_FINE", TINY_FINE)
         yield
 
 
@@ -43,11 +45,11 @@ def scene():
 @pytest.fixture(scope="module")
 def report(scene, tiny):
     """Its study, timed twice."""
-    return measured.measure(scene, quick=True, rounds=2)
+    return reports.measure(scene, quick=True, rounds=2)
 
 
-def knob(report, name):
-    return next(each for each in report.knobs if each.knob.name == name)
+def refined(report, name):
+    return next(each for each in report.refinements if each.refinement.name == name)
 
 
 def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
@@ -55,55 +57,55 @@ def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
     run = simulate(scene)
     reference = report.own.errors[SPAN]
     span = run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]
-    again = measured.answer(run, 3.0)
+    again = reports.answer(run, 3.0)
     assert again[SPAN][0] == pytest.approx(span) and reference > 0.0
-    assert ladder.own(scene).flank == model(scene).resolution.flank_element_size == SETTINGS.flank_element_size
-    assert ladder.own(scene).grid.nodes == SETTINGS.contact_nodes
+    assert own_setting(scene).flank == model(scene).resolution.flank_element_size == SETTINGS.flank_element_size
+    assert own_setting(scene).grid.nodes == SETTINGS.contact_nodes
 
 
-def test_every_knob_of_the_issue_is_turned_with_the_others_fine(report):
-    """Authority: issue 6; each rung differs from the fine setting in its own field alone."""
-    assert {each.knob.name for each in report.knobs} == {
+def test_every_setting_of_the_issue_is_refined_with_the_others_fine(report):
+    """Authority: issue 6; each level differs from the fine setting in its own field alone."""
+    assert {each.refinement.name for each in report.refinements} == {
         "flank element size", "contact node spacing", "body element size", "steps per mesh cycle", "contact length", "element",
         "interpolation", "elastic teeth",
     }  # fmt: skip
-    for result in report.knobs:
-        for each in result.rungs:
-            base = result.knob.base or report.fine
-            assert replace(each.rung.setting, **{result.knob.field: getattr(base, result.knob.field)}) == base
+    for result in report.refinements:
+        for each in result.levels:
+            base = result.refinement.base or report.fine
+            assert replace(each.level.setting, **{result.refinement.field: getattr(base, result.refinement.field)}) == base
 
 
-def test_the_scenes_own_values_are_rungs(report):
-    """Authority: definition; else what a scene is charged would leave a knob out."""
-    assert set(report.own.parts) == {each.knob.name for each in report.knobs}
-    assert sum(each.rung.own for each in knob(report, "flank element size").rungs) == 1
-    assert not any(each.rung.own for each in knob(report, "steps per mesh cycle").rungs)
+def test_the_scenes_own_values_are_levels(report):
+    """Authority: definition; else what a scene is charged would leave a setting out."""
+    assert set(report.own.parts) == {each.refinement.name for each in report.refinements}
+    assert sum(each.level.own for each in refined(report, "flank element size").levels) == 1
+    assert not any(each.level.own for each in refined(report, "steps per mesh cycle").levels)
 
 
 def test_more_steps_are_better(report):
     """Authority: straight lines between steps; each halving of the step must not make the curve worse."""
-    errors = [each.errors[CURVE] for each in knob(report, "steps per mesh cycle").rungs]
+    errors = [each.errors[CURVE] for each in refined(report, "steps per mesh cycle").levels]
     assert errors == sorted(errors, reverse=True) and errors[-1] < 0.5 * errors[0]
 
 
 def test_a_setting_is_charged_at_least_its_parts_and_its_distance(report):
     """Authority: issue 6, errors that cancel are no accuracy."""
     for each in report.settings:
-        assert each.counted >= judged(each.errors) and each.counted >= sum(each.parts.values()) * (1 - 1e-12)
+        assert each.charged >= judged(each.errors) and each.charged >= sum(each.parts.values()) * (1 - 1e-12)
 
 
 def test_cheaper_models_stand_beside_them(report):
     """Authority: rigid teeth without errors of form have no transmission error: all of it is lost, and there is no pressure."""
     models = {each.name: each for each in report.models}
-    assert set(models) == set(measured.MODELS)
+    assert set(models) == set(reports.MODELS)
     rigid = models[RIGID_TEETH]
     assert rigid.errors[SPAN] == pytest.approx(1.0, abs=1e-6) and np.isnan(rigid.errors["pressure"]) and not rigid.parts
     assert all(each not in report.front for each in report.models)
 
 
 def test_times_are_split_and_of_every_round(report):
-    """Authority: identity; the total of a run is its stages', rungs and whole settings are timed in all rounds."""
-    results = [*report.settings, *report.models, *(each for knob in report.knobs for each in knob.rungs)]
+    """Authority: identity; the total of a run is its stages', levels and whole settings are timed in all rounds."""
+    results = [*report.settings, *report.models, *(each for result in report.refinements for each in result.levels)]
     for each in results:
         assert each.times.rounds == 2
         assert each.times.totals[0] == pytest.approx(each.times.mesh[0] + each.times.condense[0] + each.times.march[0])
@@ -115,7 +117,7 @@ def test_times_are_split_and_of_every_round(report):
 def test_the_root_stress_is_that_of_the_runs_own_output(sections):
     """Authority: `[output] root_stress` of the same run, its variable at 30 degrees; the pinion's largest over the last cycle."""
     scene = replace(scene_of(*sections), motion=Motion(200.0, 2, 2), output=Output(root_stress=True))
-    run, cycle = KeptGears().run_with_cycle(scene)
+    run, cycle = run_sharing(scene, shared_gears())
     last = run.isel(time=slice(len(run.mesh_phase) - cycle.steps, None), gear=0)
     assert peak_root_stress(run, scene, cycle) == pytest.approx(float(last["root_stress_at_30_degrees"].max()), rel=1e-9)
 
@@ -129,38 +131,38 @@ def test_a_fillet_without_that_tangent_is_judged_at_its_middle():
 
 
 def test_root_stress_has_errors_and_orders(report):
-    """Authority: issue 6; every rung and whole setting has one, cheaper models without flanks in contact have none, and it costs no time."""
-    assert all(np.isfinite(each.errors[ROOT]) for result in report.knobs for each in result.rungs)
+    """Authority: issue 6; every level and whole setting has one, cheaper models without flanks in contact have none, and it costs no time."""
+    assert all(np.isfinite(each.errors[ROOT]) for result in report.refinements for each in result.levels)
     assert all(np.isfinite(each.errors[ROOT]) for each in report.settings) and all(np.isnan(each.errors[ROOT]) for each in report.models)
-    body = knob(report, "body element size").rungs
+    body = refined(report, "body element size").levels
     assert max(each.errors[ROOT] for each in body) < 0.1
     assert "root stress" in table.HEADINGS
 
 
-def test_rungs_are_repeated_the_quickest_first_as_far_as_there_is_time():
+def test_single_settings_are_repeated_the_quickest_first_as_far_as_there_is_time():
     """Authority: by hand; 1 + 2 fit into 4, 3 more do not; what is left out is said."""
-    settings = [replace(ladder.Setting("P2", 0.1, 0.1, 3.0, 1.0, 20), steps=steps) for steps in (40, 20, 80)]
+    settings = [replace(Setting("P2", 0.1, 0.1, 3.0, 1.0, 20), steps=steps) for steps in (40, 20, 80)]
     seconds = dict(zip(settings, (2.0, 1.0, 3.0)))
-    assert measured.within(seconds, 4.0) == settings[:2]
-    assert measured.within(seconds, 6.0) == settings and measured.within(seconds, 0.5) == []
+    assert reports.within(seconds, 4.0) == settings[:2]
+    assert reports.within(seconds, 6.0) == settings and reports.within(seconds, 0.5) == []
 
 
 def test_what_was_timed_less_often_is_told(report):
     """Authority: house rule; a number says how it was measured."""
-    assert table.timed(report).endswith("settings of single knobs as often.")
+    assert table.timed(report).endswith("single settings as often.")
     fewer = replace(report, rounds=5)
-    assert f"0 of {sum(len(each.rungs) for each in report.knobs)} settings" in table.timed(fewer) and "60 s that were given" in table.timed(fewer)
+    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(fewer) and "60 s that were given" in table.timed(fewer)
 
 
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
-    """Authority: issue 6 names the knob; it is a model of its own, compared in one setting that both routes have, and limits no setting."""
+    """Authority: issue 6 names it; it is a model of its own, compared in one setting that both routes have, and limits no setting."""
     coarse = {"flank elements": 0.7, "contact nodes": 0.7, "body elements": 4.0, "steps": 4}
-    monkeypatch.setattr(ladder, "REMESHED_FINE", coarse)
-    assert [each.name for each in ladder.knobs(scene)][-1] == "condensation"
-    study = measured.Study(scene, measured.SilentProgress(), True, 1)
-    study.knobs = (ladder._condensation(scene),)
-    (result,) = study.turn_knobs()
-    anew, once = result.rungs
+    monkeypatch.setattr(refinement, "REMESHED_FINE", coarse)
+    assert [each.name for each in refinement.refinements(scene)][-1] == "condensation"
+    study = reports.Study(scene, reports.SilentProgress(), True, 1)
+    study.refinements = (refinement.condensation(scene),)
+    (result,) = study.refine()
+    anew, once = result.levels
     assert once.errors[CURVE] == once.errors[ROOT] == 0.0 and 0.0 < anew.errors[CURVE] < 0.2
     assert np.isnan(anew.errors[ROOT])
     assert all((limit.value == study._known[study.base][0][name]).all() for name, limit in result.limits.items())
@@ -169,7 +171,7 @@ def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, m
 @pytest.mark.parametrize("section", ["coast_flanks", "corner_contact"])
 def test_condensing_anew_is_left_out_where_that_route_lacks_an_effect(section):
     """Authority: scene/rules.py refuses both together; no effect is ignored silently."""
-    assert "condensation" not in [each.name for each in ladder.knobs(scene_of(TEETH, section))]
+    assert "condensation" not in [each.name for each in refinement.refinements(scene_of(TEETH, section))]
 
 
 def test_the_energy_account_closes_to_round_off(report):
@@ -181,7 +183,7 @@ def test_the_sentence_says_no_more_than_the_reference_can(report):
     """Authority: the reference's uncertainty; a target below it is not claimed."""
     said = table.in_one_sentence(replace(report, uncertainty=dict.fromkeys(MEASURES, 0.004)))
     assert "0.1 % cannot be told" in said and said.startswith("1 % in T_E")
-    assert f"what limits you is the {table.dominant(report.own.parts)}" in said
+    assert f"what limits you is the {table.largest_part(report.own.parts)}" in said
     cheap = replace(report.settings[0], errors=dict.fromkeys(MEASURES, 1e-4), parts={"steps per mesh cycle": 2e-4})
     sure = replace(report, settings=(replace(report.own), cheap), uncertainty=dict.fromkeys(MEASURES, 1e-5))
     cost = table.seconds(cheap.times.total)
@@ -199,29 +201,27 @@ def test_the_sentence_says_no_more_than_the_reference_can(report):
 def test_what_cannot_be_measured_is_refused_with_the_remedy(scene, changes, words):
     """Authority: house rule; no option is silently ignored."""
     with pytest.raises(SceneError, match=words):
-        measured.measure(replace(scene, **changes))
+        reports.measure(replace(scene, **changes))
 
 
 def test_without_load_there_is_nothing_to_measure(scene):
     """Authority: house rule; an error says what, and the remedy."""
     with pytest.raises(SceneError, match="wheel_torque is 0"):
-        measured.measure(replace(scene, load=replace(scene.load, wheel_torque=0.0)))
+        reports.measure(replace(scene, load=replace(scene.load, wheel_torque=0.0)))
 
 
-def test_a_rung_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
+def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
     """Authority: house style, a failed case is a record among the results."""
-    kept = measured.KeptGears.run_with_cycle
-
-    def fails(self, scene):
+    def fails(scene, gears):
         if scene.accuracy.interpolation == "collocated":
             raise ComputationError("no solution at step 3\nand a history")
-        return kept(self, scene)
+        return run_sharing(scene, gears)
 
-    monkeypatch.setattr(measured.KeptGears, "run_with_cycle", fails)
-    study = measured.Study(scene, measured.SilentProgress(), True, 1)
-    study.knobs = tuple(each for each in study.knobs if each.name == "interpolation")
-    (result,) = study.turn_knobs()
-    assert [each.rung.label for each in result.rungs] == ["averaged"]
+    monkeypatch.setattr(reports, "run_sharing", fails)
+    study = reports.Study(scene, reports.SilentProgress(), True, 1)
+    study.refinements = tuple(each for each in study.refinements if each.name == "interpolation")
+    (result,) = study.refine()
+    assert [each.level.label for each in result.levels] == ["averaged"]
     assert study.failures == [("interpolation collocated", "no solution at step 3")]
 
 
@@ -235,10 +235,10 @@ def test_the_picture_names_every_setting_that_pays(report):
     for number, each in enumerate(report.front, 1):
         assert f"{number}  {each.setting.words}" in said
     for each in (*report.settings, *report.models):
-        for value, (low, high) in ((each.times.total, whole.get_xlim()), (each.counted, whole.get_ylim())):
+        for value, (low, high) in ((each.times.total, whole.get_xlim()), (each.charged, whole.get_ylim())):
             assert low <= value <= high
     assert len(alone.lines) >= 5
-    assert len(set(MARKS)) == len(MARKS) >= len(ladder.knobs(report.scene))
+    assert len(set(MARKS)) == len(MARKS) >= len(refinement.refinements(report.scene))
     assert any(table.in_one_sentence(report)[:40] in text.get_text() for text in figure.texts)
 
 
@@ -255,8 +255,8 @@ def test_the_command_prints_and_writes_table_and_picture(tmp_path, monkeypatch, 
     assert "what limits you is" in output and "rigid teeth" in output
     with open(tmp_path / "there" / "accuracy.csv", encoding="utf-8", newline="") as file:
         lines = list(csv.DictReader(file))
-    assert {line["kind"] for line in lines} == {"knob", "setting", "model", "reference"}
-    own = next(line for line in lines if line["name"] == measured.OWN)
+    assert {line["kind"] for line in lines} == {"single setting", "setting", "model", "reference"}
+    own = next(line for line in lines if line["name"] == reports.OWN)
     assert float(own["charged_error"]) >= float(own["judged_error"]) > 0.0
     assert float(own["time_s"]) == pytest.approx(sum(float(own[f"time_{stage}_s"]) for stage in ("mesh", "condense", "march")))
     assert all(None not in line and None not in line.values() for line in lines)
@@ -264,10 +264,10 @@ def test_the_command_prints_and_writes_table_and_picture(tmp_path, monkeypatch, 
 
 def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     """Authority: the exit codes; 130, and no half of a comparison is kept."""
-    from fenics_gears.studies.accuracy import timing
+    from fenics_gears.studies.accuracy import runs
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(timing, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))
+    monkeypatch.setattr(runs, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))
     (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err
@@ -277,12 +277,12 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize("sections, order", [((TEETH,), 1.5), ((TEETH, "friction"), 1.0), ((TEETH, "inertia"), 2.0), ((TEETH, "inertia", "friction"), 1.0)])
 def test_the_order_expected_of_steps_is_that_of_what_moves(sections, order):
     """Authority: straight lines across kinks h^1.5 in L2, average acceleration h^2; friction's slip by backward differences h."""
-    steps = next(each for each in ladder.knobs(scene_of(*sections), quick=True) if each.name == "steps per mesh cycle")
+    steps = next(each for each in refinement.refinements(scene_of(*sections), quick=True) if each.name == "steps per mesh cycle")
     assert steps.expected == order
 
 
 @pytest.mark.parametrize("sections, order", [((TEETH,), 1.0), ((TEETH, "corner_contact"), 1.0), ((TEETH, "tip_relief"), 2.0)])
 def test_the_order_expected_of_contact_nodes_is_that_of_tips_that_touch_or_not(sections, order):
     """Authority: averages over half a hat of a gap that opens in proportion, h; over whole ones, h^2."""
-    nodes = next(each for each in ladder.knobs(scene_of(*sections), quick=True) if each.name == "contact node spacing")
+    nodes = next(each for each in refinement.refinements(scene_of(*sections), quick=True) if each.name == "contact node spacing")
     assert nodes.expected == order

@@ -8,9 +8,10 @@ import pytest
 import xarray as xr
 
 from fenics_gears.studies.accuracy import measures, whole
-from fenics_gears.studies.accuracy.ladder import Knob, Rung, Setting
 from fenics_gears.studies.accuracy.measures import CURVE, JUDGED, PEAK, PRESSURE, SPAN, STIFFNESS
-from fenics_gears.studies.accuracy.reference import last_of, observed_order, richardson, together
+from fenics_gears.studies.accuracy.refinement import Level, Refinement
+from fenics_gears.studies.accuracy.setting import Setting
+from fenics_gears.studies.accuracy.convergence import largest_part, last_of, observed_order, richardson, together
 
 SHAPE = np.sin(np.linspace(0.0, 6.0, 50)) + 2.0
 ERROR = np.cos(np.linspace(0.0, 2.0, 50))
@@ -60,7 +61,7 @@ def test_without_an_order_nothing_is_extrapolated(values):
 
 
 def test_an_order_far_above_the_expected_is_not_trusted():
-    """Authority: a leading power that happens to vanish says nothing of the next rung; the safe side is the last difference."""
+    """Authority: a leading power that happens to vanish says nothing of the next level; the safe side is the last difference."""
     sizes = (0.8, 0.4, 0.2)
     limit = richardson(sequence(sizes, 6.0), sizes, expected=2.0)
     assert limit.order == pytest.approx(6.0)
@@ -78,7 +79,7 @@ def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated(
     assert limit.least_error == pytest.approx(1.0) and limit.uncertainty == pytest.approx(3.0)
 
 
-def test_limits_of_several_knobs_add_and_so_do_their_uncertainties():
+def test_limits_of_several_settings_add_and_so_do_their_uncertainties():
     """Authority: u = c + a h^2 + b k; both extrapolated from one base give c."""
     def u(h, k):
         return np.array([5.0 + 0.7 * h**2 - 0.4 * k])
@@ -111,7 +112,7 @@ def test_the_front_is_that_of_comparing_each_with_each(seed):
 
 
 def test_errors_that_cancel_are_no_accuracy():
-    """Authority: issue 6; +5 % of one knob and -5 % of another give the right answer and are charged 10 %."""
+    """Authority: issue 6; +5 % of one setting and -5 % of another give the right answer and are charged 10 %."""
     def span(h, k):
         return np.array([10.0 * (1.0 + 0.05 * h**2 - 0.05 * k**2)])
 
@@ -119,24 +120,24 @@ def test_errors_that_cancel_are_no_accuracy():
     direct = measures.distance({SPAN: span(1.0, 1.0)}, exact, SPAN)
     parts = {"h": measures.distance({SPAN: span(1.0, 0.0)}, exact, SPAN), "k": measures.distance({SPAN: span(0.0, 1.0)}, exact, SPAN)}
     assert direct == 0.0
-    assert whole.counted_error(direct, parts) == pytest.approx(0.10)
-    honest = whole.counted_error(measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()})
+    assert whole.charged_error(direct, parts) == pytest.approx(0.10)
+    honest = whole.charged_error(measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()})
     assert honest == pytest.approx(0.025)
-    assert whole.pareto_front([(1.0, whole.counted_error(direct, parts)), (1.5, honest)]) == [0, 1]
+    assert whole.pareto_front([(1.0, whole.charged_error(direct, parts)), (1.5, honest)]) == [0, 1]
 
 
 def test_a_model_is_charged_its_distance_and_a_setting_never_less():
-    """Authority: definition; no knob makes a cheaper model's error smaller."""
-    assert whole.counted_error(0.2, {}) == 0.2
-    assert whole.counted_error(0.2, {"a": 0.01}) == 0.2
+    """Authority: definition; no setting makes a cheaper model's error smaller."""
+    assert whole.charged_error(0.2, {}) == 0.2
+    assert whole.charged_error(0.2, {"a": 0.01}) == 0.2
 
 
-def knob(name, field, values, expected=2.0):
-    """A knob of synthetic rungs."""
-    return Knob(name, field, tuple(Rung(str(value), replace(BASE, **{field: value}), float(value)) for value in values), expected, "made up")
+def refinement(name, field, values, expected=2.0):
+    """A setting of synthetic levels."""
+    return Refinement(name, field, tuple(Level(str(value), replace(BASE, **{field: value}), float(value)) for value in values), expected, "made up")
 
 
-FLANK, STEPS = knob("flank", "flank", (0.16, 0.08, 0.04)), knob("steps", "steps", (20, 40, 80, 160))
+FLANK, STEPS = refinement("flank", "flank", (0.16, 0.08, 0.04)), refinement("steps", "steps", (20, 40, 80, 160))
 ERRORS = {("flank", 0): 0.08, ("flank", 1): 0.02, ("flank", 2): 0.005}
 ERRORS |= {("steps", place): error for place, error in enumerate((0.2, 0.05, 0.012, 0.003))}
 
@@ -153,12 +154,12 @@ def test_the_path_ends_at_what_is_not_allowed():
     assert found[-1] == replace(BASE, flank=0.08, steps=40)
 
 
-def test_parts_are_those_of_the_settings_own_rungs():
+def test_parts_are_those_of_the_settings_own_levels():
     """Authority: identity; and the largest names what limits."""
     for (i, flank), (j, steps) in itertools.product(enumerate((0.16, 0.08, 0.04)), enumerate((20, 40, 80, 160))):
         parts = whole.parts_of(replace(BASE, flank=flank, steps=steps), [FLANK, STEPS], ERRORS)
         assert parts == {"flank": ERRORS["flank", i], "steps": ERRORS["steps", j]}
-        assert ERRORS[whole.dominant(parts), {"flank": i, "steps": j}[whole.dominant(parts)]] == max(parts.values())
+        assert ERRORS[largest_part(parts), {"flank": i, "steps": j}[largest_part(parts)]] == max(parts.values())
 
 
 def test_contact_nodes_are_no_closer_than_the_flank_bears_and_windows_share_their_nodes():

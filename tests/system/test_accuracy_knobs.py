@@ -15,7 +15,7 @@ from fenics_gears.reference_route import remeshed
 from fenics_gears.scene.data import GearData, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation import simulate
-from fenics_gears.studies.workshop import cycle_key, gear_key
+from fenics_gears.studies.gear_store import cycle_key, gear_key
 
 
 @pytest.fixture

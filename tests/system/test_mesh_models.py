@@ -19,7 +19,7 @@ from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation import deviating, gear_compliances, mesh_cycle, simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.studies.work import gear_tasks, in_order_of_sharing
-from fenics_gears.studies.workshop import Workshop, cycle_key
+from fenics_gears.studies.gear_store import GearStore, cycle_key
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
 
@@ -231,16 +231,16 @@ start = "HPSTC"
     assert result.coast_normal_force.values.max() > 0.0
 
 
-def test_a_workshop_keeps_them_apart(static):
+def test_a_gear_store_keeps_them_apart(static):
     """From the task: what changes the operators changes their key; a table belongs to its load."""
     keys = {cycle_key(model(by(static, name))) for name in (None, *MODELS)}
     assert len(keys) == 4
     other = replace(static, load=replace(static.load, wheel_torque=1e5))
     assert cycle_key(model(by(static, STIFFNESS_TABLE))) != cycle_key(model(by(other, STIFFNESS_TABLE)))
     assert cycle_key(model(static)) == cycle_key(model(other))
-    workshop = Workshop()
+    store = GearStore()
     for name in MODELS:
-        kept = simulate(by(static, name), preparation=workshop.prepared)
+        kept = simulate(by(static, name), preparation=store.prepared)
         assert np.array_equal(kept.transmission_error, simulate(by(static, name)).transmission_error)
 
 

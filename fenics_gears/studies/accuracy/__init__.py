@@ -1,1 +1,1 @@
-"""What accuracy costs in time: each knob's error with the others fine, cheaper models beside them, and whole settings that pay."""
+"""What accuracy costs in time: each setting's error with the others fine, whole settings, cheaper models beside them; and the orders and limits that targets are chosen by, too."""

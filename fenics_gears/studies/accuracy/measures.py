@@ -1,6 +1,6 @@
 """What a run is judged by, as arrays that any two runs of a scene have alike, and the relative distance of two runs.
 
-`energy defect` is an error by itself; it is told in parts of the drive's work.
+`energy defect` is an error by itself; it is given in parts of the drive's work.
 """
 
 from __future__ import annotations
@@ -24,11 +24,7 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
 
     root_stress: MPa, peak at a material point (`root_point`), which a run does not carry; None where it is not known.
     """
-    found = {
-        CURVE: _curve(run),
-        SPAN: np.array([run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]]),
-        DEFECT: np.array([_defect(run)]),
-    }
+    found = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:
         found[STIFFNESS] = np.array([mean_mesh_stiffness(run)])
     if "contact_pressure" in run:
@@ -37,6 +33,12 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
     if root_stress is not None:
         found[ROOT] = np.array([root_stress])
     return found
+
+
+def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
+    """The two measures that settings are judged by; `every`: one step in so many counts, as in a run of longer steps."""
+    height = run.attrs["peak_to_peak_transmission_error"] if every == 1 else np.ptp(run["transmission_error"].values[::every])
+    return {CURVE: _curve(run, every), SPAN: np.array([height * run.attrs["base_radius_wheel"]])}
 
 
 def mean_mesh_stiffness(run: xr.Dataset) -> float:
@@ -72,11 +74,11 @@ def _last_cycle(run: xr.Dataset) -> np.ndarray:
     return phase > phase[-1] - 1.0 + 1e-9
 
 
-def _curve(run: xr.Dataset) -> np.ndarray:
+def _curve(run: xr.Dataset, every: int) -> np.ndarray:
     """Transmission error (640,), mm at the wheel's base circle, over the last mesh cycle, straight between steps, its mean removed."""
-    phase = run["mesh_phase"].values
+    phase = run["mesh_phase"].values[::every]
     wanted = phase[-1] - 1.0 + np.arange(1, CURVE_POINTS + 1) / CURVE_POINTS
-    curve = np.interp(wanted, phase, run["transmission_error"].values) * run.attrs["base_radius_wheel"]
+    curve = np.interp(wanted, phase, run["transmission_error"].values[::every]) * run.attrs["base_radius_wheel"]
     return curve - curve.mean()
 
 

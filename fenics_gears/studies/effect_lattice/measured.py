@@ -22,7 +22,7 @@ from fenics_gears.simulation import gear_compliance, mesh_cycle, prepared, simul
 from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.machine import machine
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
-from fenics_gears.studies.workshop import GEARS, gear_key
+from fenics_gears.studies.gear_store import GEARS, gear_key
 from fenics_gears.warm_up import compile_kernels
 
 ROUNDS = 5

@@ -1,4 +1,4 @@
-"""How long a run takes, stage by stage and without the cache; of several rounds, in which runs take turns, the median."""
+"""Runs of settings without the cache, that share their gears or stand alone, and how long they take, stage by stage and without the cache; of several rounds, in which runs take turns, the median."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.model import Model
 from fenics_gears.progress import Progress, SilentProgress
-from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
-from fenics_gears.studies.workshop import GEARS, gear_key
+from fenics_gears.simulation import prepared, simulate
+from fenics_gears.studies.gear_store import GearStore
 
 STAGES = ("mesh", "condense", "march")
 
@@ -38,7 +37,7 @@ class Times:
 
     @property
     def totals(self) -> tuple[float, ...]:
-        """Of every run."""
+        """Seconds of all stages, by run."""
         return tuple(map(sum, zip(self.mesh, self.condense, self.march)))
 
     @property
@@ -56,36 +55,17 @@ def run_afresh(scene: Scene) -> tuple[xr.Dataset, Cycle]:
     return _run(scene, lambda built: prepared(built, SilentProgress(), None))
 
 
-class KeptGears:
-    """Gears condensed once for all runs that share them, without the cache; each keeps the times that it took.
+def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
+    """A run that shares gears with others, without the cache, and its mesh cycle; its times are those of a run of its own.
 
-    `most`: how many gears are kept, those last used; all without it.
+    KeyboardInterrupt from `progress` ends all.
     """
+    return _run(scene, lambda built: gears.prepared(built, SilentProgress(), None), progress)
 
-    def __init__(self, most: int | None = None):
-        self._gears: dict = {}
-        self._most = most
 
-    def run(self, scene: Scene, progress: Progress | None = None) -> xr.Dataset:
-        """A run of the full contact; its times are those of a run of its own. KeyboardInterrupt from `progress` ends all."""
-        return _run(scene, self._prepared, progress)[0]
-
-    def run_with_cycle(self, scene: Scene) -> tuple[xr.Dataset, Cycle]:
-        """The same, and its mesh cycle."""
-        return _run(scene, self._prepared)
-
-    def _prepared(self, built: Model):
-        if built.resolution.condensation == EVERY_STEP:
-            return prepared(built, SilentProgress(), None)
-        reach = tooth_reach(built)
-        for name in GEARS:
-            key = gear_key(built, name, reach)
-            # Last in the dictionary, last to be given up.
-            self._gears[key] = self._gears.pop(key, None) or gear_compliance(built, name, reach, None)
-        compliances = tuple(self._gears[gear_key(built, name, reach)] for name in GEARS)
-        while self._most is not None and len(self._gears) > self._most:
-            del self._gears[next(iter(self._gears))]
-        return compliances, mesh_cycle(built, compliances)
+def shared_gears(most: int | None = None) -> GearStore:
+    """For runs whose times count, so that no mesh cycle is taken over; `most`: how many gears are kept."""
+    return GearStore(most, cycles=False)
 
 
 def _run(scene: Scene, prepare: Callable[[Model], tuple], progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:

@@ -2,6 +2,7 @@
 
 import contextlib
 import re
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -9,19 +10,22 @@ import pytest
 from tests.coarse import teeth_alone
 
 from fenics_gears.cli import main
+from fenics_gears.cost import expected_cost
 from fenics_gears.errors import SceneError
+from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.effects.friction import Friction
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation import simulate
-from fenics_gears.studies.accuracy.ladder import half_width
-from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
-from fenics_gears.studies.target import chosen as choosing
-from fenics_gears.studies.target import limits
-from fenics_gears.studies.target import pilot as pilots
-from fenics_gears.studies.target.chosen import choose
-from fenics_gears.studies.target.errors import TargetNotReached
+from fenics_gears.studies.accuracy.setting import Setting, half_width
+from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
+from fenics_gears.studies.accuracy_target import choose as choosing
+from fenics_gears.studies.accuracy_target import limits
+from fenics_gears.studies.accuracy_target import trial_runs
+from fenics_gears.studies.accuracy_target.choose import choose
+from fenics_gears.studies.accuracy_target.limits import TargetNotReached
 from fenics_gears.summary import summary_rows
 
 TARGET = 0.1
@@ -70,7 +74,7 @@ def test_the_true_error_is_within_the_target(scene, run):
 def test_parts_of_the_error_are_told(run):
     """Triangle inequality: no part is larger than the whole, and the whole no larger than the sum of its parts."""
     parts = {name: value for name, value in run.attrs.items() if name.startswith("estimated_error: ")}
-    assert set(parts) == {f"estimated_error: {name}" for name in pilots.KNOBS}
+    assert set(parts) == {f"estimated_error: {name}" for name in trial_runs.NAMES}
     assert max(parts.values()) <= run.attrs["estimated_error"] <= sum(parts.values()) * (1.0 + 1e-12)
     said = "\n".join(" ".join(map(str, row)) for row in summary_rows(run))
     assert "target 10.000%" in said and "what limits it" in said and "settings chosen" in said
@@ -85,7 +89,7 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
 
 def test_a_scene_without_text_can_have_a_target(scene, monkeypatch):
     """A scene made in Python; settings go to its data alone."""
-    monkeypatch.setattr("fenics_gears.studies.target.run.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, 0.05, {"x": 0.05}, (), 1))
+    monkeypatch.setattr("fenics_gears.studies.accuracy_target.run.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, 0.05, {"x": 0.05}, (), 1))
     result = simulate(replace(scene, text=""))
     assert result.attrs["scene"] == "" and result.attrs["element"] == "P1"
 
@@ -96,16 +100,57 @@ def test_a_tighter_target_takes_finer_settings(scene, run):
     tighter = choose(scene, 0.04, SilentProgress())
     assert tighter.estimated_error <= 0.04
     assert tighter.setting.flank < run.attrs["flank_element_size"] or tighter.setting.steps > run.attrs["steps_per_mesh_cycle"]
-    assert tighter.setting.flank <= half_width(scene) / pilots.COARSEST[pilots.FLANK]
+    assert tighter.setting.flank <= half_width(scene) / trial_runs.COARSEST[trial_runs.FLANK]
+
+
+def test_the_clock_has_no_say(scene, monkeypatch):
+    """Identity: with a clock that says anything, the same settings are chosen, by the same runs."""
+    def chosen_by(clock):
+        monkeypatch.setattr(time, "perf_counter", clock)
+        found = choose(scene, 0.2, SilentProgress())
+        return found.setting, found.estimated_error, found.runs
+
+    random = np.random.default_rng(5)
+    assert chosen_by(lambda: float(random.uniform(0.0, 1e3))) == chosen_by(lambda: 0.0)
+
+
+def test_every_other_step_of_a_run_is_a_run_of_half_the_steps(scene):
+    """Identity: a quasi-static step without friction knows nothing of the one before; a frictional one does, and is run."""
+    runs = trial_runs.TrialRuns(scene, lambda words: None)
+    sizes = {trial_runs.FLANK: 0.2, trial_runs.BODY: 4.0, trial_runs.STEPS: 1.0 / 40.0}
+    runs.answer(runs.setting(sizes))
+    few = runs.setting({**sizes, trial_runs.STEPS: 1.0 / 20.0})
+    found, own = runs.answer(few), judged_answer(simulate(replace(few.of(scene), motion=Motion(200.0, 1, 1))))
+    assert runs.runs == 1
+    assert all(np.allclose(found[name], own[name], rtol=1e-9, atol=1e-15) for name in JUDGED)
+    rubbing = trial_runs.TrialRuns(replace(scene, friction=Friction(0.1)), lambda words: None)
+    for steps in (1.0 / 40.0, 1.0 / 20.0):
+        rubbing.answer(rubbing.setting({**sizes, trial_runs.STEPS: steps}))
+    assert rubbing.runs == 2
+
+
+def test_the_cost_of_any_sizes_is_that_of_the_scene_with_them(scene):
+    """Authority: the cost that `gears check` shows, of the scene with these settings, but for what no size changes the share of: the blocks of
+    compliance and the two positions that begin a run. Finer is dearer in every size; friction has twice the rows."""
+    bounds, fine = limits.Limits(replace(scene, accuracy=Accuracy()), "P2"), dict(flank=0.04, body=1.0, step=0.01)
+    ratios = []
+    for sizes in (fine, {**fine, "flank": 0.08}, {**fine, "step": 0.005}):
+        setting = Setting("P2", sizes["flank"], NODE_SPACING * sizes["flank"], 3.0, 1.0, round(1.0 / sizes["step"]))
+        expected = expected_cost(model(setting.of(scene)))
+        ratios.append(bounds.cost(**sizes, length=3.0) / (expected.condensing + expected.marching))
+    assert ratios == pytest.approx([1.0] * 3, rel=0.2)
+    plain = dict(**fine, length=3.0)
+    assert all(bounds.cost(**{**plain, name: 0.5 * plain[name]}) > bounds.cost(**plain) for name in fine)
+    assert limits.Limits(replace(scene, accuracy=Accuracy(), friction=Friction(0.1)), "P2").cost(**plain) > bounds.cost(**plain)
 
 
 def test_a_window_that_cuts_contact_off_is_lengthened(scene):
-    """The program's own warning decides: a pilot that begins with too short a window ends with one that is not."""
-    pilot = pilots.Pilot(scene, lambda words: None)
-    pilot.length *= 0.13
-    assert pilot.window_cuts_contact()
-    choosing._lengthen_window(pilot)
-    assert not pilot.window_cuts_contact() and pilot.length > 0.13 * pilots.Pilot(scene, lambda words: None).length
+    """The program's own warning decides: trial runs that begin with too short a window end with one that is not."""
+    runs = trial_runs.TrialRuns(scene, lambda words: None)
+    runs.length *= 0.13
+    assert runs.window_cuts_contact()
+    choosing._lengthen_window(runs)
+    assert not runs.window_cuts_contact() and runs.length > 0.13 * trial_runs.TrialRuns(scene, lambda words: None).length
 
 
 def refusal(scene, monkeypatch):
@@ -130,7 +175,7 @@ def test_the_target_named_instead_can_be_reached(scene, monkeypatch):
 
 @pytest.mark.nightly
 def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
-    """Its contact is narrower than any element that the pilot begins with."""
+    """Its contact is narrower than any element that trial runs begin with."""
     monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
     with pytest.raises(TargetNotReached, match=r"for under this load the contact's half-width is 0\.0\d+ mm only"):
         choose(scene_from_text(text.replace('"437 N m"', '"1 N m"')), 0.001, SilentProgress())
@@ -138,39 +183,39 @@ def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
 
 @pytest.mark.nightly
 def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
-    """The check, which halves a knob at settings that just fit, least of all."""
-    tried, run = [], pilots.Pilot._run
+    """The check, which halves a size at settings that just fit, least of all."""
+    tried, run = [], trial_runs.TrialRuns._run
     monkeypatch.setattr(limits, "MOST_BYTES", 1.5e8)
 
-    def noted(pilot, setting):
-        tried.append(limits.Limits(scene, 2).bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
-        return run(pilot, setting)
+    def noted(runs, setting):
+        tried.append(limits.Limits(scene, "P2").bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
+        return run(runs, setting)
 
-    monkeypatch.setattr(pilots.Pilot, "_run", noted)
+    monkeypatch.setattr(trial_runs.TrialRuns, "_run", noted)
     with contextlib.suppress(TargetNotReached):
         choose(scene, 0.01, SilentProgress())
-    assert len(tried) >= 7 and max(tried) <= 1.5e8
+    assert len(tried) >= 5 and max(tried) <= 1.5e8
 
 
 def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
     """What the estimate did not foresee."""
-    def no_memory(kept, scene, progress):
+    def no_memory(scene, gears, progress):
         raise MemoryError
 
-    monkeypatch.setattr(pilots.KeptGears, "run", no_memory)
+    monkeypatch.setattr(trial_runs, "run_sharing", no_memory)
     with pytest.raises(TargetNotReached, match="not enough memory for the run with P2"):
         choose(scene, TARGET, SilentProgress())
 
 
 def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
     """The schema's own bounds: the chosen settings are written into a scene."""
-    bounds, module = limits.Limits(scene, 2), scene.gears.module
+    bounds, module = limits.Limits(scene, "P2"), scene.gears.module
     assert bounds.allowed(0.01 * module, 1.0, 0.05, 1.0) and not bounds.allowed(0.9e-3 * module, 1.0, 0.05, 1.0)
     assert "finer than a scene may ask for" in bounds.why_not(0.9e-3 * module, 1.0, 1.0)
     many_cycles = replace(scene, motion=Motion(200.0, 50, 50))
-    assert limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 5e-3, 1.0)
-    assert not limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 1e-4, 1.0)
-    assert limits.Limits(many_cycles, 2).allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
+    assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 5e-3, 1.0)
+    assert not limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0)
+    assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
 
 
 def test_choosing_can_be_interrupted_within_a_run(scene):

@@ -1,4 +1,4 @@
-"""What settings a target may choose: those that memory holds and that a scene file could ask for itself."""
+"""What settings a target may choose: those that memory holds and that a scene file could ask for itself; and what they cost."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ from math import inf
 
 import numpy as np
 
-from fenics_gears.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.errors import ComputationError
+from fenics_gears.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model import MOST_STORED_BYTES, Model, model
 from fenics_gears.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.schema import MOST_CONTACT_NODES
+from fenics_gears.studies.accuracy_target.cost import run_cost
 
 # Contact operators and condensed flanks of a run.
 MOST_BYTES = 4e9
@@ -20,13 +22,22 @@ MOST_BYTES = 4e9
 Size = float | np.ndarray
 
 
+class TargetNotReached(ComputationError):
+    """No settings that this program may use reach the target."""
+
+
 class Limits:
     """Of a scene whose `[accuracy]` is empty; sizes are of flank elements (mm), body elements (parts of their default), steps (mesh cycles)."""
 
-    def __init__(self, scene: Scene, order: int):
+    def __init__(self, scene: Scene, element: str):
         self._built: Model = model(scene)
-        self._friction, self._order, self._module = scene.friction is not None, order, scene.gears.module
+        self._element, self._order = element, 2 if element.endswith("2") else 1
+        self._friction, self._module = scene.friction is not None, scene.gears.module
         self._pairs = loaded_pairs(self._built)
+
+    def cost(self, flank: Size, body: Size, step: Size, length: float) -> Size:
+        """Of the whole run; see ``run_cost``."""
+        return run_cost(self._built, self._element, flank, body, step, self._nodes(flank, length))
 
     def bytes_of(self, flank: Size, step: Size, length: float) -> Size:
         """Memory of contact operators over one mesh cycle, and of both gears."""

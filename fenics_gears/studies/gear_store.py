@@ -19,47 +19,53 @@ GEARS = ("pinion", "wheel")
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
-class Workshop:
-    """Keeps the last two gears and the last mesh cycle; a frequency sweep builds its operators once.
+class GearStore:
+    """Keeps the gears used last and, if wanted, the last mesh cycle; a frequency sweep builds its operators once.
 
     Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact grid,
     steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and coefficient may differ.
+    Gears that are shared keep the times that they took, those of a mesh cycle that is took none. `most`: how many gears; all for None.
     """
 
-    def __init__(self):
+    def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, FlankCompliance] = {}
+        self._most, self._cycles = most, cycles
         self._cycle_key: tuple | None = None
         self._prepared: tuple[Compliances, MeshCycle] | None = None
 
     def prepared(self, built: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
         """Compliances and mesh cycle for ``simulate``, kept or made."""
         key = cycle_key(built)
-        if key == self._cycle_key:
+        if self._cycles and key == self._cycle_key:
             compliances, cycle = self._prepared
             return tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances), cycle
         self._cycle_key = self._prepared = None  # frees its memory before the next is made
-        if built.resolution.condensation == EVERY_STEP or not built.scene.resolves_contact:
-            self._cycle_key, self._prepared = key, prepared(built, progress, cache)
-            return self._prepared
-        reach = tooth_reach(built)
-        kept = {gear_key(built, name, reach) for name in GEARS}
-        compliances = tuple(self.gear(built, name, reach, cache) for name in GEARS)
-        self._gears = {key: gear for key, gear in self._gears.items() if key in kept}
-        self._cycle_key, self._prepared = key, (compliances, mesh_cycle(built, compliances))
-        return self._prepared
+        made = self._made(built, progress, cache)
+        if self._cycles:
+            self._cycle_key, self._prepared = key, made
+        return made
 
     def gear(self, built: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
         """Flank compliance of the "pinion" or the "wheel", kept, from the cache, or condensed."""
         key = gear_key(built, name, reach)
-        if key not in self._gears:
-            self._gears[key] = gear_compliance(built, name, reach, cache)
+        # Last in the dictionary, last to be given up.
+        self._gears[key] = self._gears.pop(key, None) or gear_compliance(built, name, reach, cache)
         return self._gears[key]
+
+    def _made(self, built: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
+        if built.resolution.condensation == EVERY_STEP or not built.scene.resolves_contact:
+            return prepared(built, progress, cache)
+        reach = tooth_reach(built)
+        compliances = tuple(self.gear(built, name, reach, cache) for name in GEARS)
+        while self._most is not None and len(self._gears) > self._most:
+            del self._gears[next(iter(self._gears))]
+        return compliances, mesh_cycle(built, compliances)
 
 
 @functools.lru_cache(maxsize=1)
-def own_workshop() -> Workshop:
-    """The workshop of this process."""
-    return Workshop()
+def own_gear_store() -> GearStore:
+    """That of this process."""
+    return GearStore()
 
 
 def has_gears(built: Model) -> bool:

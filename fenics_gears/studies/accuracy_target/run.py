@@ -1,4 +1,4 @@
-"""A run of a scene with `[accuracy] target`: settings chosen first, the scene run with them, and what is known of its error told."""
+"""A run of a scene with `[accuracy] target`: settings chosen first, the scene run with them, and what is known of its error in the result's attributes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fenics_gears.results.attributes import ESTIMATED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.simulation import simulate
 from fenics_gears.studies.fields import as_toml, changed
-from fenics_gears.studies.target.chosen import Chosen, choose
+from fenics_gears.studies.accuracy_target.choose import Chosen, choose
 
 # What to do about a warning that names settings: they may not stand beside a target.
 OTHER_SETTINGS = "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene has, and change them"
@@ -21,7 +21,7 @@ LENGTHS = ("flank_element_size", "body_element_size", "contact_length")
 
 
 def simulate_to_target(scene: Scene, *, progress: Progress, **arguments) -> xr.Dataset:
-    """As `simulate`, which it calls with `arguments`; attributes `target`, `estimated_error`, and `estimated_error: ...` by knob, all in
+    """As `simulate`, which it calls with `arguments`; attributes `target`, `estimated_error`, and `estimated_error: ...` by setting, all in
     parts of 1, `time_choose` (s), `target_runs`, `target_remarks`. The scene that the result carries has the settings in place of the
     target, so that it repeats the run.
 
@@ -31,7 +31,7 @@ def simulate_to_target(scene: Scene, *, progress: Progress, **arguments) -> xr.D
     chosen = choose(scene, scene.accuracy.target, progress)
     seconds = time.perf_counter() - begun
     result = simulate(with_settings(scene, chosen.accuracy), progress=progress, **arguments)
-    return result.assign_attrs(_told(scene.accuracy.target, chosen, result.attrs["warnings"]), time_choose=seconds)
+    return result.assign_attrs(_attributes(scene.accuracy.target, chosen, result.attrs["warnings"]), time_choose=seconds)
 
 
 def with_settings(scene: Scene, accuracy: Accuracy) -> Scene:
@@ -47,7 +47,7 @@ def _written(name: str, value):
     return f"{float(value)!r} mm" if name in LENGTHS else value
 
 
-def _told(target: float, chosen: Chosen, warnings: str) -> dict:
+def _attributes(target: float, chosen: Chosen, warnings: str) -> dict:
     remarks = chosen.remarks + ((OTHER_SETTINGS,) if "accuracy." in warnings else ())
     parts = {f"{ESTIMATED}{name}": part for name, part in chosen.parts.items()}
     how = {"target_runs": chosen.runs, "target_remarks": "\n".join(remarks)}

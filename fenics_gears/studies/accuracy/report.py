@@ -1,0 +1,283 @@
+"""The study of `gears accuracy`: settings refined one at a time, the reference, whole settings and cheaper models, all run and timed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.errors import ComputationError, GearsError
+from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
+from fenics_gears.studies.accuracy import whole
+from fenics_gears.studies.accuracy.convergence import Limit, last_of, richardson, together
+from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, distance, distances, judged
+from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement, checked_model, fine, refinements
+from fenics_gears.studies.accuracy.root_point import peak_root_stress
+from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
+from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting
+from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.warm_up import compile_kernels
+
+ROUNDS, QUICK_ROUNDS = 5, 1
+# What repeating single settings for their times may take, s, unless the user gives more; their answers need one run.
+SECONDS_ON_SINGLE = 60.0
+MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
+OWN = "the scene's own"
+
+
+@dataclass(frozen=True)
+class LevelResult:
+    """A level that was run: relative errors by measure against its setting's limit, and times."""
+
+    level: Level
+    errors: dict[str, float]
+    times: Times
+
+
+@dataclass(frozen=True)
+class RefinementResult:
+    """A setting refined alone: its levels that ran, and by measure its limit, with the order observed."""
+
+    refinement: Refinement
+    levels: tuple[LevelResult, ...]
+    limits: dict[str, Limit]
+
+    def order(self, measure: str) -> float | None:
+        """Observed in a measure; None where there is none."""
+        return self.limits[measure].order if measure in self.limits else None
+
+
+@dataclass(frozen=True)
+class WholeResult:
+    """A whole setting or a cheaper model: direct errors against the reference, errors by setting, what it is charged, and times.
+
+    `parts` is empty for a cheaper model, whose error no setting makes smaller.
+    """
+
+    name: str
+    setting: Setting | None
+    errors: dict[str, float]
+    parts: dict[str, float]
+    times: Times
+
+    @property
+    def charged(self) -> float:
+        """The error that it is charged."""
+        return whole.charged_error(judged(self.errors), self.parts)
+
+
+@dataclass(frozen=True)
+class Report:
+    """All that was measured; `uncertainty`: of the reference, relative, by measure; `failures`: what did not run, and why.
+
+    rounds: how often whole settings were timed, and single ones as far as `seconds_on_single` went.
+    """
+
+    scene: Scene
+    half_width: float
+    fine: Setting
+    refinements: tuple[RefinementResult, ...]
+    settings: tuple[WholeResult, ...]
+    models: tuple[WholeResult, ...]
+    uncertainty: dict[str, float]
+    failures: tuple[tuple[str, str], ...]
+    machine: dict[str, str]
+    rounds: int
+    seconds_on_single: float
+
+    @property
+    def own(self) -> WholeResult:
+        """The scene's own setting."""
+        return next(each for each in self.settings if each.name == OWN)
+
+    @property
+    def front(self) -> tuple[WholeResult, ...]:
+        """The Pareto front of the whole settings, the quickest first."""
+        places = whole.pareto_front([(each.times.total, each.charged) for each in self.settings])
+        return tuple(self.settings[place] for place in places)
+
+    @property
+    def floor(self) -> float:
+        """Below this an error cannot be told from the reference's own."""
+        return judged(self.uncertainty)
+
+
+def measure(
+    scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None, seconds_on_single: float = SECONDS_ON_SINGLE
+) -> Report:
+    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones; `seconds_on_single`: for
+    repeating single settings for their times.
+
+    Raises SceneError, GeometryError, ComputationError.
+    """
+    study = Study(scene, progress or SilentProgress(), quick, rounds or (QUICK_ROUNDS if quick else ROUNDS), seconds_on_single)
+    results = study.refine()
+    reference, uncertainty = study.reference(results)
+    settings, models = study.whole_runs(results, reference)
+    return Report(
+        scene, half_width(scene), study.base, results, settings, models, uncertainty, tuple(study.failures), machine(),
+        study.rounds, seconds_on_single,
+    )  # fmt: skip
+
+
+class Study:
+    """One scene's study while it runs: what was answered by which setting, and what failed."""
+
+    def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int, seconds_on_single: float = SECONDS_ON_SINGLE):
+        checked_model(scene)
+        # Root stress is taken at one point; the output of it along both fillets is not what is measured here.
+        self.scene, self.progress, self.rounds = replace(scene, output=Output()), progress, rounds
+        self.seconds_on_single = seconds_on_single
+        self.base, self.refinements = fine(scene, quick), refinements(scene, quick)
+        # Over which pressures are compared, mm.
+        self.window = max(level.setting.length for each in self.refinements for level in each.levels)
+        self.failures: list[tuple[str, str]] = []
+        self._known: dict[Setting, tuple[Answer, Times]] = {}
+        self._gears = shared_gears()
+
+    def refine(self) -> tuple[RefinementResult, ...]:
+        """Every level run with the other settings fine."""
+        self.progress.stage("compile")
+        compile_kernels(self.scene.friction is not None)
+        self.progress.stage("single settings")
+        if not self._run(self.base, "all settings fine"):
+            raise ComputationError(f"the setting that all others are compared with does not run: {self.failures[-1][1]}")
+        levels = [(f"{each.name} {level.label}", level.setting) for each in self.refinements for level in each.levels]
+        for done, (name, setting) in enumerate(levels):
+            self.progress.update(done, len(levels), name)
+            self._run(setting, name)
+        self._time_single_settings()
+        results = [self._result(each) for each in self.refinements]
+        return tuple(result for result in results if result.levels)
+
+    def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
+        """All settings at their limits, and how uncertain that is, relative, by measure."""
+        base, value, uncertainty = self._known[self.base][0], {}, {}
+        for name in base:
+            limit = together(base[name], [each.limits[name] for each in results])
+            value[name], scale = limit.value, float(np.linalg.norm(limit.value))
+            uncertainty[name] = limit.uncertainty / scale if scale and name != DEFECT else 0.0
+        return value, uncertainty
+
+    def whole_runs(self, results: tuple[RefinementResult, ...], reference: Answer) -> tuple[tuple[WholeResult, ...], tuple[WholeResult, ...]]:
+        """Whole settings and cheaper models in turns, and what they are charged."""
+        ran = [each.refinement for each in results]
+        errors = {
+            (each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels
+        }
+        chosen = {OWN: (own_setting(self.scene), self.scene)}
+        for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting)):
+            chosen[setting.words] = (setting, setting.of(self.scene))
+        for name in MODELS:
+            chosen[name] = (None, replace(self.scene, accuracy=_accuracy_of(self.scene, name)))
+        answers, times = self._in_turns({name: scene for name, (_, scene) in chosen.items()})
+        found = []
+        for name in answers:
+            setting = chosen[name][0]
+            parts = {} if setting is None else whole.parts_of(setting, ran, errors)
+            found.append(WholeResult(name, setting, distances(answers[name], reference), parts, times[name]))
+        if OWN not in answers:
+            raise ComputationError(f"the scene itself does not run: {dict(self.failures)[OWN]}")
+        return tuple(each for each in found if each.setting), tuple(each for each in found if not each.setting)
+
+    def _run(self, setting: Setting, name: str) -> bool:
+        """A setting's answers and time, run once in however many refinements it stands; whether it ran."""
+        if setting in self._known:
+            return True
+        try:
+            if not whole.fits(self.scene, setting):
+                raise ComputationError(f"its contact operators would take more than {whole.MOST_BYTES / 1e9:g} GB")
+            run, cycle = run_sharing(setting.of(self.scene), self._gears)
+            self._known[setting] = self._answer(run, setting.of(self.scene), cycle), Times().and_also(run)
+        except GearsError as error:
+            self.failures.append((name, str(error).splitlines()[0]))
+            return False
+        return True
+
+    def _answer(self, run: xr.Dataset, scene: Scene, cycle: Cycle) -> Answer:
+        """All measures; the root stress of what has flanks in contact and one mesh to be recovered on, and outside of all times."""
+        recovered = scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP
+        return answer(run, self.window, peak_root_stress(run, scene, cycle) if recovered else None)
+
+    def _time_single_settings(self) -> None:
+        """More rounds for their times, the quickest first, as far as there is time for all rounds of them."""
+        seconds = {setting: times.total for setting, (_, times) in self._known.items()}
+        repeated = within(seconds, self.seconds_on_single / max(self.rounds - 1, 1))
+        if self.rounds > 1:
+            self.progress.stage("single settings for the time")
+        for turn in range(self.rounds - 1):
+            gears = shared_gears()
+            for place, setting in enumerate(repeated):
+                self.progress.update(turn * len(repeated) + place, (self.rounds - 1) * len(repeated))
+                answers, times = self._known[setting]
+                self._known[setting] = answers, times.and_also(run_sharing(setting.of(self.scene), gears)[0])
+
+    def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
+        """Every scene once a round, so that whatever else the machine does meets all of them."""
+        self.progress.stage("whole settings")
+        answers, times, left = {}, {}, dict(scenes)
+        for turn in range(self.rounds):
+            for place, (name, scene) in enumerate(list(left.items())):
+                self.progress.update(turn * len(scenes) + place, self.rounds * len(scenes), name)
+                try:
+                    run, cycle = run_afresh(scene)
+                    if name not in answers:
+                        answers[name] = self._answer(run, scene, cycle)
+                except GearsError as error:
+                    self.failures.append((name, str(error).splitlines()[0]))
+                    del left[name]
+                    continue
+                times[name] = times.get(name, Times()).and_also(run)
+        return answers, times
+
+    def _result(self, refinement: Refinement) -> RefinementResult:
+        """Errors of the levels against their own limit, in the fine setting of all others; choices are measured from the setting in which
+        they are made, for none of them is the limit of the others."""
+        base = self._known[self.base][0]
+        ran = [(level, *self._known[level.setting]) for level in refinement.levels if level.setting in self._known]
+        regular = [(level, found) for level, found, _ in ran if not level.own or refinement.name == LENGTH]
+        limits = {name: _limit(refinement, regular, base, name) for name in base}
+        zero = limits
+        if refinement.base in self._known:
+            zero = {name: Limit(value, None, 0.0) for name, value in self._known[refinement.base][0].items()}
+        levels = tuple(LevelResult(level, {name: _error(found, zero, name) for name in MEASURES}, times) for level, found, times in ran)
+        return RefinementResult(refinement, levels, limits)
+
+
+def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:
+    """The quickest settings that together take no longer than `budget` (s), in the order in which they were run."""
+    spent, chosen = 0.0, set()
+    for setting in sorted(seconds, key=seconds.__getitem__):
+        spent += seconds[setting]
+        if spent > budget:
+            break
+        chosen.add(setting)
+    return [setting for setting in seconds if setting in chosen]
+
+
+def _error(found: Answer, limits: dict[str, Limit], name: str) -> float:
+    """Relative distance from a limit; not less than is known where the limit is the finest level itself."""
+    if name not in limits or name not in found:
+        return float("nan")
+    limit = limits[name]
+    scale = float(np.linalg.norm(limit.value))
+    least = limit.least_error / scale if scale and name != DEFECT else 0.0
+    return max(distance(found, {name: limit.value}, name), least)
+
+
+def _limit(refinement: Refinement, ran: list, base: Answer, name: str) -> Limit:
+    if len(ran) > 1 and (refinement.expected is not None or refinement.name == LENGTH):
+        values = [found[name] for _, found in ran]
+        return last_of(values) if refinement.expected is None else richardson(values, [level.size for level, _ in ran], refinement.expected)
+    return Limit(base[name], None, 0.0)
+
+
+def _accuracy_of(scene: Scene, name: str) -> Accuracy:
+    """The scene's own accuracy for a cheaper model; those without flanks in contact have steps alone."""
+    if name == STIFFNESS_TABLE:
+        return replace(scene.accuracy, model=name)
+    return Accuracy(model=name, steps_per_mesh_cycle=own_setting(scene).steps)

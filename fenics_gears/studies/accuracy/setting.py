@@ -1,0 +1,89 @@
+"""A whole setting of `[accuracy]`: element, sizes, steps; the scene's own, and the half-width that sizes go by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from fenics_gears.contact.interpolation import AVERAGED
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.model import model
+from fenics_gears.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP, ONCE
+from fenics_gears.scene.data import Accuracy, Scene
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Element; sizes along flank and between contact nodes and window (mm); body elements in parts of the default; steps, and the rest."""
+
+    element: str
+    flank: float
+    spacing: float
+    length: float
+    body: float
+    steps: int
+    interpolation: str = AVERAGED
+    elastic_teeth: int | None = None
+    condensation: str = ONCE
+
+    @property
+    def grid(self) -> ContactGrid:
+        """Contact nodes as close as wanted, but not closer than the flank bears; wider windows hold the nodes of narrower ones."""
+        flank_nodes = self.flank / (2 if self.order == 2 else 1)
+        spacing = max(self.spacing, CLOSEST_NODES * flank_nodes)
+        cells = max(2, 2 * round(self.length / (2.0 * spacing)))
+        return ContactGrid(cells * spacing, cells + 1, self.interpolation)
+
+    @property
+    def order(self) -> int:
+        """Of the element's shapes."""
+        return 2 if self.element.endswith("2") else 1
+
+    def accuracy(self, module: float) -> Accuracy:
+        """The setting as `[accuracy]` has it; `module` in mm."""
+        remeshed = self.condensation == EVERY_STEP
+        return Accuracy(
+            element=self.element,
+            flank_element_size=self.flank,
+            contact_length=self.grid.length,
+            contact_nodes=self.grid.nodes,
+            steps_per_mesh_cycle=self.steps,
+            body_element_size=self.body * DEFAULT_SIZES[self.order].body * module,
+            interpolation=None if remeshed else self.interpolation,
+            elastic_teeth=self.elastic_teeth,
+            condensation=self.condensation,
+        )
+
+    def of(self, scene: Scene) -> Scene:
+        """A scene with this setting."""
+        return replace(scene, accuracy=self.accuracy(scene.gears.module))
+
+    @property
+    def words(self) -> str:
+        """The setting for a label in a picture."""
+        teeth = "" if self.elastic_teeth is None else f", teeth {self.elastic_teeth}"
+        collocated = "" if self.interpolation == AVERAGED else f", {self.interpolation}"
+        remeshed = "" if self.condensation == ONCE else f", condensed {self.condensation}"
+        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:g}{collocated}{teeth}{remeshed}"
+
+
+def half_width(scene: Scene) -> float:
+    """The half-width (mm) that sizes go by: Hertz's, within the program's bounds, for a vanishing load has none."""
+    return model(without_settings(scene)).resolution.flank_element_size * ELEMENTS_PER_HALF_WIDTH
+
+
+def own_setting(scene: Scene) -> Setting:
+    """The setting that the scene has, its defaults included."""
+    resolution = model(scene).resolution
+    grid, size = resolution.contact_grid, resolution.body_element_size
+    order = 2 if resolution.element.endswith("2") else 1
+    body = 1.0 if size is None else size / (DEFAULT_SIZES[order].body * scene.gears.module)
+    return Setting(
+        resolution.element, resolution.flank_element_size, grid.spacing, grid.length, body, resolution.steps_per_mesh_cycle,
+        grid.interpolation, resolution.elastic_teeth,
+    )  # fmt: skip
+
+
+def without_settings(scene: Scene) -> Scene:
+    """The scene with the program's defaults."""
+    return replace(scene, accuracy=Accuracy())

@@ -1,0 +1,28 @@
+"""What a run costs, counted from what it has to do: the same scene chooses the same settings on every machine.
+
+The counts and their weights are those of `fenics_gears.cost`, here of any sizes at once; only their ratios matter.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears import cost
+from fenics_gears.cost import SECTOR_UNKNOWNS, Number, flank_unknowns, loaded_pairs
+from fenics_gears.model import Model
+
+
+def run_cost(built: Model, element: str, flank: Number, body: Number, step: Number, nodes: Number) -> np.ndarray:
+    """Cost of a run; sizes of flank elements (mm), body elements (parts of their default), steps (mesh cycles), and the contact nodes of a
+    tooth pair: arrays are broadcast. `built`: the scene's, for its gears, effects and mesh cycles."""
+    of_body, per_node = SECTOR_UNKNOWNS[element]
+    total = 0.0
+    for gear in (built.pair.pinion, built.pair.wheel):
+        dofs = flank_unknowns(gear, 2 if element.endswith("2") else 1, flank)
+        # In the plane half the size is four times as many.
+        unknowns = of_body * np.asarray(body, dtype=float) ** -2 + 0.5 * per_node * dofs
+        total = total + cost.GEAR + cost.UNKNOWN * unknowns + cost.FLANK_CUBE * dofs**3
+    rows = loaded_pairs(built) * nodes * (1 if built.scene.friction is None else 2)
+    positions = 1.0 / np.asarray(step, dtype=float)
+    cycles = built.scene.motion.mesh_cycles
+    return total + positions * (cost.POSITION + cost.POSITION_SQUARE * rows**2 + cycles * (cost.STEP + cost.STEP_SQUARE * rows**2))

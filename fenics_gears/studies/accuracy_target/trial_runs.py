@@ -1,0 +1,140 @@
+"""The runs that a choice rests on: one setting at a time, its size halved from level to level, all others as the base has them.
+
+Flank elements and contact nodes are refined together, as the program's defaults have them. Alone neither shows what it is worth: where a
+tip's edge presses, closer nodes pass part of their error on to the elements. Together their error falls with a clean order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from fenics_gears.errors import ComputationError, GearsError
+from fenics_gears.model import model
+from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.scene.data import Output, Scene
+from fenics_gears.studies.accuracy.convergence import ErrorCurve, error_curve
+from fenics_gears.studies.accuracy.measures import Answer, judged_answer
+from fenics_gears.studies.accuracy.refinement import BODY, NODES, STEPS, expected_orders
+from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
+from fenics_gears.studies.accuracy.setting import Setting, half_width, without_settings
+from fenics_gears.studies.accuracy_target.limits import Limits, Size, TargetNotReached
+from fenics_gears.studies.work import Ticking
+from fenics_gears.validity import WINDOW_REACHED
+
+ELEMENT = "P2"
+FLANK = "flank elements and contact nodes"
+NAMES = (FLANK, BODY, STEPS)
+# Where refinement begins: elements in a half-width, body elements in parts of their default, steps in a cycle; and by how many levels.
+COARSEST = {FLANK: 0.7, BODY: 4.0, STEPS: 20}
+LEVELS = 3
+# The level on which the others stand while one setting is refined.
+BASE_LEVEL = {FLANK: 1, BODY: 2, STEPS: 2}
+# Condensed gears that are kept: pinion and wheel of the base, and of one more level.
+KEPT_GEARS = 4
+# By how much the contact window is lengthened where it cuts contact off.
+LONGER = 1.25
+
+Sizes = dict[str, float]
+
+
+class TrialRuns:
+    """Runs levels as they are asked for, each setting once; gears are condensed once for all runs that share them.
+
+    `begun`: called with a run's words before it; `tick`: often while it goes on, and may raise KeyboardInterrupt.
+    """
+
+    def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
+        self.scene = replace(without_settings(scene), output=Output(), motion=replace(scene.motion, recorded_cycles=1))
+        self._begun, self._tick, self._gears = begun, tick, shared_gears(KEPT_GEARS)
+        self._limits = Limits(without_settings(scene), ELEMENT)
+        self._unit, built = half_width(self.scene), model(self.scene)
+        self.length = built.resolution.contact_grid.length
+        orders = expected_orders(self.scene)
+        # Of flank elements and contact nodes the lower order counts, the nodes'.
+        self._expected = {FLANK: orders[NODES][0], BODY: orders[BODY][0], STEPS: orders[STEPS][0]}
+        # Without friction and inertia a step knows nothing of the one before: a run's every other step is a run of half as many, and one
+        # level more of steps costs less than a run.
+        self._steps_stand_alone = scene.friction is None and built.drivetrain.mass is None
+        self._levels = {**dict.fromkeys(NAMES, LEVELS), STEPS: LEVELS + self._steps_stand_alone}
+        self._known: dict[Setting, Answer] = {}
+        self._cut: dict[float, bool] = {}
+        self.runs = 0
+
+    def setting(self, sizes: Sizes) -> Setting:
+        """Sizes as a setting with the contact window in use."""
+        return Setting(ELEMENT, sizes[FLANK], NODE_SPACING * sizes[FLANK], self.length, sizes[BODY], round(1.0 / sizes[STEPS]))
+
+    def refine(self, name: str) -> None:
+        """Give a setting one level more. Raises TargetNotReached where that run is beyond the limits."""
+        finer = {**self._base_sizes(), name: self._size(name, self._levels[name])}
+        if not self.may_run(finer):
+            reason = self._limits.why_not(finer[FLANK], finer[BODY], self.length)
+            raise TargetNotReached(f"the next halving of the {name} {reason}{self._why_slow}")
+        self._levels[name] += 1
+
+    def may_run(self, sizes: dict[str, Size], stored: bool = False) -> Size:
+        """Whether a trial run stays within the limits; `stored`: the whole scene's run. Arrays of sizes are broadcast."""
+        return self._limits.allowed(sizes[FLANK], sizes[BODY], sizes[STEPS], self.length, stored)
+
+    def cost(self, sizes: dict[str, Size]) -> Size:
+        """What the whole scene's run costs; arrays of sizes are broadcast."""
+        return self._limits.cost(sizes[FLANK], sizes[BODY], sizes[STEPS], self.length)
+
+    def curves(self) -> list[ErrorCurve]:
+        """Every setting's errors, by runs of all its levels, the most steps first: fewer may be found among them."""
+        found = {}
+        for name in NAMES[::-1]:
+            sizes = [self._size(name, level) for level in range(self._levels[name])]
+            answers = [self.answer(self.setting({**self._base_sizes(), name: size})) for size in sizes[::-1]]
+            found[name] = error_curve(name, sizes, answers[::-1], self._expected[name])
+        return [found[name] for name in NAMES]
+
+    def window_cuts_contact(self) -> bool:
+        """Whether contact reaches an end of the window; where it does not, a longer window changes nothing but where nodes stand."""
+        self.answer(self.setting({**self._base_sizes(), STEPS: self._size(STEPS, self._levels[STEPS] - 1)}))
+        return self._cut[self.length]
+
+    def lengthen(self) -> None:
+        """Take the longer contact window from now on."""
+        self.length *= LONGER
+
+    def answer(self, setting: Setting) -> Answer:
+        """What a run of a setting is judged by, run once. Raises ComputationError."""
+        if setting not in self._known:
+            self._begun(setting.words)
+            self._run(setting)
+        return self._known[setting]
+
+    @property
+    def _why_slow(self) -> str:
+        """What makes errors fall slowly, or begin high, in words; empty where nothing is known to."""
+        width = model(self.scene).resolution.half_width
+        if width < 0.5 * self._unit:
+            return f", for under this load the contact's half-width is {width:.2g} mm only"
+        if self.scene.tip_relief is not None:
+            return ""
+        return ", for errors fall slowly where the sharp edges of unrelieved tips press ([tip_relief] takes that away)"
+
+    def _run(self, setting: Setting) -> None:
+        self.runs += 1
+        try:
+            run, _ = run_sharing(setting.of(self.scene), self._gears, Ticking(self._tick))
+        except MemoryError:
+            raise TargetNotReached(f"there is not enough memory for the run with {setting.words}") from None
+        except GearsError as error:
+            raise ComputationError(f"while accuracy.target was choosing settings, the run with {setting.words} failed: {error}") from error
+        self._cut.setdefault(setting.length, WINDOW_REACHED in run.attrs["warnings"])
+        self._known[setting] = judged_answer(run)
+        if self._steps_stand_alone:
+            steps = setting.steps
+            for every in (each for each in range(2, steps // 2) if steps % each == 0):
+                self._known.setdefault(replace(setting, steps=steps // every), judged_answer(run, every))
+
+    def _base_sizes(self) -> Sizes:
+        return {name: self._size(name, level) for name, level in BASE_LEVEL.items()}
+
+    def _size(self, name: str, level: int) -> float:
+        """Size of a level, halved from one to the next."""
+        first = {FLANK: self._unit / COARSEST[FLANK], BODY: COARSEST[BODY], STEPS: 1.0 / COARSEST[STEPS]}[name]
+        return first / 2.0**level

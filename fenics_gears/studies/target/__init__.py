@@ -1,1 +1,0 @@
-"""`[accuracy] target`: settings chosen by measurement, the cheapest whose errors together stay below a target."""
