@@ -23,7 +23,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         warned = sum(bool(record.warnings) for record in records)
         if warned:
             rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))
-    return [*rows, ("file", str(outcome.file), "")]
+    return rows
 
 
 def last_words(outcome: Outcome) -> str:

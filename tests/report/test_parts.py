@@ -19,7 +19,7 @@ from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outli
 from fenics_gears.show.report.plotting import Curve, plot
 from fenics_gears.show.report.run import Run
 from fenics_gears.show.report.spectra import spectra, spectrum
-from fenics_gears.show.report.thinning import thinned
+from fenics_gears.show.thinning import thinned
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))

@@ -9,8 +9,8 @@ import xarray as xr
 from tests.report.pages import seen
 
 from fenics_gears.cli import main
-from fenics_gears.show.report.cases import Cases
-from fenics_gears.show.report.study_curves import over_parameter, result_plots
+from fenics_gears.show.cases import Cases
+from fenics_gears.show.study_charts import over_parameter, result_plots
 from fenics_gears.show.report.study_page import _summary, standing_out
 from fenics_gears.studies.combine import load_combined, save_study
 

@@ -6,10 +6,10 @@ import numpy as np
 
 from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.show.panels import DARK, PALETTE
-from fenics_gears.show.report.forces import least
+from fenics_gears.show.chart import over_time
+from fenics_gears.show.forces import least
 from fenics_gears.show.report.page import Facts, Section, Words
-from fenics_gears.show.report.plotting import over_time
-from fenics_gears.show.report.run import TOO_FEW, Run
+from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import factor, in_unit
 
 PARTS = {"energy_teeth": "teeth", "energy_shafts": "shafts", "energy_bearings": "bearings", "energy_kinetic": "motion (kinetic)"}
@@ -68,7 +68,7 @@ def _curves(run: Run) -> list:
     # A plot of one curve has no legend.
     alone = f": {taken[0][0]}" if len(taken) == 1 else ""
     return [
-        over_time(dataset, "Energy held", "Energy (N m)", held, least=spans[0]),
-        over_time(dataset, f"Work taken since the first stored step{alone}", "Work (N m)", taken, least=spans[1]),
-        over_time(dataset, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
+        over_time(run, "Energy held", "Energy (N m)", held, least=spans[0]),
+        over_time(run, f"Work taken since the first stored step{alone}", "Work (N m)", taken, least=spans[1]),
+        over_time(run, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
     ]

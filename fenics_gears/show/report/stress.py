@@ -9,7 +9,7 @@ import numpy as np
 from fenics_gears.errors import GearsError
 from fenics_gears.results.stored_forces import stored_index
 from fenics_gears.show.report.page import Picture, Section, Words
-from fenics_gears.show.report.run import NO_SCENE, Run
+from fenics_gears.show.run import NO_SCENE, Run
 
 HEADING = "Stress in the gears"
 
