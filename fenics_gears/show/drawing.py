@@ -91,7 +91,7 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     if chart.x_range is not None and not chart.equal:
         near = (x >= chart.x_range[0] - 1e-9) & (x <= chart.x_range[1] + 1e-9)
         x, y = x[near], y[near]
-    places = thinned(y, STILL_POINTS)
+    places = thinned(y, len(y) if chart.equal else STILL_POINTS)
     marker = "o" if curve.mode in (MARKERS, MARKED_LINES) else ""
     style = DASHES[curve.dash] if curve.mode in (LINES, MARKED_LINES) else ""
     axes.plot(

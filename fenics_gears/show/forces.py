@@ -59,11 +59,11 @@ def pair_forces(run: Run) -> Iterator[Chart]:
             yield _of_size(run, caption, "Force (N)", curves, note=note, height=380)
 
 
-def shaft_couples(run: Run) -> list[Chart]:
-    """Couple of either gear on its shaft."""
+def shaft_torques(run: Run) -> list[Chart]:
+    """Torque of either gear on its shaft."""
     if "reaction_couple" not in run.dataset:
         return []
-    return [of_gears(run, "reaction_couple", "N m", "Couple of either gear on its shaft", "Couple")]
+    return [of_gears(run, "reaction_couple", "N m", "Torque of either gear on its shaft", "Torque")]
 
 
 def _reactions(run: Run) -> list[Chart]:
@@ -71,7 +71,7 @@ def _reactions(run: Run) -> list[Chart]:
     for name, words in {"reaction_x": "along", "reaction_y": "off"}.items():
         if name in run.dataset and (words == "along" or "friction_force" in run.dataset):
             charts.append(of_gears(run, name, "N", f"Reaction of either gear on its shaft {words} the line of action", "Force"))
-    return charts + shaft_couples(run)
+    return charts + shaft_torques(run)
 
 
 def _openings(run: Run) -> list[Chart]:

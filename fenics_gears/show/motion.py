@@ -36,16 +36,16 @@ def transmission_error(run: Run) -> Chart:
         note = f"Length on the wheel's base circle; 1 µm is {turned:.4g} µrad of the wheel. Positive where the wheel lags."
         second, place = Second("Angle of the wheel (µrad)", turned), " on the wheel's base circle"
     least = LEAST_SHARE * float(np.abs(values).max())
-    title = f"Transmission error{place} ({unit})" if not place else f"{ERROR} ({unit})"
-    return over_time(run, f"{ERROR}{place}, {_peak_to_peak(run, values, unit)}", title, [("transmission error", values, PALETTE[0])],
-                     least=least, note=note, second=second, height=380)  # fmt: skip
+    caption, curves = f"{ERROR}{place}, {_peak_to_peak(run, values, unit)}", [("transmission error", values, PALETTE[0])]
+    return over_time(run, caption, f"{ERROR} ({unit})", curves, least=least, note=note, second=second, height=380)
 
 
 def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
     known = run.dataset.attrs.get("peak_to_peak_transmission_error") if run.complete else None
     if known is None:
         return f"peak to peak of what is stored {np.ptp(values):#.4g} {unit}"
-    return f"peak to peak {known * (run.micrometres if unit == 'µm' else factor('rad', 'µrad')):#.4g} {unit}"
+    over = "" if run.shows_all else f" over all {run.cycles:g} stored mesh cycles"
+    return f"peak to peak{over} {known * (run.micrometres if unit == 'µm' else factor('rad', 'µrad')):#.4g} {unit}"
 
 
 def error_by_cycle(run: Run) -> list[Chart]:
@@ -84,7 +84,7 @@ def _varying(run: Run) -> list[Chart]:
     """The output shaft's end; load and speed, where they vary."""
     kinds = {
         "shaft_end_rotation": ("µrad", "Rotation of the output shaft's end", "Rotation", LEAST_ANGLE),
-        "wheel_couple": ("N m", "Couple on the wheel's shaft", "Couple", 1e-6),
+        "wheel_couple": ("N m", "Torque on the wheel's shaft", "Torque", 1e-6),
         "mesh_frequency": ("Hz", "Mesh frequency", "Mesh frequency", 0.0),
     }
     return [

@@ -64,7 +64,7 @@ def order_spectrum(run: Run) -> Chart | None:
         kinds = np.array([origin(order, teeth) for order in lines.orders])
         curves = _by_origin(lines, kinds, seen, 0.004 * highest, 0.0025 * highest)
     else:
-        caption += f", Hann's window (the pattern repeats after {lcm(*teeth)})"
+        caption += f" (Hann's window; repeats after {lcm(*teeth)})"
         curves = [Curve("amplitude", lines.orders[lines.orders <= highest], lines.amplitudes[lines.orders <= highest], PALETTE[0])]
     return Chart(
         caption, curves, "Order (events a turn of the pinion)", f"Amplitude ({unit})", logarithmic="y", height=500,

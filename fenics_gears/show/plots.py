@@ -16,7 +16,7 @@ from fenics_gears.output import written_aside
 from fenics_gears.show import PICTURE_FILES
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import heading, picture
-from fenics_gears.show.forces import mesh_forces, pair_forces, shaft_couples
+from fenics_gears.show.forces import mesh_forces, pair_forces, shaft_torques
 from fenics_gears.show.motion import error_by_cycle, error_values, transmission_error, wheels_shaft
 from fenics_gears.show.orders import order_spectrum
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
@@ -42,7 +42,7 @@ def _orders(run: Run) -> Iterable[Chart]:
 
 SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
     ("Transmission error", _errors),
-    ("Mesh forces", lambda run: [*mesh_forces(run), *shaft_couples(run)]),
+    ("Mesh forces", lambda run: [*mesh_forces(run), *shaft_torques(run)]),
     ("Load sharing between tooth pairs", _shares),
     ("Contact pressure on the flanks", pressure_maps),
     ("Orders of the transmission error", _orders),

@@ -9,6 +9,7 @@ from fenics_gears.show.pressure import has_pressure, largest_pressures, pressure
 from fenics_gears.show.report.page import Block, Section, Table, Words
 from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.spectrum import OrderLines
+from fenics_gears.show.thinning import MOST_POINTS
 
 LISTED_ORDERS = 10
 
@@ -35,9 +36,10 @@ def _section(name: str, heading: str, run: Run, charts) -> Section:
     if not run.has_curves:
         return Section(name, heading, [Words(TOO_FEW, warns=True)])
     first, last = run.window
-    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; a double click shows all, on screen."
-    words = [] if run.shows_all else [Words(part)]
-    return Section(name, heading, [*words, *charts(run)])
+    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of the stored {run.phase[0]:g} to {last:g}; on screen, a double click shows all."
+    fewer = f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
+    words = "" if run.shows_all else part + (f" {fewer}" if run.steps > MOST_POINTS else "")
+    return Section(name, heading, [*([Words(words)] if words else []), *charts(run)])
 
 
 def spectra(run: Run) -> Section:

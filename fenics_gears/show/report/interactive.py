@@ -50,14 +50,6 @@ def figure(chart: Chart):
     return drawn
 
 
-def thinning_note(chart: Chart) -> str:
-    """What is said of curves that are drawn with fewer points than they have."""
-    longest = max((len(curve.x) for curve in chart.curves if curve.mode != BAND), default=0)
-    if longest <= MOST_POINTS:
-        return ""
-    return f"Of {longest:,} steps the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
-
-
 def _layout(chart: Chart) -> dict:
     axis = {
         "gridcolor": GRID, "linecolor": GREY, "showline": True, "ticks": "outside", "tickcolor": GREY, "ticklen": 4,

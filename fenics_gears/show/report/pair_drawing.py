@@ -88,11 +88,11 @@ def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) 
     line("path of contact", _on_line(pair, [pair.path_start, pair.path_end], coast), PALETTE[1], 4.0)
     places = {name: place for name, place in _points(pair, coast).items() if labels or name == "pitch point"}
     at, names = _on_line(pair, list(places.values()), coast), list(places)
-    # The last one, at the path's end, has room below.
-    last = len(names) - 1 if labels else len(names)
-    for own, side in ((slice(0, last), "top left" if coast else "top right"), (slice(last, None), "bottom right" if coast else "bottom left")):
-        if names[own]:
-            line("points", at[own], DARK, 1.6, mode=MARKERS, listed=False, words=names[own], beside=side)
+    # The pitch point lies close to its neighbours, and the path's end has room below alone.
+    below = np.array([name in ("pitch point", names[-1]) for name in names])
+    for own, side in ((~below, "top left" if coast else "top right"), (below, "bottom right" if coast else "bottom left")):
+        if own.any():
+            line("points", at[own], DARK, 1.6, mode=MARKERS, listed=False, words=np.array(names)[own].tolist(), beside=side)
     return curves
 
 

@@ -11,7 +11,7 @@ from importlib import resources
 from fenics_gears.console import number_text
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import still
-from fenics_gears.show.report.interactive import figure, height, thinning_note
+from fenics_gears.show.report.interactive import figure, height
 from fenics_gears.show.report.page import Beside, Block, Fold, Page
 
 TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
@@ -23,7 +23,7 @@ def rendered(page: Page) -> str:
     from markupsafe import Markup
 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"figure": _figure, "still": _still, "height": height, "thinning": thinning_note, "base64": _base64, "number": number_text, "code": _with_code}
+    environment.filters |= {"figure": _figure, "still": _still, "height": height, "base64": _base64, "number": number_text, "code": _with_code}
     drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
         page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)), library=Markup(plotly_library()) if drawn else "",
