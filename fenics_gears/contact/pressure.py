@@ -24,10 +24,8 @@ def without_oscillation(pressure: np.ndarray) -> np.ndarray:
     return result
 
 
-def peak_pressure(pressure: np.ndarray, offsets: np.ndarray) -> float:
-    """Largest pressure (..., n), MPa, so averaged; `offsets` (..., n), mm, are NaN where there is no contact node."""
-    if not pressure.size:
-        return 0.0
+def peak_pressures(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """Largest pressure (...,) over the last axis of (..., n), MPa, so averaged; `offsets` (..., n), mm, are NaN where there is no contact node."""
     inside = np.zeros(pressure.shape, dtype=bool)
     inside[..., :-2] = ~np.isnan(offsets[..., 2:])
-    return float(np.nanmax(np.where(inside, without_oscillation(pressure), pressure)))
+    return np.where(inside, without_oscillation(pressure), pressure).max(axis=-1)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
 from fenics_gears.scene.fields import Section, number, quantity
 
 
@@ -32,8 +32,8 @@ EFFECT = Effect(
     terms=("compliance of the flanks",),
     variables=(
         ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
-        ResultVariable("contact_pressure", "MPa", "contact pressure"),
-        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion"),
-        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank"),
+        ResultVariable("contact_pressure", "MPa", "contact pressure", dims=OF_NODES),
+        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion", dims=OF_NODES),
+        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES),
     ),
 )

@@ -23,6 +23,8 @@ class ResultAttribute:
 
 
 WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
+WITH_PRESSURE = "the teeth are elastic, contact is resolved over nodes and some node carries"
+WITH_STEPS = "a step was done"
 WITH_FRICTION = "`[friction]`, and teeth that move and press"
 AFTER_LOSS = "contact was lost"
 WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
@@ -37,15 +39,20 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
     ResultAttribute("stopped", "", "why it is not complete: `interrupted` or `failed`", "`complete` is 0"),
     ResultAttribute("warnings", "", "what to be wary of, a line each"),
-    ResultAttribute("mean_transmission_error", "rad", "mean over the stored steps, the last left out, which begins the next cycle"),
-    ResultAttribute("peak_to_peak_transmission_error", "rad", "largest less smallest over the stored steps"),
+    ResultAttribute("settled_from", "s", "from when on steps are settled, the start having died down: all numbers are of these", WITH_STEPS),
+    ResultAttribute("settled_cycles", "1", "mesh cycles from then to the end", WITH_STEPS),
+    ResultAttribute("shown_cycles", "1", "mesh cycles, the last, that pictures show; all of a ramp"),
+    ResultAttribute("mean_transmission_error", "rad", "mean over the settled steps, the last left out, which begins the next cycle"),
+    ResultAttribute("peak_to_peak_transmission_error", "rad", "largest less smallest over the settled steps"),
     ResultAttribute("base_radius_wheel", "mm", "takes the transmission error to a length along the line of action"),
     ResultAttribute("peak_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes", WITH_CONTACT),
+    ResultAttribute("peak_contact_pressure_time", "s", "when it was", WITH_PRESSURE),
+    ResultAttribute("peak_contact_pressure_pair", "1", "number of the tooth pair that had it", WITH_PRESSURE),
     ResultAttribute("friction_loss", "1", "share of the drive's work that friction takes", WITH_FRICTION),
-    ResultAttribute("contact_loss_count", "1", "how often the drive flanks lost contact, over the whole run"),
+    ResultAttribute("contact_loss_count", "1", "how often the drive flanks lost contact, over the settled steps"),
     ResultAttribute("contact_loss_first", "s", "time of the first loss", AFTER_LOSS),
     ResultAttribute("contact_loss_longest", "s", "how long the longest lasted", AFTER_LOSS),
-    ResultAttribute("contact_loss_share", "1", "share of the run's time without contact", AFTER_LOSS),
+    ResultAttribute("contact_loss_share", "1", "share of the settled time without contact", AFTER_LOSS),
     ResultAttribute("contact_loss_opening", "mm", "widest opening between the drive flanks", AFTER_LOSS),
     ResultAttribute("dynamic_factor_by_force", "1", "largest force of a tooth pair over that of the quasi-static run", WITH_ROOT_STRESS),
     ResultAttribute("dynamic_factor_by_stress", "1", "largest root stress over that of the quasi-static run", WITH_ROOT_STRESS),

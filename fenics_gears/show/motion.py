@@ -41,11 +41,13 @@ def transmission_error(run: Run) -> Chart:
 
 
 def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
-    known = run.dataset.attrs.get("peak_to_peak_transmission_error") if run.complete else None
-    if known is None:
+    attributes = run.dataset.attrs
+    if not run.complete or "peak_to_peak_transmission_error" not in attributes:
         return f"peak to peak of what is stored {np.ptp(values):#.4g} {unit}"
-    over = "" if run.shows_all else f" over all {run.cycles:g} stored mesh cycles"
-    return f"peak to peak{over} {known * (run.micrometres if unit == 'µm' else factor('rad', 'µrad')):#.4g} {unit}"
+    value = attributes["peak_to_peak_transmission_error"] * (run.micrometres if unit == "µm" else factor("rad", "µrad"))
+    cycles = attributes.get("settled_cycles", 0.0)
+    over = f" over {cycles:.4g} settled mesh cycles" if cycles > np.ptp(run.window) * (1 + 1e-9) else ""
+    return f"peak to peak {value:#.4g} {unit}{over}"
 
 
 def error_by_cycle(run: Run) -> list[Chart]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import lcm
+from math import inf, lcm
 
 import numpy as np
 
+from fenics_gears.effects import common_period
 from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.pairs import shown
 from fenics_gears.show.chart import BARS, Chart, Curve, Flag
 from fenics_gears.show.motion import error_values
 from fenics_gears.show.panels import GREY, PALETTE
@@ -49,6 +51,8 @@ def order_spectrum(run: Run) -> Chart | None:
     """Amplitudes of the transmission error over orders of the pinion's shaft; None for a record shorter than its turn."""
     if "transmission_error" not in run.dataset or run.scene is None:
         return None
+    # Where cycles are not alike all that count show their orders; where they are, no more than is shown.
+    run = run.settled if 1 < common_period(run.scene) < inf else replace(run, dataset=shown(run.dataset))
     values, unit = error_values(run)
     teeth = run.scene.gears.pinion.teeth, run.scene.gears.wheel.teeth
     lines = order_lines(values, run.cycles, teeth)

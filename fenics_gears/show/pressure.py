@@ -22,7 +22,7 @@ _DEGREES = factor("rad", "deg")
 
 def has_pressure(run: Run) -> bool:
     """Whether the result has contact fields."""
-    return "contact_pressure" in run.dataset and "contact_roll_angle" in run.dataset
+    return "contact_pressure" in run.dataset and "contact_roll_angle" in run.dataset and run.dataset.sizes["contact_time"] > 1
 
 
 def largest_pressures(run: Run) -> Chart:

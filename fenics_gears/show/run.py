@@ -5,7 +5,7 @@ How the result's file arranges them (docs/result.md) is known here and nowhere e
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -13,6 +13,8 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.pairs import lives
+from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
 from fenics_gears.show.run_scene import gear_pair_of, scene_of
 from fenics_gears.show.units import factor, in_unit
@@ -23,7 +25,6 @@ TOO_FEW = "Fewer than two steps are stored; a curve needs two."
 MOST_CYCLES = 4.0
 # Cycles whose least and largest values differ by less than this part of the largest span are alike.
 ALIKE = 0.01
-FEWEST_CYCLES_TO_COMPARE = 6
 
 
 @dataclass(frozen=True)
@@ -75,10 +76,15 @@ class Run:
         return float(self.phase[-1] - self.phase[0])
 
     @cached_property
+    def settled(self) -> Run:
+        """The run without what its start has set off, as all its numbers are."""
+        return replace(self, dataset=of_settled(self.dataset))
+
+    @cached_property
     def window(self) -> tuple[float, float]:
-        """The mesh cycles that charts show before they are zoomed: the last recorded ones, as many as can be told apart."""
-        recorded = MOST_CYCLES if self.scene is None else self.scene.motion.recorded_cycles
-        return max(float(self.phase[0]), float(self.phase[-1]) - min(recorded, MOST_CYCLES)), float(self.phase[-1])
+        """The mesh cycles that charts show before they are zoomed: the last ones, as many as can be told apart."""
+        cycles = min(float(self.dataset.attrs.get("shown_cycles", MOST_CYCLES)), MOST_CYCLES)
+        return max(float(self.phase[0]), float(self.phase[-1]) - cycles), float(self.phase[-1])
 
     @property
     def in_window(self) -> np.ndarray:
@@ -125,51 +131,45 @@ class Run:
         return np.array([axis[each].mean() for each in self.whole_cycles]), title
 
     def varies(self, values: np.ndarray) -> bool:
-        """Whether the mesh cycles of values (time,) differ, those of the record's first half, which may be the start's, not counted."""
-        cycles = self.whole_cycles
-        if len(cycles) < FEWEST_CYCLES_TO_COMPARE:
-            return False
-        ends = np.array([(values[each].min(), values[each].max()) for each in cycles])
-        settled = ends if "mesh_frequency" in self.dataset else ends[len(ends) // 2 :]
-        return bool(np.ptp(settled, axis=0).max() > ALIKE * (ends[:, 1] - ends[:, 0]).max())
+        """Whether the settled mesh cycles of values (time,) differ."""
+        first = float(self.settled.phase[0])
+        ends = np.array([(values[each].min(), values[each].max()) for each in self.whole_cycles if self.phase[each][0] >= first - 1e-9])
+        return len(ends) > 1 and bool(np.ptp(ends, axis=0).max() > ALIKE * np.ptp(ends))
 
     def of_pairs(self, name: str, unit: str, **place) -> list[tuple[str, np.ndarray, int]]:
-        """Curves of a variable of the tooth pairs: words for it, values (time,), not a number where the pair has none, and a number to
-        tell its colour by. Pairs are named that carry in the cycles shown; of longer records a curve goes on with pairs that come later.
-        """
-        values = in_unit(self.dataset[name].sel(place).transpose("time", "pair"), unit)
-        there = np.isfinite(values) & (values != 0.0)
-        numbers, values, there = self.dataset["pair"].values[there.any(axis=0)], values[:, there.any(axis=0)], there[:, there.any(axis=0)]
-        shown = np.where(_with_ends(there), values, np.nan)
-        seen = there[self.in_window].any(axis=0)
-        turn = max(4, int(np.isfinite(shown).sum(axis=1).max(initial=1)) + 1, int(seen.sum()))
+        """Curves of a variable of the tooth pairs that carry in the cycles shown: words for it, values (time,), not a number where the
+        pair has none, and its number."""
+        part = np.flatnonzero(self.in_window)
+        values = in_unit(self.dataset[name].sel(place).transpose("time", "slot"), unit)
         curves = []
-        for first in sorted({int(number) % turn for number in numbers}):
-            own = numbers % turn == first
-            group = shown[:, own]
-            named = numbers[own & seen]
-            if len(named) or not self.shows_all:
-                one = np.where(np.isfinite(group).any(axis=1), np.nansum(group, axis=1), np.nan)
-                curves.append((f"pair {named[0]}" if len(named) else f"pair {numbers[own][-1]}", one, int((named if len(named) else numbers[own])[0])))
-        return sorted(curves, key=lambda each: each[2])
+        for life in lives(self.dataset["pair_number"].values[part]):
+            own = np.full(self.steps, np.nan)
+            steps = part[life.steps]
+            own[steps] = values[steps, life.slot]
+            there = np.isfinite(own) & (own != 0.0)
+            if there.any():
+                curves.append((f"pair {life.number}", np.where(_with_ends(there), own, np.nan), life.number))
+        return curves
 
     def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, pair, node), the steps' mesh cycles
-        (step,) and the pairs' numbers (step, pair), in the cycles shown; side: how the result's variables of that side begin."""
-        part = self.dataset.isel(time=self.in_window)
-        order = ("time", "pair", "contact_node")
+        """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), the steps' mesh cycles
+        (step,) and the pairs' numbers (step, slot), in the last cycles whose fields are stored; side: how the result's variables of that
+        side begin."""
+        phase = self.dataset["contact_mesh_phase"].values
+        part = self.dataset.isel(contact_time=phase >= phase[-1] - MOST_CYCLES - 1e-9)
+        order = ("contact_time", "slot", "contact_node")
         pressure = in_unit(part[f"{side}contact_pressure"].transpose(*order), "MPa")
         place = in_unit(part[f"{side}contact_roll_angle"].transpose(*order), "deg")
-        return pressure, place, part["mesh_phase"].values, np.broadcast_to(part["pair"].values, pressure.shape[:2])
+        return pressure, place, part["contact_mesh_phase"].values, part["contact_pair_number"].values
 
     def largest_pressure(self, side: str) -> tuple[np.ndarray, np.ndarray]:
         """Mesh cycles (step,) of the steps with contact fields and the largest pressure (step,), MPa, of a node in each."""
         variable = self.dataset[f"{side}contact_pressure"]
-        return self.phase, in_unit(variable.max(["pair", "contact_node"], keep_attrs=True), "MPa")
+        return self.dataset["contact_mesh_phase"].values, in_unit(variable.max(["slot", "contact_node"], keep_attrs=True), "MPa")
 
 
 def _with_ends(there: np.ndarray) -> np.ndarray:
-    """Where there are values (time, pair), and beside these, so that curves begin and end at zero."""
+    """Where there are values (time,), and beside these, so that curves begin and end at zero."""
     near = there.copy()
     near[1:] |= there[:-1]
     near[:-1] |= there[1:]

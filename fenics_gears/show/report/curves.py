@@ -28,6 +28,8 @@ def pressure(run: Run) -> Section:
     """Largest pressure at every step, and the map of the mesh cycles shown."""
     if not has_pressure(run):
         none = "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the flank."
+        if run.scene is not None and run.scene.resolves_contact:
+            none = "There is none: the run has stored no contact fields (`[output] contact_fields`)."
         return Section("pressure", "Contact pressure", [Words(none)])
     return _section("pressure", "Contact pressure", run, lambda run: [largest_pressures(run), *pressure_maps(run)])
 
@@ -36,7 +38,7 @@ def _section(name: str, heading: str, run: Run, charts) -> Section:
     if not run.has_curves:
         return Section(name, heading, [Words(TOO_FEW, warns=True)])
     first, last = run.window
-    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of the stored {run.phase[0]:g} to {last:g}; on screen, a double click shows all."
+    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of the stored {run.phase[0]:g} to {last:g}; on screen, a double click shows all but of single tooth pairs."
     fewer = f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
     words = "" if run.shows_all else part + (f" {fewer}" if run.steps > MOST_POINTS else "")
     return Section(name, heading, [*([Words(words)] if words else []), *charts(run)])
@@ -45,6 +47,7 @@ def _section(name: str, heading: str, run: Run, charts) -> Section:
 def spectra(run: Run) -> Section:
     """Amplitudes over orders, their table, and how they change from cycle to cycle in long records."""
     heading = "Spectra by mesh order"
+    run = run.settled
     if not run.has_curves or run.cycles < 1.0 - 1e-9:
         short = "Less than one mesh cycle is stored; its harmonics are not to be told from one another."
         return Section("spectra", heading, [Words(short, warns=not run.complete)])

@@ -20,15 +20,16 @@ UNIT = "N m"
 
 
 def energy(run: Run) -> Section:
-    """The account over the stored cycles as numbers and curves."""
+    """The account over the settled cycles as numbers and curves."""
+    run = run.settled
     if "energy" not in run.dataset or not run.has_curves:
         return Section("energy", HEADING, [Words(TOO_FEW if "energy" in run.dataset else "The result has no energies.", warns=True)])
-    return Section("energy", HEADING, [Facts(_rows(run), "Over the stored mesh cycles (1 N m = 1 J)"), *_curves(run)])
+    return Section("energy", HEADING, [Facts(_rows(run), "Over the settled mesh cycles (1 N m = 1 J)"), *_curves(run)])
 
 
 def _rows(run: Run) -> list[tuple[str, str, str]]:
     last = {
-        name: in_unit(run.dataset[name], UNIT)[-1]
+        name: float(np.subtract(*in_unit(run.dataset[name], UNIT)[[-1, 0]]))
         for name in (*TAKEN, "work_contact_changes") if name in run.dataset
     }  # fmt: skip
     held = in_unit(run.dataset["energy"], UNIT)
@@ -44,31 +45,37 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     sides = ("the wheel's shaft", "the pinion's shaft") if work.wheel_drives else ("the pinion's shaft", "the wheel's shaft")
     rows = [(f"work of the drive, {sides[0]}", f"{work.drive * to_unit:.6g}", UNIT)]
     rows.append(row(f"work done on the load, {sides[1]}", work.load * to_unit))
-    rows += [row(f"taken by {words}", last[name]) for name, words in TAKEN.items() if name in last]
+    rows += [row(f"lost to {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
     rows.append(
         (
             "not explained by any of these",
-            f"{float(np.abs(in_unit(run.dataset['energy_defect'], UNIT)).max()):.2g}",
-            f"{UNIT} at most, at any stored step",
+            f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}",
+            f"{UNIT} at most, at any of their steps",
         )
     )
     return rows
+
+
+def _since_first(work) -> np.ndarray:
+    """Work (time,), N m, since the first step."""
+    values = in_unit(work, UNIT)
+    return values - values[:1]
 
 
 def _curves(run: Run) -> list:
     dataset = run.dataset
     held = [(words, in_unit(dataset[name], UNIT), colour) for (name, words), colour in zip(PARTS.items(), PALETTE) if name in dataset]
     held.append(("all", in_unit(dataset["energy"], UNIT), DARK))
-    taken = [(words, in_unit(dataset[name], UNIT), colour) for (name, words), colour in zip(TAKEN.items(), PALETTE) if name in dataset]
-    taken.append(("contact changes, by the time stepping", -in_unit(dataset["work_contact_changes"], UNIT), PALETTE[3]))
-    defect = in_unit(dataset["energy_defect"], UNIT)
+    taken = [(words, _since_first(dataset[name]), colour) for (name, words), colour in zip(TAKEN.items(), PALETTE) if name in dataset]
+    taken.append(("contact changes, by the time stepping", -_since_first(dataset["work_contact_changes"]), PALETTE[3]))
+    defect = _since_first(dataset["energy_defect"])
     spans = [least(np.concatenate([each for _, each, _ in curves])) * 1e-6 for curves in (held, taken)]
     # A plot of one curve has no legend.
     alone = f": {taken[0][0]}" if len(taken) == 1 else ""
     return [
         over_time(run, "Energy held", "Energy (N m)", held, least=spans[0]),
-        over_time(run, f"Work taken since the first stored step{alone}", "Work (N m)", taken, least=spans[1]),
+        over_time(run, f"Work lost since the first settled step{alone}", "Work (N m)", taken, least=spans[1]),
         over_time(run, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
     ]
