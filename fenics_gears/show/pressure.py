@@ -45,10 +45,10 @@ def pressure_maps(run: Run) -> list[Chart]:
 def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, named: bool) -> Chart:
     field = pressure_field(pressure, place, phase)
     highest = float(np.nanmax(field.values, initial=0.0))
-    caption = f"Contact pressure on the {SIDES[side]}" if named else "Contact pressure over flank and time"
+    caption = f"Contact pressure on the {SIDES[side]}" if named else "Contact pressure"
     if highest > field.limit * (1 + 1e-9):
         step = np.unravel_index(np.argmax(pressure), pressure.shape)[0]
-        caption += f"; beyond the colours: up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
+        caption += f", beyond the colours up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
     curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
     if run.pair is not None:
         pair = run.pair
