@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.results.energy_variables import transmitted
-from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.chart import over_time
 from fenics_gears.show.forces import least
+from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.report.page import Facts, Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import factor, in_unit

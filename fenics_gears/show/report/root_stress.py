@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time
-from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.forces import least
+from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.report.page import Block, Facts, Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import factor, in_unit
