@@ -87,7 +87,7 @@ class Cases:
                 continue
             spread = coordinate.broadcast_like(shape).transpose(*shape.dims)
             unit = str(coordinate.attrs.get("units", ""))
-            found.append(Field(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit, spread.values.ravel()))
+            found.append(Field(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit.replace("um", "µm"), spread.values.ravel()))
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
         return sorted(found, key=lambda field: order.get(field.name, 0))
 

@@ -93,10 +93,9 @@ def draw_study(file: Path) -> list[Path]:
     from fenics_gears.studies.combine import load_combined
 
     cases = Cases(load_combined(file), file)
-    title = str(cases.dataset.attrs.get("title", ""))
-    return save_figures(
-        {f"{name}.png": picture(heading(chart.caption, title), [replace(chart, caption="")]) for name, chart in result_charts(cases).items()}, file.parent,
-    )  # fmt: skip
+    title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
+    charts = result_charts(cases)
+    return save_figures({f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")]) for name, chart in charts.items()}, file.parent)
 
 
 def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:

@@ -119,8 +119,10 @@ def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
 
 def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
     """Authority: the dataset: of 47 cycles' pairs those that carry in the last four."""
-    names = [line.get_label() for line in load_sharing(made_up_run(steps=941, cycles=47.0)).get_axes()[0].get_lines()]
-    assert names == ["all pairs", *(f"pair {number}" for number in range(71, 77))]
+    run = made_up_run(steps=941, cycles=47.0)
+    names = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
+    last = int(run["pair_number"].max())
+    assert names == ["all pairs", *(f"pair {number}" for number in range(last - 5, last + 1))]
 
 
 def test_mesh_forces():
@@ -168,9 +170,11 @@ def test_load_sharing():
 def test_pairs_that_never_carry_have_no_curve():
     """Authority: rule 9 of the house, shown as it is: what is not there is not drawn."""
     run = made_up_run()
-    run["pair_normal_force"][:] = run["pair_normal_force"].where(run["pair_number"] != 28, 0.0)
+    numbers = run["pair_number"].values
+    first = numbers[numbers > 0].min()
+    run["pair_normal_force"].values[numbers == first] = 0.0
     labels = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
-    assert "pair 28" not in labels and "pair 29" in labels
+    assert f"pair {first}" not in labels and f"pair {first + 1}" in labels
 
 
 def test_absent_variables_leave_no_panel():
