@@ -110,7 +110,7 @@ def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str, n
         edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))
     drawn = chart.Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), COLOURS)
     ends = [(float(each[0]), float(each[-1])) for each in edges]
-    words = f"{note} Blank where a case has no result.".strip()
+    words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
     return Chart(f"{name} over {axis.called} and {other.called}", [], axis.title, other.title, words, 420, x_range=ends[0], y_range=ends[1], logarithmic=divided, field=drawn)
 
 
