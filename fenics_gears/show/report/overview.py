@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.show.report.page import Facts, Section, Tile, Tiles, Words
-from fenics_gears.show.report.run import Run
+from fenics_gears.show.run import Run
 from fenics_gears.show.units import factor
 
 
