@@ -15,7 +15,7 @@ from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
 
 DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 RELIEF = {"depth": "31 um", "start": "HPSTC"}
-SUPPORT = {name: "0.155e6 N/mm" for name in ("stiffness", "stiffness_x", "stiffness_y")}
+SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/mm")
 # Units of every kind of quantity that a scene has, by what `units` calls it.
 UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a couple": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
