@@ -56,7 +56,7 @@ def kills(folder, measured, moments, what):
     assert ended.returncode == 0 and again
 
 
-@pytest.mark.parametrize(("number", "what"), [(2, "before its second gear is kept"), (3, "before its result has its name")])
+@pytest.mark.parametrize(("number", "what"), [pytest.param(2, "before its second gear is kept", marks=pytest.mark.nightly), (3, "before its result has its name")])
 def test_a_run_killed_between_its_files(folder, measured, number, what):
     """kill -9 with the first gear kept and the second written aside, and with the result written aside."""
     program = (
