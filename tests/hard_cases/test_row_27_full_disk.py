@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import cache, command, environment, folder, write_study  # noqa: F401
+from tests.studies.conftest import command, environment, folder, write_study  # noqa: F401
 from tests.studies.test_run_study import FOUR, load
 
 from fenics_gears import results

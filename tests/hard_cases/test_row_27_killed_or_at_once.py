@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import cache, command, environment, folder, gears, stamps, write_study  # noqa: F401
+from tests.studies.conftest import command, environment, folder, gears, stamps, write_study  # noqa: F401
 from tests.studies.test_run_study import FOUR, SIX, load, stopped_in_the_middle
 
 from fenics_gears import results

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import cache, command, environment, folder, gears, mpirun, stamps, write_study  # noqa: F401
+from tests.studies.conftest import command, environment, folder, gears, mpirun, stamps, write_study  # noqa: F401
 from tests.studies.test_run_study import SIX, THREE, load, stopped_in_the_middle
 
 from fenics_gears.cli import main

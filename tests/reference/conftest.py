@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import pytest
 
-from fenics_gears.elasticity.cache import Cache
 from fenics_gears.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation import simulate
@@ -14,9 +13,9 @@ STEPS = 12
 
 
 @pytest.fixture(scope="session")
-def reference_cache(tmp_path_factory):
+def reference_cache(suite_cache):
     """Positions remeshed once for all scenes that differ in loads and effects only."""
-    return Cache(tmp_path_factory.mktemp("reference"))
+    return suite_cache
 
 
 @pytest.fixture(scope="session")

@@ -48,9 +48,8 @@ def test_cases_and_curves_are_those_of_the_file(study):
     assert page.sections["failures"].strip().endswith("None.")
 
 
-def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path, cache, monkeypatch):
+def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path):
     """A case's number leads to its report where `gears report` has made one, else to its file; from wherever the page is."""
-    monkeypatch.setenv("FENICS_GEARS_CACHE", str(cache))
     copy = tmp_path / "with a space" / "out"
     shutil.copytree(study, copy)
     files = sorted((copy / "cases").glob("*.nc"))
