@@ -20,6 +20,7 @@ from tests.stand_in import stand_in_compliance
 from threadpoolctl import threadpool_limits
 
 from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene
@@ -54,6 +55,12 @@ def one_thread():
     """BLAS with one thread: on the tests' small matrices several wait for one another, and much longer where other work shares the cores."""
     with threadpool_limits(limits=1):
         yield
+
+
+@pytest.fixture(scope="session")
+def suite_cache():
+    """The cache that all tests share, but those of caches."""
+    return Cache(SUITE_CACHE)
 
 
 @pytest.fixture(scope="session")

@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 import pytest
+from demos.flank_errors.order_spectrum import SCENE, named_lines
 from tests.coarse import COARSE
 
-from demos.flank_errors.order_spectrum import SCENE, named_lines
 from fenics_gears.scene.read import load_scene
 from fenics_gears.show.spectrum import order_spectrum
 from fenics_gears.simulation import simulate

@@ -54,9 +54,8 @@ def test_a_study_writes_its_pictures(study):
     assert {file.stem for file in study.glob("*.png")} == {"peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force"}
 
 
-def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path, cache, monkeypatch):
+def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path):
     """A case's number leads to its report where `gears report` has made one, else to its file; from wherever the page is."""
-    monkeypatch.setenv("FENICS_GEARS_CACHE", str(cache))
     copy = tmp_path / "with a space" / "out"
     shutil.copytree(study, copy)
     files = sorted((copy / "cases").glob("*.nc"))

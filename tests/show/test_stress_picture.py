@@ -87,8 +87,8 @@ def test_teeth_that_have_parted_are_drawn_without_stress(run, tmp_path, monkeypa
 def test_no_tooth_is_missing(run):
     """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
     from fenics_gears.run_stresses import RunStresses
-    from fenics_gears.show.run_scene import scene_of
     from fenics_gears.show.drawn_scale import outer_loop
+    from fenics_gears.show.run_scene import scene_of
     from fenics_gears.show.stress_grid import shown_points
 
     dataset = results.load(run / "run.nc")

@@ -72,8 +72,9 @@ def test_result_does_not_depend_on_where_the_contact_grid_lies(bare_scene, bare)
     assert error == pytest.approx(bare.transmission_error.values, rel=1e-3)
 
 
+@pytest.mark.nightly
 def test_hand_over_is_continuous(bare_scene):
-    """Row 22: with steps refined four times the largest change from step to step falls four times; a jump would stay."""
+    """Row 22 at the default accuracy: with steps refined four times the largest change from step to step falls four times; a jump would stay."""
     largest = []
     for steps in (400, 1600):
         error = simulate(replace(bare_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps))).transmission_error.values
