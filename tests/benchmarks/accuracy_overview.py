@@ -74,7 +74,7 @@ def overview(file: Path) -> Overview:
 
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
-    """The table of the README."""
+    """The table of docs/performance.md."""
     headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "what limits them"]
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
     for name, each in found.items():
@@ -113,9 +113,9 @@ def overview_picture(found: dict[str, Overview]) -> Figure:
 def _panel(axes: Axes, found: Overview) -> None:
     others = [each for each in found.points if not (each.pays or each.model or each.name == OWN)]
     if others:
-        axes.plot([each.time for each in others], [each.error for each in others], "o", color=GREY, markersize=4)
+        axes.plot([each.time for each in others], [each.error for each in others], "o", color=GREY, markersize=4, label="other settings")
     front = found.front
-    axes.plot([each.time for each in front], [each.error for each in front], "-o", color=PALETTE[0], label="settings that pay")
+    axes.plot([each.time for each in front], [each.error for each in front], "-o", color=PALETTE[0], label="Pareto front: nothing is both faster and more accurate")
     axes.plot(found.own.time, found.own.error, "*", color=PALETTE[1], markersize=16, label="the scene's own")
     for mark, each in zip(MODEL_MARKS, (each for each in found.points if each.model)):
         axes.plot(each.time, each.error, mark, color=PALETTE[2], markersize=8, label=f"model: {each.name}")
@@ -141,12 +141,12 @@ def _words(found: Overview, target: float) -> str:
     return f"{100 * target:g} %: " + ("out of reach of these settings" if target >= found.floor else "less than the reference can tell")
 
 
-def readme_section(found: dict[str, Overview]) -> str:
+def overview_section(found: dict[str, Overview]) -> str:
     """Picture and table."""
     machine = next(iter(found.values())).machine
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
-        "![What accuracy of the paper's scene costs in time](docs/pictures/accuracy.png)", "", *table_lines(found), "",
+        "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
         "Errors: the larger of those of T_E in L2 and of T_EPP, the sum of all settings' own errors or the distance from the reference where that is more. Times: medians of "
         f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip
