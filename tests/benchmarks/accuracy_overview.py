@@ -74,7 +74,7 @@ def overview(file: Path) -> Overview:
 
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
-    """The table of the README."""
+    """The table of docs/performance.md."""
     headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "what limits them"]
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
     for name, each in found.items():
@@ -143,12 +143,12 @@ def _words(found: Overview, target: float) -> str:
     return f"{100 * target:g} %: " + ("out of reach of these settings" if target >= found.floor else "less than the reference can tell")
 
 
-def readme_section(found: dict[str, Overview]) -> str:
+def overview_section(found: dict[str, Overview]) -> str:
     """Picture and table."""
     machine = next(iter(found.values())).machine
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
-        "![What accuracy of the paper's scene costs in time](docs/pictures/accuracy.png)", "", *table_lines(found), "",
+        "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
         "Errors: the larger of those of T_E in L2 and of T_EPP, the sum of all settings' own errors or the distance from the reference where that is more. Times: medians of "
         f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip

@@ -39,7 +39,7 @@ def test_the_summary_is_as_shown(first_run):
 
 def test_the_four_pictures_are_there(readers_folder):
     """Authority: the README."""
-    assert "lie four pictures" in README.read_text(encoding="utf-8")
+    assert "and four pictures are in" in README.read_text(encoding="utf-8")
     assert len(list((readers_folder / "results" / "lundvall2004").glob("*.png"))) == 4
 
 
