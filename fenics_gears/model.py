@@ -13,10 +13,10 @@ from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import check_files, effects_on
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from fenics_gears.scene.data import LAST_CYCLES, Scene
 
