@@ -1,7 +1,7 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
 Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (what was done is kept, marked
-incomplete), 130 interrupted by Ctrl-C (likewise), 141 the reader of its output closed it.
+incomplete), 4 the run ended with a result that has no meaning (kept, with the reason), 130 interrupted by Ctrl-C (likewise), 141 the reader of its output closed it.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="gears",
         description="Spur gear pairs as flexible multi-body systems with frictional contact.",
-        epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed, 130 interrupted.",
+        epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed, 4 result without meaning, 130 interrupted.",
         parents=[shared],
     )
     parser.set_defaults(verbose=False, quiet=False)

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TextIO
+
+# Open MPI and MPICH start processes on a pseudo-terminal of their own, whatever mpirun itself writes to.
+STARTED_BY_MPI = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE")
 
 Row = tuple[str, Any, str]
+
+
+def on_terminal(stream: TextIO) -> bool:
+    """Whether colours and bars reach a person by a stream: they do not by a pipe or a file, also behind mpirun."""
+    return stream.isatty() and not any(name in os.environ for name in STARTED_BY_MPI)
 
 
 def print_rows(heading: str, rows: Sequence[Row]) -> None:
     """Print rows of label, value and unit under a heading to the standard output."""
     cells = [(label, number_text(value), unit) for label, value, unit in rows]
-    if sys.stdout.isatty():
+    if on_terminal(sys.stdout):
         _print_rich(heading, cells)
     else:
         _print_plain(heading, cells)
@@ -20,7 +29,7 @@ def print_rows(heading: str, rows: Sequence[Row]) -> None:
 
 def print_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]]) -> None:
     """Print rows of cells in columns under a heading; `headings`: lines above the columns, which are left out where they are empty."""
-    if sys.stdout.isatty():
+    if on_terminal(sys.stdout):
         _print_rich_table(heading, headings, rows)
     else:
         _print_plain_table(heading, headings, rows)

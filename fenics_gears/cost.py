@@ -25,8 +25,10 @@ SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "
 GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.06, 1.7e-5, 2e-10, 4.5e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
-# Seconds of marching: a position and the square of its contact rows, a step and the square of its contact rows.
-POSITION, POSITION_SQUARE, STEP, STEP_SQUARE = 1e-3, 6e-8, 5e-5, 2e-9
+# Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and the square of its contact rows.
+PAIR, NODES_SQUARE, STEP, ROWS_SQUARE = 9e-4, 8e-8, 4.5e-5, 6e-10
+# Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in mesh (measured).
+UNLIKE_CYCLES = 5
 # The same of the reference route: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
 REMESHED_UNKNOWN, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 1.5e-10, 7.0
 # Bytes: the program with its libraries, with those that mesh and condense, a number.
@@ -77,7 +79,7 @@ def expected_cost(built: Model) -> ExpectedCost:
     """What a run of a scene costs, gears not being in the cache."""
     resolution, scene = built.resolution, built.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
-        return ExpectedCost(None, built.steps * STEP, PROGRAM + built.stored_bytes)
+        return ExpectedCost(None, _marching(built, 0.0), PROGRAM + built.stored_bytes)
     gears = [_condensed(built, name) for name in ("pinion", "wheel")]
     cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
     condensing, marching, memory = cost(built, gears)
@@ -87,12 +89,14 @@ def expected_cost(built: Model) -> ExpectedCost:
 
 @dataclass(frozen=True)
 class _Gear:
-    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance, dense inverses of a flank's size."""
+    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance that are computed, those that contact
+    copies in the order in which it goes through them, dense inverses of a flank's size."""
 
     words: str
     unknowns: float
     flank_dofs: float
     blocks: float
+    copied: float
     inverses: float = 1.0
 
 
@@ -103,15 +107,15 @@ def _condensed(built: Model, name: str) -> _Gear:
     dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(built, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
-        return _Gear(f"the whole {name}", meshed, dofs, gear.teeth * 3.0, gear.teeth)
+        return _Gear(f"the whole {name}", meshed, dofs, 3.0 * gear.teeth, 3.0, gear.teeth)
     reach = tooth_reach(
         built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None, built.corner
     )
     if reach.across is None:
-        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1)
+        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, 2 * reach.same + 1)
     # Half a symmetric sector, for motions of either symmetry.
-    blocks = reach.same + 1 + reach.across[1] - reach.across[0] + 1
-    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, blocks, BOTH_FLANKS_INVERSES)
+    across = reach.across[1] - reach.across[0] + 1
+    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, reach.same + 1 + across, 2 * (2 * reach.same + 1 + across), BOTH_FLANKS_INVERSES)
 
 
 def _meshed(built: Model, name: str) -> int | None:
@@ -122,23 +126,29 @@ def _meshed(built: Model, name: str) -> int | None:
     return None
 
 
-def _unlike_cycles(built: Model) -> int:
-    """Mesh cycles of the run that can have contact operators of their own: as many as pass until the same teeth of meshed gears meet."""
+def _positions(built: Model) -> int:
+    """Positions of the run that have contact operators of their own."""
     teeth = [getattr(built.pair, name).teeth for name in ("pinion", "wheel") if _meshed(built, name) is not None]
-    return min(lcm(*teeth), built.scene.motion.mesh_cycles)
+    unlike = min(lcm(*teeth), UNLIKE_CYCLES ** len(teeth))
+    return min(unlike * built.resolution.steps_per_mesh_cycle, built.steps + 2)
+
+
+def _marching(built: Model, rows: float) -> float:
+    """Seconds of marching with so many contact rows a position."""
+    pairs = loaded_pairs(built)
+    nodes = rows / (2 if built.scene.friction is not None else 1)
+    return _positions(built) * (PAIR * pairs + NODES_SQUARE * nodes**2) + built.steps * (STEP + ROWS_SQUARE * rows**2)
 
 
 def _condensed_once_cost(built: Model, gears: list[_Gear]) -> tuple[float, float, float]:
     """Seconds of condensing and of marching, bytes."""
     rows = contact_rows(built)
-    positions = min(_unlike_cycles(built) * built.resolution.steps_per_mesh_cycle, built.steps + 2)
     condensing = sum(
         GEAR + UNKNOWN * gear.unknowns + gear.inverses * FLANK_CUBE * gear.flank_dofs**3 + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
-    marching = positions * (POSITION + POSITION_SQUARE * rows**2) + built.steps * (STEP + STEP_SQUARE * rows**2)
-    held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * gear.blocks * gear.flank_dofs**2 for gear in gears)
-    return condensing, marching, operator_bytes(positions, rows, built.scene.friction is not None) + held
+    held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
+    return condensing, _marching(built, rows), operator_bytes(_positions(built), rows, built.scene.friction is not None) + held
 
 
 def _remeshed_cost(built: Model, gears: list[_Gear]) -> tuple[float, float, float]:

@@ -62,12 +62,16 @@ def describe(scene: Scene) -> Description:
 def _model_rows(built: Model) -> Rows:
     grid = built.resolution.contact_grid
     each = "normal and tangential force" if built.scene.friction is not None else "normal force"
-    touching = f"each a {each} where closed" if built.scene.tooth_elasticity is not None else "the first to touch carries all"
+    touching = f"each with a {each} where flanks touch" if built.scene.tooth_elasticity is not None else "the first to touch carries all"
+    pinion, wheel = built.pair.face_widths
+    widths: Rows = [] if pinion == wheel else [("face width in common", built.pair.face_width, f"mm: pinion {pinion:g} mm, wheel {wheel:g} mm")]
     return [
-        ("centre coordinates", len(built.drivetrain.coordinates), ", ".join(built.drivetrain.coordinates)),
-        ("contact nodes of a tooth pair", grid.nodes, touching),
+        *widths,
+        ("motions of the gears that are unknown", f"{len(built.drivetrain.coordinates)}:", ", ".join(built.drivetrain.coordinates)),
+        ("contact nodes of a tooth pair", f"{grid.nodes},", touching),
         ("equations in time", _method(built), ""),
-        ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
+        *([] if built.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
+        ("nominal force along the line of action", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
     ]
 
 
@@ -107,23 +111,23 @@ def _accuracy_rows(built: Model) -> Rows:
 
     elastic: Rows = [
         ("Hertz half-width at full load", resolution.half_width, "mm"),
-        ("element", resolution.element, origin(asked.element).lstrip(", ")),
+        ("element", resolution.element + origin(asked.element), ""),
         ("flank element size", resolution.flank_element_size, "mm" + origin(asked.flank_element_size)),
         *([("body element size", asked.body_element_size, "mm, from the scene")] if asked.body_element_size else []),
-        *([("interpolation", asked.interpolation, "from the scene")] if asked.interpolation else []),
-        *([("elastic teeth", asked.elastic_teeth, "from the scene")] if asked.elastic_teeth else []),
+        *([("interpolation", f"{asked.interpolation}, from the scene", "")] if asked.interpolation else []),
+        *([("elastic teeth", f"{asked.elastic_teeth}, from the scene", "")] if asked.elastic_teeth else []),
     ]
-    condensation: Rows = [("condensation", resolution.condensation, origin(asked.condensation).lstrip(", "))]
+    condensation: Rows = [("condensation", resolution.condensation + origin(asked.condensation), "")]
     return [
-        *([("target", f"{asked.target:.3%}", "a run chooses settings first, by six to twelve test runs; what follows is without a target")] if asked.target else []),
-        *([("model of the mesh", asked.model, "from the scene")] if asked.model else []),
+        *([("target", f"{asked.target:.3%}:", "a run chooses settings first, by six to twelve test runs; what follows is without a target")] if asked.target else []),
+        *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
         *(elastic if built.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
         ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
         *(condensation if built.scene.tooth_elasticity is not None else []),
-        ("steps per mesh cycle", resolution.steps_per_mesh_cycle, origin(asked.steps_per_mesh_cycle).lstrip(", ")),
+        ("steps per mesh cycle", f"{resolution.steps_per_mesh_cycle}{origin(asked.steps_per_mesh_cycle)}", ""),
         ("time step" if built.scene.speed_ramp is None else "time step, the longest", built.time_step, "s"),
-        ("steps", built.steps, _contact_fields(built)),
+        ("steps", f"{built.steps}, {_contact_fields(built)}", ""),
         *_period_rows(built),
     ]
 
@@ -131,8 +135,8 @@ def _accuracy_rows(built: Model) -> Rows:
 def _contact_fields(built: Model) -> str:
     """Of how many steps contact fields are stored."""
     if not built.scene.resolves_contact:
-        return "curves of all stored"
-    return f"curves of all stored, contact fields of the last {built.contact_steps}" if built.contact_steps else "curves of all stored, no contact fields"
+        return "curves of all are stored"
+    return f"curves of all are stored, contact fields of the last {built.contact_steps}" if built.contact_steps else "curves of all are stored, no contact fields"
 
 
 def _period_rows(built: Model) -> Rows:
@@ -151,7 +155,7 @@ def _frequency_rows(built: Model) -> Rows:
         steps, unmoved = vibration.steps_per_period(built.time_step), "" if vibration.excited else ", not excited by the mesh"
         damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
         rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps a period{damped}{unmoved}"))
-    rows.append(("resolved by the time step", resolved_frequency(built.time_step), f"Hz: periods right within {PERIOD_ERROR:.0%}"))
+    rows.append(("highest frequency that is resolved", resolved_frequency(built.time_step), f"Hz: by the time step, periods right within {PERIOD_ERROR:.0%}"))
     rows.append(("highest frequency that is sampled", 0.5 / built.time_step, "Hz: two steps a period"))
     return rows
 

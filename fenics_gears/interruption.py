@@ -19,6 +19,11 @@ class Interruption:
         self._progress = progress
         self._counting = self._asked = self._ignoring = False
 
+    @property
+    def finished(self) -> list[tuple[str, float]]:
+        """Names and seconds of the stages that are over."""
+        return self._progress.finished
+
     def __enter__(self) -> Interruption:
         """Take Ctrl-C over; only the main thread can."""
         self._here = threading.current_thread() is threading.main_thread()

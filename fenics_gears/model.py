@@ -16,7 +16,7 @@ from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.iso_6336 import mesh_stiffness
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings

@@ -12,8 +12,14 @@ from typing import Protocol, TextIO
 SECONDS_BETWEEN_LINES = 5.0
 
 
+Finished = list[tuple[str, float]]
+"""Names and seconds of stages that are over."""
+
+
 class Progress(Protocol):
-    """What a computation reports to."""
+    """What a computation reports to; ``finished``: the stages that are over, with the seconds that are said of them."""
+
+    finished: Finished
 
     def stage(self, name: str) -> None:
         """Begin the stage of that name, for instance "condense pinion"; the one before it is over."""
@@ -26,7 +32,9 @@ class Progress(Protocol):
 
 
 class SilentProgress:
-    """Reports nothing."""
+    """Reports nothing and measures nothing."""
+
+    finished: Finished = []
 
     def stage(self, name: str) -> None:
         """Ignore the stage."""
@@ -47,6 +55,7 @@ class LineProgress:
         self._clock = clock
         self._name: str | None = None
         self._begun = self._spoken = clock()
+        self.finished: Finished = []
 
     def stage(self, name: str) -> None:
         """Close the stage before, begin this one."""
@@ -68,7 +77,8 @@ class LineProgress:
     def close(self) -> None:
         """Print how long the stage took."""
         if self._name is not None:
-            self._print(f"{self._name}: {seconds_in_words(self._clock() - self._begun)}")
+            self.finished.append((self._name, self._clock() - self._begun))
+            self._print(f"{self._name}: {seconds_in_words(self.finished[-1][1])}")
         self._name = None
 
     def _print(self, line: str) -> None:
@@ -92,6 +102,7 @@ class BarProgress:
         )
         self._task = None
         self._counted = False
+        self.finished: Finished = []
 
     def stage(self, name: str) -> None:
         """Fill the bar before, begin a new one below it."""
@@ -120,6 +131,7 @@ class BarProgress:
             self._bars.update(self._task, total=1, completed=1)
         if self._task is not None:
             self._bars.stop_task(self._task)
+            self.finished.append((self._name, self._bars.tasks[self._task].finished_time or self._bars.tasks[self._task].elapsed))
         self._task = None
 
 

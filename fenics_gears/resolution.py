@@ -16,8 +16,8 @@ import numpy as np
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.geometry.iso_6336 import PAIR_STIFFNESS, mean_youngs_modulus, mesh_stiffness
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus, mesh_stiffness
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 DEFAULT_ELEMENT = "P2"

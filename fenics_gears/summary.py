@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from fenics_gears.contact.ladder import LADDER, PUBLISHED
+from fenics_gears.progress import seconds_in_words
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
 from fenics_gears.results.settled import of_settled
@@ -22,12 +24,20 @@ STAGES = {
 }
 
 
-def summary_rows(dataset) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings; first of all those without which no number is right."""
+def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[tuple[str, str, str]]:
+    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings; first of all those without which no number is right.
+
+    stages: names and seconds as the progress has said them; those of the result where there are none.
+    """
     said = dataset.attrs.get("warnings", "").splitlines()
     first = [warning for warning in said if NO_MEANING in warning or FEWER_THAN_THE_PERIOD in warning]
-    rows = [*result_rows(dataset), *solver_rows(dataset), *stage_rows(dataset)]
+    rows = [*result_rows(dataset), *solver_rows(dataset), *(_said(stages) or stage_rows(dataset))]
     return [*(("WARNING", warning, "") for warning in first), *rows, *(("WARNING", warning, "") for warning in said if warning not in first)]
+
+
+def _said(stages: Sequence[tuple[str, float]]) -> list[tuple[str, str, str]]:
+    """Wall time of the stages in the words of the progress."""
+    return [(name, seconds_in_words(seconds), "") for name, seconds in stages]
 
 
 def result_rows(dataset) -> list[tuple[str, str, str]]:

@@ -14,6 +14,7 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
+from fenics_gears.effects.relief import LINEAR, PARABOLIC
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     cycle, drivetrain, clock = recorder.cycle, recorder.built.drivetrain, recorder.built.clock
     of_flanks = [*_window(cycle, recorder.watched), *_rank(recorder.watched)] if cycle.resolves_flanks and recorder.steps else []
     if cycle.resolves_flanks and cycle.spreads_pressure and recorder.steps:
-        of_flanks += _sharp_edge(recorder.watched)
+        of_flanks += _sharp_edge(recorder.built.scene, recorder.watched)
     return [
         *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
         *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
@@ -128,17 +129,32 @@ def _wedged(cycle: Cycle, result: xr.Dataset) -> list[str]:
     ]
 
 
-def _sharp_edge(watched: Watched) -> list[str]:
+def _sharp_edge(scene: Scene, watched: Watched) -> list[str]:
     """Contact on the edge of a tip, where the flank ends in a corner: linear elasticity has infinite pressure there."""
     touched = {gear: watched[f"on the {gear}'s tip"] for gear in ("pinion", "wheel")}
     steps = int((touched["pinion"] | touched["wheel"]).sum())
     if not steps:
         return []
-    named = " and ".join(f"the {gear}'s" for gear, at in touched.items() if at.any())
+    gears = [gear for gear, at in touched.items() if at.any()]
+    named = " and ".join(f"the {gear}'s" for gear in gears)
     return [
         f"contact reaches the sharp edge of {named} tip in {steps} of {len(touched['pinion'])} steps: the pressure there does not converge with "
-        "the mesh, forces and transmission error do; [tip_relief] takes the load off the edge"
+        f"the mesh, forces and transmission error do; {_off_the_edge(scene, gears)}"
     ]
+
+
+def _off_the_edge(scene: Scene, gears: list[str]) -> str:
+    """What takes the load off the sharp tips of some gears, of what the scene does not have yet."""
+    reliefs = [getattr(scene.tip_relief, gear) for gear in gears] if scene.tip_relief is not None else []
+    if None in reliefs:
+        ways = [f"[tip_relief.{gear}] takes the load off the edge" for gear, relief in zip(gears, reliefs) if relief is None]
+    elif reliefs:
+        ways = ["a deeper or longer tip relief takes more load off the edge"]
+        ways += [f'tip_relief.shape = "{PARABOLIC}" is steeper at the tip'] if any(relief.shape == LINEAR for relief in reliefs) else []
+    else:
+        ways = ["[tip_relief] takes the load off the edge"]
+    rounded = scene.corner_contact is not None and min(scene.corner_contact.edge_radii) > 0.0
+    return ", ".join([*ways, *([] if rounded else ["[corner_contact] with an edge_radius rounds it"])])
 
 
 def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock, result: xr.Dataset) -> list[str]:

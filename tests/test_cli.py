@@ -3,6 +3,7 @@
 The simulation is replaced by one that returns at once: what is under test is what the commands do with its outcomes.
 """
 
+import contextlib
 import io
 import os
 import re
@@ -15,11 +16,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from tests.studies.conftest import environment, mpirun
 
 import fenics_gears
 from fenics_gears import progress, results
 from fenics_gears.cli import main
 from fenics_gears.errors import ComputationError
+from fenics_gears.validity import NO_MEANING
 
 CHECKOUT = Path(__file__).parents[1]
 DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
@@ -89,11 +92,15 @@ def test_a_run_writes_its_result_and_pictures(simulation, capsys, tmp_path):
 def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation, capsys):
     """Authority: identity; 5e-5 rad on a base radius of 50 mm are 2.5 um, 2e-4 rad are 10 um."""
     main(["run", str(DEMO)])
-    lines = {line.split("  ")[1]: line for line in capsys.readouterr().out.splitlines() if line.startswith("  ")}
+    output = capsys.readouterr()
+    lines = {line.split("  ")[1]: line for line in output.out.splitlines() if line.startswith("  ")}
     assert lines["transmission error, mean"].endswith("5e-05 rad = 2.5 um")
     assert lines["transmission error, peak to peak"].endswith("0.0002 rad = 10 um")
     assert lines["Newton iterations a step"].endswith("3.00 on average, 4 at most")
-    assert lines["marching through time"].endswith("2.50 s")
+    # Progress and summary have their seconds of one clock.
+    told = dict(line.split(": ") for line in output.err.splitlines())
+    assert list(told) == ["march", "draw pictures"]
+    assert all(lines[name].endswith(f" {seconds}") for name, seconds in told.items())
 
 
 def test_quiet_says_nothing(simulation, capsys, tmp_path):
@@ -101,6 +108,82 @@ def test_quiet_says_nothing(simulation, capsys, tmp_path):
     assert main(["run", str(DEMO), "--quiet", "--output", "here"]) == 0
     assert capsys.readouterr() == ("", "")
     assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
+
+
+def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys, tmp_path):
+    """Authority: docs/troubleshooting.md; a script sees that the gears jammed, and the result is kept with the reason."""
+    said = f"{NO_MEANING}: the gears would have gone through each other"
+    simulation.outcome = small_result().assign_attrs(warnings=f"{said}\nanother")
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 4
+    assert capsys.readouterr() == ("", f"here/run.nc: {said}\n")
+    assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 1
+    simulation.outcome = small_result().assign_attrs(warnings="another")
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 0
+
+
+def test_a_run_without_pictures(simulation, capsys, tmp_path):
+    """Authority: the option's own description; pictures of an earlier run do not stay as if they were this one's."""
+    assert main(["run", str(DEMO), "--output", "here"]) == 0
+    assert main(["run", str(DEMO), "--output", "here", "--no-pictures"]) == 0
+    assert files(tmp_path) == ["here/run.nc"]
+
+
+def on_a_terminal(command, more):
+    """What a command writes to a terminal of its own."""
+    ours, its = os.openpty()
+    running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env={**environment(), "TERM": "xterm", **more})
+    os.close(its)
+    written = b""
+    with contextlib.suppress(OSError):  # what a terminal says when nobody writes to it any more
+        while chunk := os.read(ours, 65536):
+            written += chunk
+    os.close(ours)
+    assert running.wait() == 0
+    return written.decode().replace("\r\n", "\n")
+
+
+CHECK = [sys.executable, "-m", "fenics_gears", "check", str(DEMO)]
+
+
+def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
+    """Authority: the interface; one sentence with the right command, not a list of unknown fields."""
+    monkeypatch.chdir(tmp_path)
+    Path("study.toml").write_text(f'scene = "{DEMO}"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n')
+    for command in ("check", "run"):
+        assert main([command, "study.toml"]) == 2
+        assert capsys.readouterr().err == "study.toml: is a study, not a scene; `gears study study.toml` runs it. Nothing was computed or written.\n"
+    assert main(["study", str(DEMO)]) == 2
+    assert f"is a scene, not a study; `gears run {DEMO}` runs it" in capsys.readouterr().err
+    assert files(tmp_path) == ["study.toml"]
+
+
+def test_what_goes_into_a_log_is_plain():
+    """Authority: ECMA-48's control sequences begin with ESC. mpirun starts its processes on a terminal of their own, also where a pipe or a file
+    has what it writes; a terminal without mpirun has colours, so that the test can fail."""
+    assert "\x1b" in on_a_terminal(CHECK, {})
+    piped = subprocess.run(CHECK, capture_output=True, text=True, check=True).stdout
+    for written in (piped, on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})):
+        assert "\x1b" not in written and "Gear pair" in written
+        assert not any(line.endswith(" ") for line in written.splitlines())
+
+
+def test_what_mpirun_pipes_on_is_plain():
+    """Authority: the same, of the real mpirun."""
+    written = subprocess.run([*mpirun(1), *CHECK], stdout=subprocess.PIPE, text=True, check=True, env=environment()).stdout
+    assert "Gear pair" in written and "\x1b" not in written
+    assert not any(line.endswith(" ") for line in written.splitlines())
+
+
+@pytest.mark.parametrize("command", ["plot", "picture", "export"])
+@pytest.mark.parametrize("named", ["speeds", "speeds/study.nc"])
+def test_pictures_of_a_study_are_those_of_its_report(simulation, capsys, tmp_path, command, named):
+    """Authority: the interface; what a study has is said, not that a file is missing."""
+    Path("speeds/cases").mkdir(parents=True)
+    Path("speeds/study.nc").touch()
+    assert main([command, named]) == 2
+    assert f"{named} is a study" in (said := capsys.readouterr().err)
+    assert "`gears report speeds`" in said and "speeds/cases/NAME.nc" in said
+    assert files(tmp_path) == ["speeds/study.nc"]
 
 
 def test_ctrl_c_keeps_what_was_done(simulation, capsys, tmp_path):
@@ -174,12 +257,12 @@ def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_pat
 
 
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
-    """Authority: design.md; a run without a recorded step is kept, marked incomplete, and not summed up as if it had some."""
+    """Authority: design.md; a run without a step is kept, marked incomplete, and not summed up as if it had some."""
     simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     output = capsys.readouterr()
     assert "Newton" not in output.out
-    assert "marked incomplete: here/run.nc, none of the recorded steps" in output.err
+    assert "marked incomplete: here/run.nc, none of the run's steps" in output.err
 
 
 @pytest.mark.parametrize("partial", [True, False])

@@ -8,7 +8,7 @@ import pytest
 from fenics_gears.description import describe
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.geometry.iso_6336 import mesh_stiffness
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.model import model
 from fenics_gears.resolution import (
     COARSEST_ELEMENT,
@@ -77,13 +77,13 @@ def test_description_says_what_a_run_will_use(paper_scene):
     sections = dict(describe(paper_scene).sections)
     accuracy = {label: value for label, value, _ in sections["Accuracy"]}
     assert accuracy["flank element size"] == 0.08
-    assert accuracy["steps"] == 3000
+    assert accuracy["steps"] == "3000, of which the last 201 are stored"
     assert "Natural frequencies with one tooth pair in mesh (about)" in sections
     rows = {label: (value, unit) for label, value, unit in sections["Natural frequencies with one tooth pair in mesh (about)"]}
     frequency, said = rows["mode 1"]
     assert said.startswith(f"Hz: {1.0 / (frequency * 5e-5):.3g} steps a period, damping ratio")
     # (omega dt)^2/12 = 1 %, and Nyquist's two steps.
-    assert rows["resolved by the time step"][0] == pytest.approx(sqrt(0.12) / (2.0 * pi * 5e-5))
+    assert rows["highest frequency that is resolved"][0] == pytest.approx(sqrt(0.12) / (2.0 * pi * 5e-5))
     assert rows["highest frequency that is sampled"][0] == pytest.approx(1e4)
     static = replace(paper_scene, inertia=None, damping=None)
     assert "Natural frequencies with one tooth pair in mesh (about)" not in dict(describe(static).sections)

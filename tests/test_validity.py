@@ -9,6 +9,9 @@ import xarray as xr
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.contact_loss import ContactLoss, contact_losses, loss_attributes
 from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
+from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.progress import SilentProgress
 from fenics_gears.scene.data import Accuracy, Load, Motion
@@ -31,12 +34,39 @@ def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
     assert result.attrs["contact_loss_count"] == 0 and "contact_loss_first" not in result.attrs
 
 
+@pytest.mark.parametrize(
+    ("effects", "said", "unsaid"),
+    [
+        ({}, ["[tip_relief] takes", "[corner_contact] with"], ["deeper", "parabolic"]),
+        ({"tip_relief": TipRelief(Relief(0.002, None), Relief(0.002, None))}, ["deeper or longer", "parabolic", "[corner_contact] with"], ["[tip_relief] takes"]),
+        ({"tip_relief": TipRelief(Relief(0.002, None), None)}, ["[tip_relief.wheel] takes"], ["[tip_relief] takes", "[tip_relief.pinion]"]),
+        ({"tip_relief": TipRelief(*[Relief(0.002, None, PARABOLIC)] * 2), "corner_contact": CornerContact((0.0, 0.0))}, ["deeper", "[corner_contact] with"], ["shape"]),
+    ],
+)
+def test_what_takes_the_load_off_a_sharp_edge_is_what_the_scene_lacks(coarse, effects, said, unsaid):
+    """The interface: advice to switch on what is on already helps nobody."""
+    scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, **effects)
+    (warning,) = [each for each in simulate(scene).attrs["warnings"].splitlines() if "sharp edge" in each]
+    assert all(words in warning for words in said) and not any(words in warning for words in unsaid)
+
+
+@pytest.mark.parametrize(("shape", "kinked"), [(LINEAR, True), (PARABOLIC, False)])
+def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, shape, kinked):
+    """Elasticity: a flank with a kink has a logarithmically infinite pressure there (Johnson, Contact Mechanics, 5.2); a parabola has no kink."""
+    relief = Relief(0.06, None, shape)
+    fine = replace(COARSE, element="P2", flank_element_size=0.06, contact_length=1.5, contact_nodes=30)
+    scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, tip_relief=TipRelief(relief, relief), accuracy=fine)
+    found = [said for said in simulate(scene).attrs["warnings"].splitlines() if "is that on the kink where the wheel's linear tip relief starts" in said]
+    assert len(found) == kinked
+
+
 def test_contact_at_the_end_of_the_window_is_named(coarse):
     """A window shorter than the contact is wide cuts pressure off."""
     short = replace(COARSE, contact_length=0.2, contact_nodes=5, flank_element_size=0.1)
-    warnings = simulate(replace(coarse, accuracy=short)).attrs["warnings"]
+    result = simulate(replace(coarse, accuracy=short))
+    warnings, steps = result.attrs["warnings"], result.sizes["time"]
     assert "contact_length" in warnings and "end of the contact window" in warnings
-    assert "in 81 of 81 stored steps" in warnings
+    assert f"in {steps} of {steps} steps" in warnings
 
 
 def test_contact_that_is_not_resolved_is_named(coarse):

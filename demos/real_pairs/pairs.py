@@ -9,7 +9,7 @@ from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
 SCENES = ("fzg_type_c", "nasa_28_28", "wu_19_48")
-COLUMNS = ("pair", "mesh frequency, Hz", "J1, kg mm^2", "J2, kg mm^2", "highest natural frequency, Hz", "T_EPP static, um", "T_EPP at speed, um", "dynamic factor")
+COLUMNS = ("pair", "mesh frequency (Hz)", "J1 (kg mm²)", "J2 (kg mm²)", "mode of the mesh (Hz)", "T_EPP without inertia (µm)", "T_EPP at speed (µm)", "dynamic factor")
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def measured(path: Path) -> Pair:
     forces = [float(run.pair_normal_force.max()) for run in (at_speed, static)]
     row = (
         scene.title, f"{scene.motion.mesh_frequency:.0f}", *(f"{each:.0f}" for each in inertias), f"{built.vibrations[-1].frequency:.0f}",
-        *(f"{error:.2f}" for error in errors), f"{forces[0] / forces[1]:.3f}",
+        *(f"{error:.3g}" for error in errors), f"{forces[0] / forces[1]:.3f}",
     )  # fmt: skip
     return Pair(at_speed, static, row)
 
@@ -58,7 +58,7 @@ def main(arguments: list[str] | None = None) -> None:
         print(pairs[-1].row, flush=True)
     text = table([pair.row for pair in pairs])
     (directory / "table.md").write_text(text + "\n", encoding="utf-8")
-    picture(pairs).savefig(directory / "real_pairs.png", dpi=110)
+    picture(pairs).savefig(directory / "real_pairs.png")
     print(f"{text}\n{directory}/table.md, {directory}/real_pairs.png")
 
 

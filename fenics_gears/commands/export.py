@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from fenics_gears.commands.run import RUN_FILE
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.commands.run_file import loaded_run, run_file
+from fenics_gears.errors import SceneError
 
 CURVES_FILE = "curves.csv"
 
@@ -23,21 +23,13 @@ def export(options: argparse.Namespace) -> int:
     """Write a run's table of curves."""
     from fenics_gears.output import check_writable, written_aside
 
-    file = options.run / RUN_FILE if options.run.is_dir() else options.run
-    if not file.is_file():
-        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
+    file = run_file(options.run)
     output = options.output or file.parent / CURVES_FILE
     if output.suffix != ".csv":
         raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
     check_writable(output.parent)
-    from fenics_gears import results
     from fenics_gears.results.curves_table import save_curves
-
-    try:
-        dataset = results.load(file)
-    except ComputationError as error:
-        # Nothing was computed: the call is wrong.
-        raise SceneError(str(error)) from error
+    dataset = loaded_run(file)
     written: list[Path] = []
     with written_aside(output.parent, written) as aside:
         save_curves(dataset, aside / output.name)

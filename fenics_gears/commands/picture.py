@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from fenics_gears.commands.run import RUN_FILE
+from fenics_gears.commands.run_file import loaded_run, run_file
 from fenics_gears.commands.told_progress import told_progress
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.errors import SceneError
 
 PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
@@ -27,9 +27,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def picture(options: argparse.Namespace) -> int:
     """Draw and export what is asked for; without --output and --animate, --vtu or --pvd alone writes no picture."""
-    file = options.run / RUN_FILE if options.run.is_dir() else options.run
-    if not file.is_file():
-        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
+    file = run_file(options.run)
     output = options.output or file.parent / (ANIMATION_FILE if options.animate else PICTURE_FILE)
     drawn = options.animate or options.output is not None or options.vtu is None and options.pvd is None
     _check_outputs(options, output if drawn else None)
@@ -95,14 +93,8 @@ def _draw(options, runs, dataset, index: int, path: Path, progress) -> None:
 
 def _loaded(file: Path):
     """A run's result and its scene."""
-    from fenics_gears import results
     from fenics_gears.show.run_scene import scene_of
-
-    try:
-        dataset = results.load(file)
-    except ComputationError as error:
-        # Nothing was computed: the call is wrong.
-        raise SceneError(str(error)) from error
+    dataset = loaded_run(file)
     scene = scene_of(dataset)
     if scene is None:
         raise SceneError(f"{file}: the scene in it is none of this version. Run the scene again.")

@@ -6,8 +6,7 @@ import argparse
 from pathlib import Path
 
 from fenics_gears.commands.drawing import draw
-from fenics_gears.commands.run import RUN_FILE
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.commands.run_file import loaded_run, run_file
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -22,18 +21,10 @@ def plot(options: argparse.Namespace) -> int:
     """Draw a run's pictures."""
     from fenics_gears.output import check_writable
 
-    file = options.run / RUN_FILE if options.run.is_dir() else options.run
-    if not file.is_file():
-        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
+    file = run_file(options.run)
     directory = options.output or file.parent
     check_writable(directory)
-    from fenics_gears import results
-
-    try:
-        dataset = results.load(file)
-    except ComputationError as error:
-        # Nothing was computed: the call is wrong.
-        raise SceneError(str(error)) from error
+    dataset = loaded_run(file)
     for picture in draw(dataset, directory):
         if not options.quiet:
             print(picture)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fenics_gears.commands.drawing import draw
-from fenics_gears.commands.exit_codes import INTERRUPTED
+from fenics_gears.commands.exit_codes import INTERRUPTED, NO_MEANING
 from fenics_gears.commands.scene_file import add_output_argument, add_scene_argument, checked_scene_and_directory
 from fenics_gears.commands.told_progress import told_progress
 from fenics_gears.errors import ComputationError
@@ -24,6 +24,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("run", parents=[shared], help="run a scene; write run.nc and pictures")
     add_scene_argument(command)
     add_output_argument(command)
+    command.add_argument("--no-pictures", action="store_true", help="write run.nc alone, without pictures, which `gears plot` draws later")
     command.set_defaults(command=run)
 
 
@@ -51,17 +52,24 @@ def run(options: argparse.Namespace) -> int:
         files = [_save(dataset, directory, interruption)]
         complete = bool(dataset.attrs.get("complete", 1))
         last_words = "" if complete else f"Interrupted. {_kept(dataset, files[0])}"
-        if complete:
+        if complete and not options.no_pictures:
             try:
                 interruption.heed()
+                interruption.stage("draw pictures")
                 files += draw(dataset, directory)
             except KeyboardInterrupt:
                 last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
     if not options.quiet:
-        _print_summary(scene.title, dataset, files)
+        _print_summary(scene.title, dataset, files, interruption.finished)
     if last_words:
         print(last_words, file=sys.stderr)
-    return INTERRUPTED if last_words else 0
+        return INTERRUPTED
+    from fenics_gears import validity
+
+    worthless = [said for said in dataset.attrs.get("warnings", "").splitlines() if validity.NO_MEANING in said]
+    if worthless:
+        print(f"{files[0]}: {worthless[0]}", file=sys.stderr)
+    return NO_MEANING if worthless else 0
 
 
 def _save(dataset, directory: Path, interruption: Interruption) -> Path:
@@ -85,9 +93,9 @@ def _kept(dataset, file: Path) -> str:
     return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the run's steps"
 
 
-def _print_summary(title: str, dataset, files: Sequence[Path]) -> None:
+def _print_summary(title: str, dataset, files: Sequence[Path], stages: Sequence[tuple[str, float]]) -> None:
     from fenics_gears.console import print_rows
     from fenics_gears.summary import summary_rows
 
-    print_rows(title, summary_rows(dataset))
+    print_rows(title, summary_rows(dataset, stages))
     print_rows("Files", [("", str(file), "") for file in files])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 
+from fenics_gears.console import on_terminal
 from fenics_gears.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 
@@ -11,7 +12,7 @@ def told_progress(quiet: bool) -> Progress:
     """Bars on a terminal, lines elsewhere, nothing if `quiet`; all of it on the standard error."""
     if quiet:
         return SilentProgress()
-    if not sys.stderr.isatty():
+    if not on_terminal(sys.stderr):
         return LineProgress()
     from rich.console import Console
 

@@ -12,10 +12,13 @@ import numpy as np
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.effects.damping import RAYLEIGH
 from fenics_gears.effects.shafts import Shafts
-from fenics_gears.geometry.iso_6336 import mesh_stiffness
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Scene
 
+# The load's moment of inertia over the wheel's: their sum keeps six digits of the wheel's.
+MOST_OF_WHEEL = 1e10
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 # Each centre's translations: of which gear, in which direction.
 TRANSLATIONS = {"centre_x1": ("pinion", "x"), "centre_y1": ("pinion", "y"), "centre_x2": ("wheel", "x"), "centre_y2": ("wheel", "y")}
@@ -79,7 +82,10 @@ class Drivetrain:
 
 
 def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
-    """The drivetrain that the scene's sections call for; what no section frees does not appear."""
+    """The drivetrain that the scene's sections call for; what no section frees does not appear.
+
+    Raises SceneError for a load so heavy that the wheel is nothing beside it.
+    """
     names = _moving_coordinates(scene)
     radius = {"rotation_1": pair.pinion.base_radius, "rotation_2": pair.wheel.base_radius, "shaft_twist": pair.wheel.base_radius}
     radii = np.array([radius.get(name, 1.0) for name in names])
@@ -125,6 +131,7 @@ def _mass(names: tuple[str, ...], scene: Scene, pair: GearPair) -> np.ndarray:
     lumped = {name: gears[gear].mass if name in TRANSLATIONS else gears[gear].moment_of_inertia for name, gear in SIDE.items()}
     mass, second = np.diag([lumped[name] for name in names]), names.index("rotation_2")
     if "shaft_twist" in names:
+        _check_load(end, lumped["rotation_2"])
         twist = names.index("shaft_twist")
         mass[twist, twist] = end
         mass[second, second] += end
@@ -132,6 +139,15 @@ def _mass(names: tuple[str, ...], scene: Scene, pair: GearPair) -> np.ndarray:
     elif scene.inertia.load is not None:
         mass[second, second] += scene.inertia.load
     return mass
+
+
+def _check_load(end: float, wheel: float) -> None:
+    """Raise SceneError for a load (N mm s^2) beside which the wheel's own moment of inertia is round-off."""
+    if end > MOST_OF_WHEEL * wheel:
+        raise SceneError(
+            f"inertia.load: a moment of inertia of {end / wheel:.3g} times the wheel's; allowed are up to {MOST_OF_WHEEL:g} times, beyond which the far end "
+            "of the output shaft stands still all the same. Lower inertia.load.moment_of_inertia, or raise that of [inertia.wheel]"
+        )
 
 
 def _damping(scene: Scene, undamped: Drivetrain) -> np.ndarray:

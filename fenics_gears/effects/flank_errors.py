@@ -8,14 +8,16 @@ in the order in which they mesh, from the tooth of either gear that meshes first
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import lcm
+from pathlib import Path
 from typing import Any, Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, quantities, quantity, whole_number
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.fields import Section, file_name, quantities, quantity, whole_number
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, quantity_in, table, teeth_in, too_large_for_the_module
+from fenics_gears.scene.tree import LARGEST_ERROR, Tree, quantity_in, table, teeth_in, too_large_for_the_module
 from fenics_gears.scene.written import as_written
 
 GEARS = ("pinion", "wheel")
@@ -37,12 +39,17 @@ class Waviness:
 
 @dataclass(frozen=True)
 class GearErrors:
-    """What is given of one gear's errors, mm, a value for each tooth; None for what is not given."""
+    """What is given of one gear's errors, mm, a value for each tooth; None for what is not given.
+
+    ``file``: the table that values are from; ``problem``: what is wrong with it, in words, empty where nothing is.
+    """
 
     pitch: tuple[float, ...] | None = None
     profile_slope: tuple[float, ...] | None = None
     profile_form: tuple[float, ...] | None = None
     waviness: Waviness | None = None
+    file: str | None = None
+    problem: str = ""
 
 
 @dataclass(frozen=True)
@@ -71,7 +78,15 @@ class WavinessText(Section):
 
 
 class GearErrorsText(Section):
-    """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: lists with a value for each tooth."""
+    """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: lists with a value for each tooth, or a table of them."""
+
+    file: Optional[str] = file_name(
+        ".csv",
+        "pinion.csv",
+        meaning="table from the scene file's folder on, with a line for each tooth and the columns `tooth`, counted from 1, and any of `pitch (um)`, "
+        "`profile_slope (um)` and `profile_form (um)`",
+        otherwise="no table",
+    )
 
     pitch: Optional[tuple[float, ...]] = quantities(
         "-100 mm", "100 mm", "3.5 um", meaning="single pitch deviations, positive where the pitch is too long; they sum to zero", otherwise=DRAWN
@@ -107,7 +122,56 @@ def _gear_errors(text: GearErrorsText | None) -> GearErrors:
         return GearErrors()
     waves = text.waviness
     waviness = None if waves is None else Waviness(waves.amplitude, waves.waves, waves.phase or 0.0)
-    return GearErrors(text.pitch, text.profile_slope, text.profile_form, waviness)
+    return GearErrors(text.pitch, text.profile_slope, text.profile_form, waviness, text.file)
+
+
+def located(errors: FlankErrors, directory: Path) -> FlankErrors:
+    """The errors with those that stand in tables, found from a directory on."""
+    return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
+
+
+def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
+    if errors.file is None:
+        return errors
+    from fenics_gears.effects.flank_errors_file import FileProblem, deviations_in
+
+    # What is wrong is said by `check`; a scene that only is looked at needs no table.
+    try:
+        found = deviations_in((directory / errors.file).resolve(), LISTS)
+    except FileProblem as problem:
+        return replace(errors, problem=str(problem))
+    twice = [name for name in LISTS if name in found and getattr(errors, name) is not None]
+    if twice:
+        return replace(errors, problem=f"the table has {twice[0]}, which the scene has, too. Leave one of the two out.")
+    return replace(errors, **found)
+
+
+def check(errors: FlankErrors, scene, pair) -> None:
+    """Raise SceneError for a table that is wrong or not of its gear."""
+    for gear in GEARS:
+        own = getattr(errors, gear)
+        problem = own.problem if own.file is None or own.problem else _problem_of_table(own, getattr(pair, gear).teeth, scene.gears.module, gear)
+        if problem:
+            raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: {problem}\nNothing was computed or written.")
+
+
+def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) -> str:
+    """What does not fit the gear, by the rules of lists; empty where all does."""
+    for name in LISTS:
+        values = getattr(errors, name)
+        if values is None:
+            continue
+        if len(values) != teeth:
+            return f"has {len(values)} teeth, but the {gear} has {teeth}. Allowed: a line for each tooth."
+        worst = max(range(teeth), key=lambda tooth: abs(values[tooth]))
+        if abs(values[worst]) > LARGEST_ERROR * module:
+            return (
+                f"{name} of tooth {worst + 1} is {values[worst]:.4g} mm, too large an error of manufacture for a module of {module:g} mm. "
+                f"Allowed: up to {LARGEST_ERROR * module:g} mm."
+            )
+        if name == "pitch" and not abs(sum(values)) <= PITCH_ROUNDING * teeth:
+            return f"pitch {_not_closed(sum(values))} The table has single pitch deviations, not cumulative ones."
+    return ""
 
 
 def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
@@ -121,7 +185,7 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
     if "tolerance_class" in errors:
         yield from _class_is_for_the_gears(tree, errors)
     elif not any(table(errors, gear) for gear in GEARS):
-        message = "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list. For true flanks, leave the section out."
+        message = "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list or a file. For true flanks, leave the section out."
         yield Problem(("flank_errors",), "", message)
     for gear in GEARS:
         own = table(errors, gear) or {}
@@ -157,8 +221,11 @@ def _pitches_close(values: list, path: tuple[str, ...]) -> Iterator[Problem]:
         return
     total = sum(numbers)
     if not abs(total) <= PITCH_ROUNDING * len(numbers):
-        message = f"sums to {1e3 * total:.4g} um over the whole turn. Allowed: pitch deviations that sum to zero, rounding to 0.1 um apart."
-        yield Problem(path, as_written(values), message)
+        yield Problem(path, as_written(values), _not_closed(total))
+
+
+def _not_closed(total: float) -> str:
+    return f"sums to {1e3 * total:.4g} um over the whole turn. Allowed: pitch deviations that sum to zero, rounding to 0.1 um apart."
 
 
 def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
@@ -224,6 +291,8 @@ EFFECT = Effect(
         )
     ),
     read=read,
+    located=located,
+    check=check,
     rules=errors_fit_the_gears,
     gaps=gaps,
     period=period,

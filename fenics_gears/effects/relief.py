@@ -2,28 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Optional
 
+from fenics_gears.scene import units
 from fenics_gears.scene.fields import Measured, Section, choice, either, quantity
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree, table
+from fenics_gears.scene.written import as_written
 
 LINEAR, PARABOLIC = "linear", "parabolic"
+GEARS = ("pinion", "wheel")
+# Steps of a block, those that press a node hardest, whose pressure is looked at.
+STEPS_JUDGED = 4
 
 
 @dataclass(frozen=True)
 class Relief:
-    """Relief of one gear: depth at its end, mm; start as a roll angle in rad, or as a diameter in mm, neither for the usual place.
+    """Relief of one gear: depth at its end, mm; start as a roll angle in rad, a diameter or a length in mm, none for the usual place.
 
-    ``shape``: "linear" or "parabolic" in the roll angle, from the start to the end.
+    ``shape``: "linear" or "parabolic" in the roll angle, from the start to the end. ``length_on_path``: from the start to the end, on
+    the path of contact (ISO 21771, where profile charts have it); ``length_on_flank``: the same along the involute.
     """
 
     depth: float
     start_roll_angle: float | None
     shape: str = LINEAR
     start_diameter: float | None = None
+    length_on_path: float | None = None
+    length_on_flank: float | None = None
 
 
 def start_field(word: str, word_meaning: str) -> Any:
@@ -32,9 +40,17 @@ def start_field(word: str, word_meaning: str) -> Any:
         ("1e-3 deg", "360 deg", "29.61 deg"),
         ("0.1 mm", "100 m", "80.1 mm"),
         words={word: None},
-        meaning=f"where the relief starts: a roll angle, a diameter, or the {word_meaning}",
-        otherwise="as of both gears; one of the two must have it",
+        meaning=f"where the relief starts: a roll angle, the {word_meaning}, or, of one gear, a diameter",
+        otherwise="as of both gears, or from a length; one of them must be given",
     )
+
+
+def length_field(measured: str) -> Any:
+    """How long a relief is, in place of its start."""
+    return quantity("1e-3 um", "100 m", "3 mm", meaning=f"length of the relief {measured}, from its start to its end", otherwise="from `start`")
+
+
+ON_PATH, ON_FLANK = "on the path of contact, as profile charts have it: base radius times roll angle", "along the flank: the involute's arc"
 
 
 def depth_field() -> Any:
@@ -51,7 +67,13 @@ def depth_field() -> Any:
 
 def shape_field() -> Any:
     """How a relief grows from its start to its end."""
-    return choice(LINEAR, PARABOLIC, meaning="how it grows with the roll angle, from its start to its end", otherwise="as of both gears, else `linear`")
+    return choice(
+        LINEAR,
+        PARABOLIC,
+        meaning="how it grows with the roll angle, from its start to its end: `linear` starts with a kink, where the pressure peaks and does not converge "
+        "with the mesh; `parabolic` starts without one",
+        otherwise="as of both gears, else `linear`",
+    )
 
 
 class TipReliefOfGearText(Section):
@@ -59,6 +81,8 @@ class TipReliefOfGearText(Section):
 
     depth: Optional[float] = depth_field()
     start: Optional[Measured] = start_field("HPSTC", "highest point of single tooth contact")
+    length_on_path: Optional[float] = length_field(ON_PATH)
+    length_on_flank: Optional[float] = length_field(ON_FLANK)
     shape: Optional[Literal["linear", "parabolic"]] = shape_field()
 
 
@@ -67,29 +91,107 @@ class RootReliefOfGearText(Section):
 
     depth: Optional[float] = depth_field()
     start: Optional[Measured] = start_field("LPSTC", "lowest point of single tooth contact")
+    length_on_path: Optional[float] = length_field(ON_PATH)
+    length_on_flank: Optional[float] = length_field(ON_FLANK)
     shape: Optional[Literal["linear", "parabolic"]] = shape_field()
+
+
+# Each alone says where a relief starts.
+STARTS = ("start", "length_on_path", "length_on_flank")
 
 
 def of_gear(both: Section, own: Section | None) -> Relief | None:
     """One gear's relief: what is its own before what is both gears'; None without a depth."""
     own = own or type(both)()
     depth = both.depth if own.depth is None else own.depth
-    start = own.start if "start" in own.model_fields_set else both.start
     if depth is None:
         return None
-    number = {start.kind: start.number} if start is not None else {}
-    return Relief(depth, number.get("an angle"), own.shape or both.shape or LINEAR, number.get("a length"))
+    starting = own if own.model_fields_set.intersection(STARTS) else both
+    number = {starting.start.kind: starting.start.number} if starting.start is not None else {}
+    shape = own.shape or both.shape or LINEAR
+    return Relief(depth, number.get("an angle"), shape, number.get("a length"), starting.length_on_path, starting.length_on_flank)
 
 
-def incomplete(tree: Tree, section: str, word: str) -> Iterator[Problem]:
-    """A relief has a depth and a start."""
+def rules(tree: Tree, section: str, word: str) -> Iterator[Problem]:
+    """A relief has a depth and one start, which means the same for all gears that it is given for."""
     both = table(tree, section)
     if both is None:
         return
-    given = {(section, gear): {*both, *both[gear]} for gear in ("pinion", "wheel") if table(both, gear) is not None}
+    own = {gear: table(both, gear) for gear in GEARS if table(both, gear) is not None}
+    yield from _incomplete(both, own, section, word)
+    for path, given in {(section,): both, **{(section, gear): each for gear, each in own.items()}}.items():
+        named = [name for name in STARTS if name in given]
+        for name in named[1:]:
+            yield Problem((*path, name), as_written(given[name]), f"stands beside {named[0]}, and each says where the relief starts. Leave one out.")
+    takers = [gear for gear in GEARS if {"depth"} & {*both, *own.get(gear, {})} and not {*STARTS}.intersection(own.get(gear, {}))]
+    if _is_diameter(both.get("start")) and len(takers) > 1 and not _alike(tree):
+        message = (
+            "is a diameter, which is another place of either gear's flank. Allowed here: a roll angle, "
+            f'"{word}", or length_on_path or length_on_flank instead; a diameter in [{section}.pinion] and [{section}.wheel].'
+        )
+        yield Problem((section, "start"), as_written(both["start"]), message)
+
+
+def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> Iterator[Problem]:
+    given = {(section, gear): {*both, *each} for gear, each in own.items()}
     if "depth" in both or not given:
         given[section,] = set(both)
     for path, names in given.items():
-        for name, example in (("depth", '"31 um"'), ("start", f'"{word}" or "29.61 deg"')):
-            if name not in names:
-                yield Problem((*path, name), None, f"is missing. Allowed: such as {example}.")
+        if "depth" not in names:
+            yield Problem((*path, "depth"), None, 'is missing. Allowed: such as "31 um".')
+        if not names.intersection(STARTS):
+            message = f'is missing. Allowed: such as "{word}" or "29.61 deg", or length_on_path or length_on_flank, such as "3 mm", instead.'
+            yield Problem((*path, "start"), None, message)
+
+
+def _is_diameter(written: Any) -> bool:
+    """Whether a start is written as a length."""
+    try:
+        return isinstance(written, str) and units.quantity(written)[1] == "a length"
+    except units.QuantityError:
+        return False
+
+
+def _alike(tree: Tree) -> bool:
+    """Whether both gears have the same teeth, so that a diameter is the same place of both."""
+    gears = table(tree, "gears") or {}
+    pinion, wheel = ({name: value for name, value in (table(gears, gear) or {}).items() if name != "bore_diameter"} for gear in GEARS)
+    return pinion == wheel
+
+
+def kinks_watched(section: str, reliefs, curves: Mapping[str, Any], cycle, records) -> dict[str, Any]:
+    """The largest pressure (MPa) of consecutive steps, and the gear (1 or 2, 0 for neither) on whose kink of a linear relief it is.
+
+    Both (steps,), zero but for the first step: they are of the steps that press a node hardest.
+    """
+    kinks = {
+        gear: curve.start_roll_angle
+        for gear, curve in curves.items() if curve is not None and getattr(reliefs, gear).shape == LINEAR and curve.depth > 0.0
+    }  # fmt: skip
+    if not kinks or not (cycle.resolves_flanks and cycle.spreads_pressure):
+        return {}
+    import numpy as np
+
+    from fenics_gears.contact.kink_pressure import kink_at_the_peak
+
+    solved = [(record.position.operator, record.solution.forces) for record in records]
+    hardest = sorted(solved, key=lambda each: each[1][: each[0].nodes].max(initial=0.0))[-STEPS_JUDGED:]
+    gear, pressure = kink_at_the_peak(cycle, hardest, kinks)
+    first = np.zeros((2, len(records)))
+    first[:, 0] = pressure, 0 if gear is None else 1 + GEARS.index(gear)
+    return {f"{section} pressure": first[0], f"{section} kink": first[1]}
+
+
+def kink_findings(section: str, watched: Mapping[str, Any]) -> list[str]:
+    """A sentence where contact presses hardest on the kink with which a linear relief starts."""
+    pressure = watched.get(f"{section} pressure")
+    if pressure is None or not len(pressure):
+        return []
+    hardest = int(pressure.argmax())
+    kink = int(watched[f"{section} kink"][hardest])
+    if not kink:
+        return []
+    return [
+        f"the largest pressure, {pressure[hardest]:.4g} MPa, is on the kink where the {GEARS[kink - 1]}'s linear {section.replace('_', ' ')} starts: it does not "
+        f'converge with the mesh there; forces and transmission error do. {section}.shape = "{PARABOLIC}" starts without a kink'
+    ]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import Relief, RootReliefOfGearText, incomplete, of_gear
+from fenics_gears.effects.relief import GEARS, Relief, RootReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree
 
@@ -21,7 +21,7 @@ class RootRelief:
 
 
 class RootReliefText(RootReliefOfGearText):
-    """``[root_relief]``: depth at the form circle, start and shape for both gears."""
+    """``[root_relief]``: depth at the form circle, start (or length) and shape for both gears."""
 
     pinion: Optional[RootReliefOfGearText] = None
     wheel: Optional[RootReliefOfGearText] = None
@@ -32,9 +32,9 @@ def read(text: RootReliefText) -> RootRelief:
     return RootRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
 
 
-def relief_is_complete(tree: Tree) -> Iterator[Problem]:
-    """A relief has a depth and a start."""
-    return incomplete(tree, "root_relief", "LPSTC")
+def relief_is_whole(tree: Tree) -> Iterator[Problem]:
+    """A relief has a depth and one start, which means the same for both gears."""
+    return rules(tree, "root_relief", "LPSTC")
 
 
 def removal(relief: RootRelief, pair):
@@ -42,6 +42,16 @@ def removal(relief: RootRelief, pair):
     from fenics_gears.geometry.relief import root_reliefs
 
     return root_reliefs(pair, relief)
+
+
+def watched(relief: RootRelief, cycle, records) -> dict:
+    """Where contact presses hardest, seen from the kinks of linear relief."""
+    return kinks_watched("root_relief", relief, dict(zip(GEARS, removal(relief, cycle.pair))), cycle, records)
+
+
+def findings(relief: RootRelief, watched) -> list[str]:
+    """Contact that presses hardest on a kink."""
+    return kink_findings("root_relief", watched)
 
 
 EFFECT = Effect(
@@ -52,6 +62,8 @@ EFFECT = Effect(
     data=RootRelief,
     terms=("initial gaps",),
     read=read,
-    rules=relief_is_complete,
+    rules=relief_is_whole,
     removal=removal,
+    watched=watched,
+    findings=findings,
 )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import Relief, TipReliefOfGearText, incomplete, of_gear
+from fenics_gears.effects.relief import GEARS, Relief, TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree
 
@@ -21,7 +21,7 @@ class TipRelief:
 
 
 class TipReliefText(TipReliefOfGearText):
-    """``[tip_relief]``: depth, start and shape for both gears."""
+    """``[tip_relief]``: depth, start (or length) and shape for both gears."""
 
     pinion: Optional[TipReliefOfGearText] = None
     wheel: Optional[TipReliefOfGearText] = None
@@ -32,9 +32,9 @@ def read(text: TipReliefText) -> TipRelief:
     return TipRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
 
 
-def relief_is_complete(tree: Tree) -> Iterator[Problem]:
-    """A relief has a depth and a start."""
-    return incomplete(tree, "tip_relief", "HPSTC")
+def relief_is_whole(tree: Tree) -> Iterator[Problem]:
+    """A relief has a depth and one start, which means the same for both gears."""
+    return rules(tree, "tip_relief", "HPSTC")
 
 
 def removal(relief: TipRelief, pair):
@@ -42,6 +42,16 @@ def removal(relief: TipRelief, pair):
     from fenics_gears.geometry.relief import tip_reliefs
 
     return tip_reliefs(pair, relief)
+
+
+def watched(relief: TipRelief, cycle, records) -> dict:
+    """Where contact presses hardest, seen from the kinks of linear relief."""
+    return kinks_watched("tip_relief", relief, dict(zip(GEARS, removal(relief, cycle.pair))), cycle, records)
+
+
+def findings(relief: TipRelief, watched) -> list[str]:
+    """Contact that presses hardest on a kink."""
+    return kink_findings("tip_relief", watched)
 
 
 EFFECT = Effect(
@@ -52,6 +62,8 @@ EFFECT = Effect(
     data=TipRelief,
     terms=("initial gaps",),
     read=read,
-    rules=relief_is_complete,
+    rules=relief_is_whole,
     removal=removal,
+    watched=watched,
+    findings=findings,
 )

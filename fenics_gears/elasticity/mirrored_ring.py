@@ -52,10 +52,13 @@ def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, re
     def response(offset: int) -> np.ndarray:
         return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
 
-    blocks = np.stack([(drive @ response(offset)) @ drive.T for offset in range(reach.same + 1)])
-    blocks[0] = _symmetric(blocks[0] + held)
     first, last = reach.across
-    across = np.stack([_symmetric((drive @ response(offset)) @ coast.T) for offset in range(first, last + 1)])
+    blocks, across = (np.empty((count, *held.shape)) for count in (reach.same + 1, last - first + 1))
+    for offset, block in enumerate(blocks):
+        np.matmul(drive @ response(offset), drive.T, out=block)
+    blocks[0] = _symmetric(blocks[0] + held)
+    for offset, block in enumerate(across, first):
+        block[:] = _symmetric((drive @ response(offset)) @ coast.T)
     if first <= 0 <= last:
         across[-first] += held_cross
     return blocks, across
@@ -63,12 +66,13 @@ def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, re
 
 def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
     """Stiffness (F + C, F + C) over flank and cut where the centreline moves along a direction (2,) only, free of force, and the hub is held."""
-    kept = np.concatenate([half.dofs("flank"), half.dofs("cut")])
+    # Flank and cut come first.
+    kept = slice(0, len(half.dofs("flank")) + len(half.dofs("cut")))
     line = half.dofs("centreline").reshape(-1, 2)
     stiffness = half.stiffness
-    coupling = sum(direction[i] * stiffness[np.ix_(line[:, i], kept)] for i in range(2))
+    coupling = sum(direction[i] * stiffness[line[:, i], kept] for i in range(2))
     own = sum(direction[i] * direction[j] * stiffness[np.ix_(line[:, i], line[:, j])] for i in range(2) for j in range(2))
-    return stiffness[np.ix_(kept, kept)] - coupling.T @ np.linalg.solve(own, coupling)
+    return stiffness[kept, kept] - coupling.T @ np.linalg.solve(own, coupling)
 
 
 def _flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -85,8 +89,8 @@ def _inverse(stiffness: np.ndarray) -> np.ndarray:
         upper, failed = dpotri(factor, lower=False, overwrite_c=True)
     if failed:
         raise ComputationError("ring of sectors: a flank's stiffness is not positive definite; is the hub held?")
-    strict = np.triu(upper, 1)
-    return strict + strict.T + np.diag(upper.diagonal())
+    np.copyto(upper, upper.T.copy(), where=np.tri(len(upper), k=-1, dtype=bool))
+    return upper
 
 
 def _symmetric(matrix: np.ndarray) -> np.ndarray:

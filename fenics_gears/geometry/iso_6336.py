@@ -6,17 +6,16 @@ mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``. Gear bodies are solid here 
 
 from __future__ import annotations
 
-from math import degrees, inf
+from math import degrees
 
 import numpy as np
 
-from fenics_gears.scene.data import GearPairData, Scene
+from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
+from fenics_gears.scene.data import GearPairData
 
 STEEL_YOUNGS_MODULUS = 206e3
 # The standard's tooth stiffness falls below this line load (N/mm), as its root of the fourth degree.
 FULL_LINE_LOAD = 100.0
-# The standard puts the stiffness of a steel tooth pair near 14 N/(mm um); in parts of Young's modulus.
-PAIR_STIFFNESS = 14e3 / STEEL_YOUNGS_MODULUS
 
 
 def single_stiffness(gears: GearPairData) -> tuple[float, float]:
@@ -40,17 +39,6 @@ def pair_stiffness(gears: GearPairData, line_load: float) -> float:
     low = (line_load / FULL_LINE_LOAD) ** 0.25 if 0.0 < line_load < FULL_LINE_LOAD else 1.0
     of_material = mean_youngs_modulus(gears) / STEEL_YOUNGS_MODULUS
     return single_stiffness(gears)[1] * 1e3 * gears.face_width * of_material * low
-
-
-def mean_youngs_modulus(gears: GearPairData) -> float:
-    """The standard's E (MPa) of a pair of two materials: 2 E1 E2/(E1 + E2)."""
-    first, second = (material.youngs_modulus for material in gears.materials)
-    return 2.0 * first * second / (first + second) if first != second else first
-
-
-def mesh_stiffness(scene: Scene) -> float:
-    """Rough stiffness (N/mm) of one tooth pair along the line of action, about 14 N/(mm um) for steel; infinite if rigid."""
-    return inf if scene.tooth_elasticity is None else PAIR_STIFFNESS * mean_youngs_modulus(scene.gears) * scene.gears.face_width
 
 
 def mesh_factor(pairs: float) -> float:

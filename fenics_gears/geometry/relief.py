@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees, isfinite
+from math import degrees, isfinite, sqrt
 
 import numpy as np
 
@@ -91,9 +91,10 @@ def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:
     lowest, highest = gear.form_roll_angle, gear.tip_roll_angle
     if not lowest <= start <= highest or start == side.end:
         raise GeometryError(
-            f"{side.name}: {side.words} starts at {_written_start(relief, start)}, but its involute runs from "
+            f"{side.name}: {side.words} starts at {_written_start(relief, start, side)}, but its involute runs from "
             f"{degrees(lowest):.4g} deg (form circle) to {degrees(highest):.4g} deg (tip), diameters "
-            f"{2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm: change {side.field}.start"
+            f"{2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm, {gear.base_radius * (highest - lowest):.4g} mm on the path of "
+            f"contact, {0.5 * gear.base_radius * (highest**2 - lowest**2):.4g} mm along the flank: change {side.field}.{_changed(relief)}"
         )
     return ReliefCurve(relief.depth, start, side.end, POWERS[relief.shape])
 
@@ -112,13 +113,29 @@ def _check_depth(relief: Relief, side: _Side) -> None:
 
 
 def _start(relief: Relief, side: _Side) -> float:
-    """Roll angle (rad) of the start; below the form circle for a diameter that has no involute."""
+    """Roll angle (rad) of the start; negative for a diameter or a length that leads off the involute."""
+    gear, from_end = side.gear, 1.0 if side.section == "root_relief" else -1.0
+    if relief.length_on_path is not None:
+        return side.end + from_end * relief.length_on_path / gear.base_radius
+    if relief.length_on_flank is not None:
+        # An involute's arc from its base circle is rb v^2 / 2.
+        square = side.end**2 + from_end * 2.0 * relief.length_on_flank / gear.base_radius
+        return sqrt(square) if square >= 0.0 else -1.0
     if relief.start_diameter is None:
         return side.usual_start if relief.start_roll_angle is None else relief.start_roll_angle
     radius = 0.5 * relief.start_diameter
-    return float(side.gear.roll_angle(radius)) if radius >= side.gear.base_radius else -1.0
+    return float(gear.roll_angle(radius)) if radius >= gear.base_radius else -1.0
 
 
-def _written_start(relief: Relief, start: float) -> str:
+def _written_start(relief: Relief, start: float, side: _Side) -> str:
+    """Where a relief starts, as the scene has it."""
+    end = "tip" if side.section == "tip_relief" else "form circle"
+    for length, measured in ((relief.length_on_path, "on the path of contact"), (relief.length_on_flank, "along the flank")):
+        if length is not None:
+            return f"{length:.6g} mm from the {end} {measured}"
     return f"roll angle {degrees(start):.4g} deg" if relief.start_diameter is None else f"diameter {relief.start_diameter:.6g} mm"
 
+
+def _changed(relief: Relief) -> str:
+    """The field that says where a relief starts."""
+    return "length_on_path" if relief.length_on_path is not None else "length_on_flank" if relief.length_on_flank is not None else "start"

@@ -21,7 +21,6 @@ from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.results.root_stress_variables import root_stress_labels
 from fenics_gears.results.settled import of_settled, settled
 from fenics_gears.storage import ROOT_STRESS
 from fenics_gears.validity import warnings_of, warnings_of_energy
@@ -62,7 +61,7 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
             if dims[:1] != ("time",):
                 yield name, dims, values, {"units": described[name].units, "long_name": described[name].long_name}
     if recorder.stress is not None:
-        for name, words in root_stress_labels(recorder.stress)[0].items():
+        for name, words in recorder.stress.labels()[0].items():
             if name in arrays:
                 yield name, ROOT_STRESS[name], arrays[name], {"units": "MPa", "long_name": words}
 
@@ -75,7 +74,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "number_at_phase_0": recorder.first_number,
     }
     coordinates = {
-        "time": ("time", arrays["time"], {"units": "s", "long_name": "time"}),
+        "time": ("time", arrays["time"], {"units": "s", "long_name": _time_name(recorder.built.scene)}),
         "mesh_phase": ("time", arrays["mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start"}),
         "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
         "gear": ("gear", list(GEARS), {"long_name": "gear"}),
@@ -91,7 +90,12 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
                 ("contact_time", "slot"), arrays["contact_pair_number"], numbered | {"long_name": f"{numbered['long_name']}, of the contact fields"},
             ),
         }  # fmt: skip
-    return coordinates if recorder.stress is None else coordinates | root_stress_labels(recorder.stress)[1]
+    return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
+
+
+def _time_name(scene: Scene) -> str:
+    """What the time is; a scene without speed has none."""
+    return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
 
 
 def _undetermined_shares(result: xr.Dataset) -> list[str]:

@@ -68,6 +68,8 @@ class Load:
 HUNTING_TOOTH_PERIOD = "hunting tooth period"
 # As many are kept where nothing is said of it and all are alike, or all would be too many.
 LAST_CYCLES = 2
+# Of a scene that needs no speed and has none, Hz: its time counts mesh cycles in seconds.
+NOMINAL_FREQUENCY = 1.0
 
 
 @dataclass(frozen=True)
@@ -75,12 +77,14 @@ class Motion:
     """Mesh frequency in Hz (mesh cycles a second), how many cycles are run, and of how many of them, the last, contact fields are stored and pictures show.
 
     ``fewer_where_too_large``: where the result could not hold the contact fields of so many, those of fewer are stored; the scene does not ask for them by number.
+    ``speed_given``: whether the scene has a speed; if not, nothing of it depends on one, and the frequency is ``NOMINAL_FREQUENCY``.
     """
 
     mesh_frequency: float
     mesh_cycles: int
     recorded_cycles: int
     fewer_where_too_large: bool = False
+    speed_given: bool = True
 
 
 # What a mesh is computed as: the full contact of elastic flanks, and the cheaper models.

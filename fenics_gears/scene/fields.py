@@ -55,7 +55,7 @@ class Allowed:
         if not isinstance(value, str):
             raise refused(self._without_unit(value))
         try:
-            return units.quantity(value)
+            return units.of_kind(value, self.kind or "")
         except units.QuantityError as error:
             raise refused(str(error) + did_you_mean(value, self.words)) from None
 
@@ -89,7 +89,10 @@ def _bare(entry: Any) -> float:
     """A bare number of a list. Raises PydanticCustomError for anything else."""
     if isinstance(entry, bool) or not isinstance(entry, (int, float)):
         raise refused("is not a number.")
-    return float(entry)
+    try:
+        return float(entry)
+    except OverflowError:
+        raise refused("is too large.") from None
 
 
 @dataclass(frozen=True)

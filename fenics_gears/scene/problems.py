@@ -12,6 +12,7 @@ from fenics_gears.scene.fields import Allowed, allowed_in
 from fenics_gears.scene.names import did_you_mean, nearest
 from fenics_gears.scene.problem import Path, Problem
 from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.synonyms import meant
 from fenics_gears.scene.written import as_written
 
 def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
@@ -36,7 +37,7 @@ def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
 
 
 def _is_misspelt(missing: Path, unknown: Iterable[Path]) -> bool:
-    return any(path[:-1] == missing[:-1] and nearest(path[-1], missing[-1:]) for path in unknown)
+    return any(path[:-1] == missing[:-1] and (nearest(path[-1], missing[-1:]) or meant(path[:-1], path[-1], missing[-1:])) for path in unknown)
 
 
 def _problem(error: Mapping[str, Any], tree: Mapping[str, Any]) -> Problem:
@@ -104,14 +105,20 @@ def _section_problem(kind: str, path: Path, tree: Mapping[str, Any]) -> Problem:
 def _why_unknown(path: Path, section: type[BaseModel]) -> str:
     name, home = path[-1], ".".join(path[:-1])
     known = list(section.model_fields)
-    hint = did_you_mean(name, known) or _lives_elsewhere(name)
+    synonym = meant(path[:-1], name, known)
+    hint = f' Did you mean "{synonym}"?' if synonym else did_you_mean(name, known) or _lives_elsewhere(name)
     kind = f"a known field of [{home}]" if home else "a known section or field of a scene"
     return f"is not {kind}.{hint} Known: {', '.join(known)}."
 
 
 def _lives_elsewhere(name: str) -> str:
-    homes = [f"[{'.'.join(path[:-1])}]" for path in _all_fields(SceneText) if path[-1] == name and len(path) > 1]
-    return f' "{name}" belongs to {" or ".join(homes)}.' if homes else ""
+    fields = [path for path in _all_fields(SceneText) if len(path) > 1]
+    homes = [f"[{'.'.join(path[:-1])}]" for path in fields if path[-1] == name]
+    if homes:
+        return f' "{name}" belongs to {" or ".join(homes)}.'
+    # A symbol stands for something else in every section.
+    named = [f'"{path[-1]}" of [{".".join(path[:-1])}]' for path in fields if len(name) > 2 and meant(path[:-1], name, path[-1:])]
+    return f" Did you mean {' or '.join(named)}?" if named else ""
 
 
 def _all_fields(section: type[BaseModel], path: Path = ()) -> list[Path]:

@@ -48,6 +48,8 @@ def scene_from_text(text: str, name: str = "scene", *, source: str | None = None
         tree = tomllib.loads(text, parse_float=WrittenFloat)
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
+    if "sweep" in tree and "gears" not in tree:
+        raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. Nothing was computed or written.")
     checked, problems = problems_of_schema(tree)
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
@@ -79,7 +81,7 @@ def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
         title=checked.title or name,
         gears=_gears(checked.gears),
         load=same_names(data.Load, checked.load),
-        motion=_motion(checked.motion, checked.output.contact_fields, checked.gears, ramped=checked.speed_ramp is not None),
+        motion=_motion(checked),
         accuracy=same_names(data.Accuracy, checked.accuracy),
         output=data.Output(checked.output.root_stress, contact_fields=checked.output.contact_fields is not False),
         text=text,
@@ -110,21 +112,35 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     )
 
 
-def _motion(motion: schema.Motion, contact_fields: bool | int | None, gears: schema.Gears, ramped: bool) -> data.Motion:
+# With these, teeth or couples differ from one mesh cycle to the next.
+CYCLES_DIFFER_BY = ("flank_errors", "eccentricity", "torque_ripple", "body_meshes")
+
+
+def _motion(checked) -> data.Motion:
     """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth.
 
-    Where it is not said how many cycles are recorded: the last two, of a speed ramp or of a whole hunting tooth period all.
+    Where it is not said how many cycles are run, which a scene with inertia must: one, or a whole hunting tooth period where cycles differ.
+    Where it is not said how many are recorded: the last two, of a speed ramp or of a whole hunting tooth period all that fit.
     """
-    frequency = motion.mesh_frequency
-    if frequency is None:
+    motion, gears = checked.motion, checked.gears
+    frequency, speed_given = motion.mesh_frequency, True
+    if frequency is None and motion.pinion_speed is None:
+        frequency, speed_given = data.NOMINAL_FREQUENCY, False
+    elif frequency is None:
         frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
     whole_period = math.lcm(gears.pinion.teeth, gears.wheel.teeth)
-    cycles = motion.mesh_cycles or whole_period
-    if contact_fields:
+    recorded = motion.recorded_cycles or whole_period if "recorded_cycles" in motion.model_fields_set else None
+    fields = checked.output.contact_fields
+    cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles is None
+    if "mesh_cycles" not in motion.model_fields_set:
         # True is no number of cycles, though Python has it as one.
-        return data.Motion(frequency, cycles, cycles if contact_fields is True else contact_fields)
-    if "recorded_cycles" in motion.model_fields_set:
-        return data.Motion(frequency, cycles, motion.recorded_cycles or whole_period)
-    if ramped or motion.mesh_cycles is None:
-        return data.Motion(frequency, cycles, cycles, fewer_where_too_large=True)
-    return data.Motion(frequency, cycles, min(data.LAST_CYCLES, cycles))
+        wanted = recorded or (fields if fields is not True and fields else 1)
+        whole = any(getattr(checked, section) is not None for section in CYCLES_DIFFER_BY)
+        cycles = max(whole_period if whole else 1, wanted)
+    if fields:
+        return data.Motion(frequency, cycles, cycles if fields is True else fields, speed_given=speed_given)
+    if recorded is not None:
+        return data.Motion(frequency, cycles, recorded, speed_given=speed_given)
+    if checked.speed_ramp is not None or whole:
+        return data.Motion(frequency, cycles, cycles, fewer_where_too_large=True, speed_given=speed_given)
+    return data.Motion(frequency, cycles, min(data.LAST_CYCLES, cycles), speed_given=speed_given)

@@ -6,7 +6,7 @@ The rules read the parsed TOML file, so that they speak even where some field is
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import inf, lcm
 
 from fenics_gears import effects
@@ -14,7 +14,8 @@ from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TA
 from fenics_gears.scene.fields import allowed_in
 from fenics_gears.scene.names import nearest
 from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears
+from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears, Motion
+from fenics_gears.scene.synonyms import meant
 from fenics_gears.scene.tree import GEARS, Tree, material_sections, quantity_in, table, teeth_in
 from fenics_gears.scene.written import as_written
 
@@ -32,7 +33,7 @@ def broken_rules(tree: Tree) -> list[Problem]:
 
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
     known = [effect.section for effect in effects.top_level()]
-    sections = {nearest(name, known) or name for name in tree}  # a misspelt section is another problem
+    sections = {nearest(name, known) or meant((), name, known) or name for name in tree}  # a misspelt section is another problem
     # Without [gears] nothing can be said.
     if table(tree, "gears") is None or material_sections(tree):
         sections.add(TEETH)
@@ -51,15 +52,28 @@ def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
     yield Problem(("gears", "face_width"), None, f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel].")
 
 
+# A time that passes has a meaning with these alone; without them a scene is a sequence of positions, each in equilibrium.
+NEED_A_SPEED = ("inertia", "damping", "speed_ramp")
+
+
 def _one_speed(tree: Tree) -> Iterator[Problem]:
-    motion = table(tree, "motion")
-    if motion is None:
-        return
+    motion = table(tree, "motion") or {}
     given = [name for name in ("mesh_frequency", "pinion_speed") if name in motion]
     if len(given) == 2:
         yield Problem(("motion", "pinion_speed"), as_written(motion["pinion_speed"]), "stands beside mesh_frequency; allowed is one of the two. Leave one out.")
-    if not given:
-        yield Problem(("motion", "mesh_frequency"), None, 'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm".')
+    needing = next((section for section in NEED_A_SPEED if section in tree), None)
+    if needing is None or not isinstance(tree.get("motion", {}), Mapping):
+        return
+    if "motion" not in tree:
+        message = f"is missing. Add the section [motion] with its fields: {', '.join(Motion.model_fields)}; [{needing}] needs a speed."
+        yield Problem(("motion",), None, message)
+        return
+    if not any(nearest(name, names) or meant(("motion",), name, names) for name in motion for names in [("mesh_frequency", "pinion_speed")]):
+        message = f'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"; [{needing}] needs one.'
+        yield Problem(("motion", "mesh_frequency"), None, message)
+    if "mesh_cycles" not in motion:
+        message = f"is missing. Allowed: {allowed_in(Motion, 'mesh_cycles').description}; [{needing}] needs it."
+        yield Problem(("motion", "mesh_cycles"), None, message)
 
 
 def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:

@@ -67,15 +67,27 @@ WHOLE_PERIOD = {HUNTING_TOOTH_PERIOD: None}
 
 
 class Motion(Section):
-    """``[motion]``: exactly one of the mesh frequency and the pinion's speed."""
+    """``[motion]``: a speed, as one of the mesh frequency and the pinion's speed, and how long; without ``[inertia]`` nothing of it is needed."""
 
     mesh_frequency: Optional[float] = quantity(
-        "1e-6 Hz", "1e6 Hz", "200 Hz", meaning="tooth pairs that enter the mesh in a second", otherwise="from `pinion_speed`"
+        "1e-6 Hz",
+        "1e6 Hz",
+        "200 Hz",
+        meaning="tooth pairs that enter the mesh in a second",
+        otherwise="from `pinion_speed`; without `[inertia]` none is needed, and a mesh cycle counts as 1 s",
     )
     pinion_speed: Optional[float] = quantity(
-        "1e-6 rpm", "1e6 rpm", "750 rpm", meaning="nominal speed of the pinion", otherwise="from `mesh_frequency`"
+        "1e-6 rpm", "1e6 rpm", "750 rpm", meaning="nominal speed of the pinion, also in 1/min", otherwise="from `mesh_frequency`"
     )
-    mesh_cycles: Optional[int] = whole_number(1, 1_000_000, 30, meaning="how many mesh cycles are run", words=WHOLE_PERIOD)
+    mesh_cycles: Optional[int] = whole_number(
+        1,
+        1_000_000,
+        30,
+        meaning="how many mesh cycles are run",
+        otherwise="without `[inertia]` one, after which all repeats, or `\"hunting tooth period\"` where teeth or couples differ from cycle to cycle; "
+        "with it, it must be given",
+        words=WHOLE_PERIOD,
+    )
     recorded_cycles: Optional[int] = whole_number(
         1,
         1_000_000,
@@ -208,7 +220,7 @@ class _AlwaysThere(Section):
     title: Optional[str] = text(500, meaning="what the scene is called in summaries and pictures", otherwise="the file's name")
     gears: Gears
     load: Load
-    motion: Motion
+    motion: Motion = Motion()
     accuracy: Accuracy = Accuracy()
     output: Output = Output()
 

@@ -39,6 +39,8 @@ _UNITS = {
     "arcmin": f"{math.pi / 10800!r} rad",
     "arcsec": f"{math.pi / 648000!r} rad",
     "rev": f"{2 * math.pi!r} rad",
+    "r": "rev",
+    "U": "rev",
     "Nmm": "N * mm",
     "Nm": "1000 N * mm",
     "kNm": "1e6 N * mm",
@@ -57,6 +59,7 @@ _UNITS = {
     "rpm": "rev / min",
 }
 
+A_FREQUENCY, AN_ANGULAR_SPEED = "a frequency (1/time)", "an angular speed"
 # What a dimension is called, by its unit inside the program.
 _KINDS = {
     "mm": "a length",
@@ -70,14 +73,18 @@ _KINDS = {
     "N s^2/mm": "a mass",
     "N s^2/mm^4": "a density",
     "N mm s^2": "a moment of inertia",
-    "1/s": "a frequency (1/time)",
-    "rad/s": "an angular speed",
+    "1/s": A_FREQUENCY,
+    "rad/s": AN_ANGULAR_SPEED,
     "mm/s": "a speed",
     "mm^2": "an area",
 }
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf|nan))(?![.,\d])\s*(.*?)\s*", re.DOTALL)
-_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "·": "*", "⋅": "*", "²": "^2", "³": "^3", "⁴": "^4"})
+_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "·": "*", "⋅": "*", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4"})
+_NEGATIVE_POWER = re.compile("⁻([¹²³⁴])")
+_DIGITS = str.maketrans("¹²³⁴", "1234")
+# What a drawing or a data sheet writes for revolutions a minute, without blanks: ISO 80000-3 counts a revolution as 1.
+_PER_MINUTE = {"1/min", "min^-1", "min**-1"}
 # Names with whole powers, joined by blanks, "*" and "/", one level of brackets. What else pint takes differs between its versions.
 _FACTOR = r"[A-Za-z]+(?:\s*(?:\^|\*\*)\s*-?\d{1,2})?"
 _JOINT = r"(?:\s*[*/]\s*|\s+)"
@@ -120,6 +127,20 @@ def quantity(text: str) -> tuple[float, str]:
     return float(match[1]) * factor, kind
 
 
+def of_kind(text: str, kind: str) -> tuple[float, str]:
+    """The number and its kind as of ``quantity``; where an angular speed is wanted, 1/min is revolutions a minute.
+
+    1/s is not taken for one: it stands for revolutions in some papers and for radians in others.
+
+    >>> of_kind("60 min^-1", "an angular speed")[0] == quantity("60 rpm")[0]
+    True
+    """
+    if kind == AN_ANGULAR_SPEED and _tidy(unit_of(text)).replace(" ", "") in _PER_MINUTE:
+        number = quantity(text)[0]
+        return 2.0 * math.pi * number, AN_ANGULAR_SPEED
+    return quantity(text)
+
+
 def unit_of(text: str) -> str:
     """The unit as written in ``text``.
 
@@ -142,12 +163,17 @@ def names_by_kind() -> dict[str, list[str]]:
     return found
 
 
+def _tidy(written: str) -> str:
+    """A unit in plain letters: "µm" as "um", "min⁻¹" as "min^-1"."""
+    return _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written).translate(_SPELLINGS).strip()
+
+
 @functools.lru_cache(maxsize=None)
 def _unit(written: str) -> tuple[float, str]:
     """The factor from the unit to N, mm, s, rad, and its kind."""
     if not written:
         return 1.0, "a number without unit"
-    tidy = written.translate(_SPELLINGS).strip()
+    tidy = _tidy(written)
     if len(tidy) > _LONGEST_UNIT or not _UNIT_TEXT.fullmatch(tidy):
         raise QuantityError(f'has the unit "{written[:_LONGEST_UNIT]}", which is not understood.')
     # Names are checked here because pint would also take a plural ("mms").

@@ -13,9 +13,11 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.output import written_aside
 from fenics_gears.results.files import read, save
 from fenics_gears.studies.axis import Axis
+from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.record import CURVES, Record
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.work import Failure
+from fenics_gears.validity import NO_MEANING
 
 STUDY_FILE = "study.nc"
 # 800 MB; beyond, the curves stay in the files of the cases.
@@ -46,6 +48,9 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
         result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
     failed = np.array([int(i in failures) for i in _indices(study)])
     result["failed"] = (study.dimensions, failed.reshape(study.shape), {"units": "1", "long_name": "whether the case failed"})
+    worthless = np.array([int(i in records and NO_MEANING in records[i].warnings) for i in _indices(study)])
+    words = {"units": "1", "long_name": "whether the case's result has no meaning"}
+    result["meaningless"] = (study.dimensions, worthless.reshape(study.shape), words)
     texts = {
         "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
         "warnings": ("what the run says against itself", {i: record.warnings for i, record in records.items()}),
@@ -64,6 +69,7 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
         fenics_gears_version=fenics_gears.__version__,
         cases=len(study.cases),
         cases_failed=len(failures),
+        remarks="\n".join(kept_sizes(study.axes)),
         complete=int(len(records) == len(study.cases)),
         curves=why_not or ", ".join(name for name in CURVES if name in result),
     )

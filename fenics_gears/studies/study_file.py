@@ -28,7 +28,7 @@ COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
 MOST_MISTAKES = 10
 # Names that the combined dataset has for itself.
-TAKEN = {"case", "failed", "failure", "mesh_phase", "gear"}
+TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
 
 
 @dataclass(frozen=True)
@@ -84,6 +84,8 @@ def load_study(path: str | Path) -> Study:
     """
     path = Path(path)
     text, tree = _parsed(path, "study")
+    if "gears" in tree and "sweep" not in tree:
+        raise SceneError(f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written.")
     # A swept field has one name here, whether its dots are written bare or within quotes.
     lines = {(name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()}
     mistakes = Mistakes(str(path), lines)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.run_study import Outcome
+from fenics_gears.validity import NO_MEANING
 
 MOST_FAILURES = 5
 
@@ -23,6 +25,10 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         warned = sum(bool(record.warnings) for record in records)
         if warned:
             rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))
+        worthless = sum(NO_MEANING in record.warnings for record in records)
+        if worthless:
+            rows.append(("cases without meaning", f"{worthless}, see the variable meaningless", ""))
+    rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes)]
     return [*rows, ("file", str(outcome.file), "")]
 
 

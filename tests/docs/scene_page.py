@@ -18,7 +18,7 @@ from fenics_gears.scene.schema import SceneText
 
 HEADING = """# The scene
 
-A scene is a TOML file. `[gears]`, `[load]` and `[motion]` are always there; `[accuracy]` says how, not what; any other section is an
+A scene is a TOML file. `[gears]` and `[load]` are always there, `[motion]` wherever time matters; `[accuracy]` says how, not what; any other section is an
 [effect](effects.md), simulated where the section is named and not constructed where it is absent. [The demo](../demos/lundvall2004.toml) is a whole scene.
 
 Quantities are texts with a number and a unit, `"4.5 mm"`, `"0.203e9 N mm/rad"`; a bare number stands only where there is no unit. Any unit of the right kind will do; inside, all is N, mm, s
@@ -62,7 +62,7 @@ def page() -> str:
 
 def _units() -> list[str]:
     rows = [(kind, ", ".join(f"`{name}`" for name in names)) for kind, names in units.names_by_kind().items()]
-    words = "Names of units, which may be combined by blanks, `*`, `/`, `^` and brackets (`kg m^2`, `N/mm`); no prefix is guessed:"
+    words = "Names of units, which may be combined by blanks, `*`, `/`, `^` and brackets (`kg m^2`, `N/mm`); no prefix is guessed. A speed may be in `min^-1` or `1/min`, too:"
     return ["## Units", "", words, "", *table(("for", "units"), rows), ""]
 
 

@@ -13,7 +13,8 @@ from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.effects.damping import Damping, Rayleigh
 from fenics_gears.effects.inertia import GearInertia, Inertia
 from fenics_gears.effects.shafts import Shaft, Shafts
-from fenics_gears.geometry.iso_6336 import mesh_stiffness
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.scene.read import scene_from_text
 
@@ -111,6 +112,17 @@ def test_a_damped_mode_decays_by_its_ratio(torsional, paper_pair):
     assert np.sort(np.abs(values))[::2] == pytest.approx(natural, rel=1e-9)
 
 
+def test_a_load_beside_which_the_wheel_is_nothing_is_refused(torsional, paper_pair):
+    """Round-off: the sum of both moments of inertia would lose the wheel's, and the mass matrix be singular; up to the limit all frequencies are right."""
+    heavy = replace(torsional, inertia=replace(UNEQUAL, load=0.9e10 * J2))
+    stiffness = np.array([[INPUT + MESH * paper_pair.pinion.base_radius**2, MESH * paper_pair.pinion.base_radius * paper_pair.wheel.base_radius], [0.0, 0.0]])
+    stiffness[1] = stiffness[0, 1], OUTPUT + MESH * paper_pair.wheel.base_radius**2
+    held = np.sqrt(np.sort(np.linalg.eigvals(stiffness / np.array([[J1], [J2]])))) / (2.0 * pi)
+    assert natural_frequencies(drivetrain(heavy, paper_pair), MESH)[1:] == pytest.approx(held, rel=1e-5)
+    with pytest.raises(SceneError, match="inertia.load: .* times the wheel's; allowed are up to 1e"):
+        drivetrain(replace(torsional, inertia=replace(UNEQUAL, load=1.1e10 * J2)), paper_pair)
+
+
 DENSITY = """
 [inertia]
 density = "7.85 g/cm^3"
@@ -126,7 +138,9 @@ def test_density_gives_mass_and_moment_of_inertia_of_each_gear_by_its_own_width(
     text = re.sub(r"\[inertia\].*?(?=^\[)", DENSITY, paper_scene.text, flags=re.M | re.S)
     scene = scene_from_text(text.replace("teeth = 16", 'teeth = 16\nface_width = "18 mm"').replace("teeth = 24", 'teeth = 24\nface_width = "14 mm"'))
     pinion, wheel = gear_section(paper_pair.pinion), gear_section(paper_pair.wheel)
-    rows = {label: value for label, value, _ in dict(describe(scene).sections)["Inertia"]}
+    said = dict(describe(scene).sections)
+    assert ("face width in common", 14.0, "mm: pinion 18 mm, wheel 14 mm") in said["Model"]
+    rows = {label: value for label, value, _ in said["Inertia"]}
     assert rows["pinion mass"] == pytest.approx(7.85e-6 * 18.0 * pinion.area, rel=1e-12)
     assert rows["pinion moment of inertia"] == pytest.approx(7.85e-6 * 18.0 * pinion.polar_moment, rel=1e-12)
     assert rows["wheel mass"] == pytest.approx(1.0, rel=1e-12)

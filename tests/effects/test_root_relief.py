@@ -15,7 +15,7 @@ from fenics_gears.effects import without
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import GeometryError
+from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
 from fenics_gears.geometry.modification import removals
 from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
@@ -61,6 +61,54 @@ def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
     assert wheel.start_roll_angle == 0.4
     end = paper_pair.pinion.tip_roll_angle if section == "tip_relief" else paper_pair.pinion.form_roll_angle
     assert by_roll.end_roll_angle == end
+
+
+@pytest.mark.parametrize("section", KINDS)
+def test_a_start_may_be_a_length_from_the_end(paper_pair, section):
+    """Identities: the path of contact is rb v long; the involute's arc is the integral of |dr| over the flank's points, here a fine polygon."""
+    kind, curves = KINDS[section]
+    for fields in ({"length_on_path": 3.0}, {"length_on_flank": 1.5}):
+        for curve, gear in zip(curves(paper_pair, kind(Relief(DEPTH, None, **fields), Relief(DEPTH, None, **fields))), (paper_pair.pinion, paper_pair.wheel)):
+            rolls = np.linspace(*sorted((curve.start_roll_angle, curve.end_roll_angle)), 4001)
+            assert curve.end_roll_angle == (gear.tip_roll_angle if section == "tip_relief" else gear.form_roll_angle)
+            if "length_on_path" in fields:
+                assert gear.base_radius * (rolls[-1] - rolls[0]) == pytest.approx(3.0, rel=1e-12)
+            else:
+                points = gear.base_radius * np.exp(1j * rolls) * (1.0 - 1j * rolls)
+                assert np.abs(np.diff(points)).sum() == pytest.approx(1.5, rel=1e-6)
+
+
+@pytest.mark.parametrize(("field", "words"), [("length_on_path", "on the path of contact"), ("length_on_flank", "along the flank")])
+def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
+    """House rule on errors: what, which gear, the value, what is allowed, the field."""
+    with pytest.raises(GeometryError) as refused:
+        tip_reliefs(paper_pair, TipRelief(None, Relief(DEPTH, None, **{field: 40.0})))
+    for said in ("wheel: ", f"starts at 40 mm from the tip {words}", f"change tip_relief.wheel.{field}"):
+        assert said in str(refused.value)
+
+
+@pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
+def test_a_start_means_one_place(paper_scene, section, word):
+    """Definition of the scene's fields: a diameter belongs to one gear, unless the gears are alike; lengths and roll angles to both; one of them."""
+    depth, diameter = f'[{section}]\ndepth = "20 um"\n', 'start = "80 mm"\n'
+
+    def relief(text, scene=paper_scene.text):
+        return getattr(scene_from_text(f"{scene}\n{text}\n"), section)
+
+    with pytest.raises(SceneError, match=rf'{section}.start = "80 mm"\n.*is a diameter, which is another place of either gear.*\[{section}.pinion\]'):
+        relief(depth + diameter)
+    with pytest.raises(SceneError, match="stands beside start, and each says where the relief starts"):
+        relief(f'{depth}start = "{word}"\nlength_on_path = "3 mm"')
+    with pytest.raises(SceneError, match=f'{section}.start\n *is missing. Allowed: such as "{word}".*length_on_flank'):
+        relief(depth)
+    assert relief(f'{depth}length_on_path = "3 mm"').wheel == Relief(0.02, None, length_on_path=3.0)
+    mixed = relief(f'{depth}length_on_path = "3 mm"\n[{section}.wheel]\nstart = "110 mm"')
+    assert mixed.pinion == Relief(0.02, None, length_on_path=3.0) and mixed.wheel == Relief(0.02, None, LINEAR, 110.0)
+    # One gear alone takes the diameter, or both are alike.
+    assert relief(f'[{section}]\n{diameter}[{section}.pinion]\ndepth = "20 um"').pinion == Relief(0.02, None, LINEAR, 80.0)
+    pinion = paper_scene.text.partition("[gears.pinion]\n")[2].partition("[gears.wheel]")[0]
+    wheel = paper_scene.text.partition("[gears.wheel]\n")[2].partition("[gears.material]")[0]
+    assert relief(depth + diameter, paper_scene.text.replace(wheel, pinion)).wheel == Relief(0.02, None, LINEAR, 80.0)
 
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])

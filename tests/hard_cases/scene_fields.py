@@ -113,10 +113,10 @@ def whole_scene() -> dict[str, Any]:
     tree["eccentricity"] = {"pinion": {"distance": "10 um"}, "wheel": {"distance": "10 um"}}
     tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
     for gear in ("pinion", "wheel"):
-        tree["gears"][gear] |= {"rack_tip_radius": 0.38, "face_width": "15 mm", "material": tree["gears"]["material"]}
-    tree["shafts"] = {**SHAFT, "input": SHAFT, "output": SHAFT}
-    tree["inertia"] = {**LUMPED, "pinion": LUMPED, "wheel": LUMPED, "load": {"moment_of_inertia": "24.5e-3 kg m^2"}}
-    tree["damping"] = {**RAYLEIGH, "pinion": RAYLEIGH, "wheel": RAYLEIGH}
+        tree["gears"][gear] |= {"rack_tip_radius": 0.38, "face_width": "15 mm", "material": {**tree["gears"]["material"]}}
+    tree["shafts"] = {**SHAFT, "input": {**SHAFT}, "output": {**SHAFT}}
+    tree["inertia"] = {**LUMPED, "pinion": {**LUMPED}, "wheel": {**LUMPED}, "load": {"moment_of_inertia": "24.5e-3 kg m^2"}}
+    tree["damping"] = {**RAYLEIGH, "pinion": {**RAYLEIGH}, "wheel": {**RAYLEIGH}}
     tree["accuracy"] |= {"body_element_size": "1.3 mm", "interpolation": "averaged", "elastic_teeth": 2, "model": "elastic"}
     ripple = {"harmonics": [{"order": 1, "amplitude": "20 N m", "phase": "30 deg"}]}
     return tree | {"coast_flanks": {}, "output": {"root_stress": True}, "torque_ripple": ripple, "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0}}
@@ -125,8 +125,8 @@ def whole_scene() -> dict[str, Any]:
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None) -> str:
     """The whole scene's text with `literal` (TOML) at a path, nothing there where that is None; under another `name` if given."""
     tree = whole_scene()
-    for name in INSTEAD.get(path, ()):
-        tree = changed(tree, (*path[:-1], name), ABSENT)
+    for other in INSTEAD.get(path, ()):
+        tree = changed(tree, (*path[:-1], other), ABSENT)
     tree = changed(tree, path, ABSENT)
     if literal is None:
         return as_toml(tree)

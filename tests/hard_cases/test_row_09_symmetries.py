@@ -32,8 +32,7 @@ def elastic(pair, scene, element="P1", coast_flank=False):
     """Flank compliances of both gears by finite elements."""
     return tuple(
         flank_compliance(
-            gear, scene.gears.material, element=element, flank_element_size=scene.accuracy.flank_element_size, reach=Reach(5),
-            coast_flank=coast_flank,
+            gear, scene.gears.material, element=element, flank_element_size=scene.accuracy.flank_element_size, reach=Reach(5, (-5, 5) if coast_flank else None),
         )
         for gear in (pair.pinion, pair.wheel)
     )  # fmt: skip

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fenics_gears.scene.units import QuantityError, quantity, unit_of
+from fenics_gears.scene.units import AN_ANGULAR_SPEED, QuantityError, of_kind, quantity, unit_of
 
 ROUND_OFF = 4e-16
 
@@ -58,6 +58,22 @@ def test_a_quantity_is_what_its_unit_says(text, value, kind):
     number, found = quantity(text)
     assert found == kind
     assert number == pytest.approx(value, rel=ROUND_OFF)
+
+
+@pytest.mark.parametrize(
+    "written", ["min^-1", "min⁻¹", "min**-1", "1/min", "1 / min", "U/min", "r/min", "rev/min", "U min^-1", "rpm"]
+)
+def test_revolutions_a_minute_as_data_sheets_write_them(written):
+    """Authority: DIN 1301 and ISO 80000-3: 1/min is the rotational frequency's unit where it is wanted, a turn being 2 pi rad."""
+    for blank in ("", " ") if written[0] != "1" else (" ",):
+        assert of_kind(f"750{blank}{written}", AN_ANGULAR_SPEED) == (pytest.approx(25 * math.pi, rel=ROUND_OFF), AN_ANGULAR_SPEED)
+
+
+@pytest.mark.parametrize("written", ["12.5 1/s", "12.5 Hz", "12.5 s^-1"])
+def test_what_may_be_radians_is_no_speed(written):
+    """Authority: the same; 1/s stands for rad/s as well, so that it is not taken for a speed, nor is 1/min where a frequency is wanted."""
+    assert of_kind(written, AN_ANGULAR_SPEED)[1] == "a frequency (1/time)"
+    assert of_kind("60 1/min", "a frequency (1/time)") == (pytest.approx(1.0, rel=ROUND_OFF), "a frequency (1/time)")
 
 
 @pytest.mark.parametrize(

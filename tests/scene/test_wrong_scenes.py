@@ -104,7 +104,7 @@ def test_a_misspelt_section_is_answered_with_the_right_one(refusal, section):
 
 @pytest.mark.parametrize("section", ["gears", "gears.pinion", "gears.wheel", "load", "motion"])
 def test_a_missing_section_is_named(refusal, section):
-    """Sections that a scene always has."""
+    """Sections that a scene always has; [motion] is one for its inertia."""
     headers = re.sub(rf"^\[{re.escape(section)}[\].].*?(?=^\[(?!{re.escape(section)}\.)|\Z)", "", DEMO, flags=re.M | re.S)
     message = refusal(headers)
     assert f"{section}\n    is missing. Add the section [{section}] with its fields: " in message
@@ -224,7 +224,9 @@ def without(section, text=DEMO):
         (DEMO.replace("teeth = 16", "teeth = 16 mm"), ["is not valid TOML", "line 14"]),
         (DEMO.replace("teeth = 16", "teeth = " + 5000 * "9"), ["is not valid TOML", "thousands of digits"]),
         ("a = " + 3000 * "[" + 3000 * "]", ["pair.toml"]),
-        ("", ["gears\n", "load\n", "motion\n", "3 mistakes"]),
+        ("", ["gears\n", "load\n", "2 mistakes"]),
+        (DEMO.replace('mesh_frequency = "200 Hz"', ""), ["motion.mesh_frequency\n", "is missing", "[inertia] needs one", '"750 rpm"', "1 mistake"]),
+        (DEMO.replace("mesh_cycles = 30", ""), ["motion.mesh_cycles\n", "is missing", "[inertia] needs it", "hunting tooth period", "1 mistake"]),
     ],
     ids=lambda value: value[0].split()[0] if isinstance(value, list) else "",
 )

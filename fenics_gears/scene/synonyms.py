@@ -1,0 +1,119 @@
+"""What engineers write for a field or a section whose name here is another: read only where a name is unknown, to say which is meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+# By section ("" for the sections themselves; that of one gear has the words of both gears'): each name here and what is written for it.
+SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
+    "": {
+        "gears": ("pair", "gear_pair", "gear", "geometry", "stage"),
+        "load": ("torque", "loads", "loading"),
+        "motion": ("speed", "kinematics", "operation"),
+        "accuracy": ("mesh", "numerics", "solver", "settings", "resolution", "discretisation", "discretization"),
+        "output": ("outputs", "results"),
+        "inertia": ("mass", "masses", "inertias", "dynamics"),
+        "shafts": ("torsion", "shaft_stiffness", "coupling"),
+        "bearings": ("bearing_stiffness", "supports"),
+        "friction": ("mu", "coulomb", "lubrication"),
+        "tip_relief": ("relief", "profile_modification", "modification", "modifications", "ca", "c_alpha_a"),
+        "root_relief": ("cf", "c_alpha_f", "foot_relief"),
+        "flank_errors": ("errors", "deviations", "pitch_errors", "profile_errors", "manufacturing_errors", "tolerances"),
+        "eccentricity": ("runout", "run_out", "radial_runout"),
+        "coast_flanks": ("backlash", "back_flanks", "rear_flanks", "back_side"),
+        "corner_contact": ("tip_contact", "tip_edge", "edge_radius", "premature_contact"),
+        "torque_ripple": ("load_ripple", "varying_torque", "torque_fluctuation"),
+        "speed_ramp": ("run_up", "coast_down", "ramp"),
+        "body_meshes": ("meshes", "gear_meshes", "cracks", "crack"),
+    },
+    "gears": {
+        "module": ("m", "mn", "m_n", "normal_module"),
+        "pressure_angle": ("alpha", "alpha_n", "angle", "normal_pressure_angle"),
+        "centre_distance": ("a", "aw", "a_w", "center_distance", "axis_distance", "distance"),
+        "face_width": ("b", "width", "facewidth", "tooth_width"),
+        "material": ("steel", "elasticity"),
+        "pinion": ("gear1", "gear_1", "driver", "driving"),
+        "wheel": ("gear2", "gear_2", "driven", "gear"),
+    },
+    "gears.pinion": {
+        "teeth": ("z", "number_of_teeth", "tooth_number"),
+        "profile_shift": ("x", "addendum_modification", "shift", "profile_shift_coefficient"),
+        "tip_diameter": ("da", "d_a", "outer_diameter", "outside_diameter", "addendum_diameter"),
+        "root_diameter": ("df", "d_f", "foot_diameter", "dedendum_diameter"),
+        "bore_diameter": ("bore", "di", "inner_diameter", "hub_diameter", "shaft_diameter"),
+        "rack_tip_radius": ("rho_fp", "tool_tip_radius", "fillet_radius", "root_fillet_radius", "root_radius", "cutter_radius"),
+    },
+    "gears.material": {
+        "youngs_modulus": ("e", "modulus", "elastic_modulus", "modulus_of_elasticity", "young", "e_modulus"),
+        "poissons_ratio": ("nu", "poisson", "poisson_ratio", "mu"),
+    },
+    "load": {"wheel_torque": ("torque", "t2", "output_torque", "moment", "couple", "load_torque", "pinion_torque", "t1")},
+    "motion": {
+        "mesh_frequency": ("frequency", "f", "gear_mesh_frequency", "tooth_frequency", "fz"),
+        "pinion_speed": ("speed", "n", "n1", "rpm", "rotational_speed", "input_speed", "rotation_speed", "angular_velocity", "omega", "wheel_speed"),
+        "mesh_cycles": ("cycles", "duration", "time", "periods", "revolutions"),
+        "recorded_cycles": ("stored_cycles", "recorded", "saved_cycles", "output_cycles"),
+    },
+    "shafts": {"torsional_stiffness": ("stiffness", "k", "c", "torsion", "spring_rate", "torsional_spring")},
+    "bearings": {
+        "stiffness": ("k", "c", "radial_stiffness", "spring_rate"),
+        "stiffness_x": ("kx", "k_x"),
+        "stiffness_y": ("ky", "k_y"),
+    },
+    "inertia": {
+        "mass": ("m", "weight", "gear_mass"),
+        "moment_of_inertia": ("j", "inertia", "theta", "mass_moment", "mass_moment_of_inertia", "rotational_inertia", "polar_moment"),
+    },
+    "damping": {
+        "stiffness_proportional": ("beta", "stiffness_factor"),
+        "mass_proportional": ("alpha", "mass_factor"),
+    },
+    "friction": {"coefficient": ("mu", "friction_coefficient", "coefficient_of_friction", "value")},
+    "tip_relief": {
+        "depth": ("amount", "ca", "c_a", "c_alpha_a", "height", "relief", "value", "magnitude"),
+        "start": ("begin", "start_point", "start_diameter", "diameter", "d_ca", "start_angle", "roll_angle"),
+        "length_on_path": ("length", "path_length", "length_of_path", "l_ca", "lca", "roll_length"),
+        "length_on_flank": ("flank_length", "profile_length", "arc_length"),
+        "shape": ("type", "form", "profile", "kind", "curve"),
+    },
+    "root_relief": {
+        "depth": ("amount", "cf", "c_f", "c_alpha_f", "height", "relief", "value", "magnitude"),
+        "start": ("begin", "start_point", "start_diameter", "diameter", "d_cf", "start_angle", "roll_angle"),
+        "length_on_path": ("length", "path_length", "length_of_path", "l_cf", "lcf", "roll_length"),
+        "length_on_flank": ("flank_length", "profile_length", "arc_length"),
+        "shape": ("type", "form", "profile", "kind", "curve"),
+    },
+    "flank_errors": {"tolerance_class": ("class", "quality", "grade", "accuracy_grade", "iso_1328"), "seed": ("random_seed",)},
+    "flank_errors.pinion": {
+        "file": ("table", "csv", "data", "measured"),
+        "pitch": ("fp", "f_p", "fpt", "f_pt", "pitch_error", "pitch_errors", "single_pitch"),
+        "profile_slope": ("fha", "f_ha", "fhalpha", "slope", "pressure_angle_error"),
+        "profile_form": ("ffa", "f_fa", "ffalpha", "form"),
+        "waviness": ("undulation", "waves", "ripple"),
+    },
+    "eccentricity.pinion": {"distance": ("amount", "eccentricity", "e", "offset", "runout", "run_out"), "phase": ("angle",)},
+    "corner_contact": {"edge_radius": ("radius", "tip_radius", "rounding", "edge_rounding")},
+    "speed_ramp": {
+        "end_frequency": ("end", "stop", "final_frequency", "end_speed", "target_frequency"),
+        "hold_cycles": ("hold", "wait", "start_cycles"),
+    },
+    "accuracy": {
+        "flank_element_size": ("element_size", "mesh_size", "h", "size"),
+        "contact_nodes": ("nodes", "n_contact"),
+        "steps_per_mesh_cycle": ("steps", "time_steps", "n_steps"),
+        "target": ("tolerance", "error", "rtol"),
+        "element": ("element_type", "order", "degree"),
+    },
+}
+
+
+def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None:
+    """The one of the known names of a section (its path) that engineers also call `word`; None where none is.
+
+    >>> meant(["tip_relief", "pinion"], "amount", ["depth", "start"])
+    'depth'
+    """
+    section, known, word = tuple(section), set(known), word.lower()
+    homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]
+    found = (name for home in homes for name, words in SYNONYMS.get(".".join(home), {}).items() if word in words and name in known)
+    return next(found, None)

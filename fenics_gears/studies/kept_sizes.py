@@ -1,0 +1,36 @@
+"""What of the gears a study leaves as it is while it sweeps a quantity with which a designer changes it: said, for nobody sees it in the curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from fenics_gears.studies.axis import Axis
+
+TIP, ROOT, SHIFT, CENTRES = "tip_diameter", "root_diameter", "profile_shift", "centre_distance"
+OF_ONE_GEAR = {SHIFT: (TIP, ROOT), "teeth": (TIP, ROOT)}
+OF_BOTH_GEARS = {"module": (TIP, ROOT), "pressure_angle": (), CENTRES: (SHIFT, TIP)}
+
+
+def kept_sizes(axes: Iterable[Axis]) -> list[str]:
+    """A sentence for each swept quantity of the gears, on diameters, profile shifts and centre distance that are the same in all cases."""
+    swept = {axis.dotted for axis in axes}
+    return [_sentence(name, kept) for name in sorted(swept) if (kept := [each for each in _bound_to(name) if each not in swept])]
+
+
+def _bound_to(name: str) -> list[str]:
+    """The fields that a design changes with the named one."""
+    home, _, quantity = name.rpartition(".")
+    if home in ("gears.pinion", "gears.wheel") and quantity in OF_ONE_GEAR:
+        return [*(f"{home}.{each}" for each in OF_ONE_GEAR[quantity]), f"gears.{CENTRES}"]
+    if home == "gears" and quantity in OF_BOTH_GEARS:
+        of_gears = [f"gears.{gear}.{each}" for each in OF_BOTH_GEARS[quantity] for gear in ("pinion", "wheel")]
+        return of_gears + ([] if quantity == CENTRES else [f"gears.{CENTRES}"])
+    return []
+
+
+def _sentence(name: str, kept: list[str]) -> str:
+    listed = kept[0] if len(kept) == 1 else f"{', '.join(kept[:-1])} and {kept[-1]}"
+    return (
+        f"{name} is swept and {listed} {'is' if len(kept) == 1 else 'are'} kept, so that contact ratio, tip clearance and backlash change with it; "
+        'sweep them along (combine = "zip") for gears that are designed anew'
+    )

@@ -1,0 +1,74 @@
+"""Scenes that need no speed. Authority: quasi-static equilibrium and Coulomb's law, which know no rate: a sequence of positions has no time."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fenics_gears.description import describe
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import mesh_cycle, simulate
+from tests.stand_in import stand_in_compliance
+
+DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+
+
+def without(text, *sections):
+    """The scene without some sections."""
+    for section in sections:
+        text = re.sub(rf"^\[{section}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
+    return text
+
+
+TIMES = ("time_mesh", "time_compile", "time_condense")
+STATIC = without(DEMO, "inertia", "damping")
+SPEEDLESS = without(STATIC, "motion")
+
+
+@pytest.mark.parametrize(
+    ("added", "expected"),
+    [
+        ("", Motion(1.0, 1, 1, speed_given=False)),
+        ("[motion]", Motion(1.0, 1, 1, speed_given=False)),
+        ("[motion]\nmesh_cycles = 3", Motion(1.0, 3, 2, speed_given=False)),
+        ("[motion]\nrecorded_cycles = 3", Motion(1.0, 3, 3, speed_given=False)),
+        ('[motion]\nmesh_frequency = "200 Hz"', Motion(200.0, 1, 1)),
+        ('[eccentricity.wheel]\ndistance = "10 um"', Motion(1.0, 48, 48, fewer_where_too_large=True, speed_given=False)),
+        ("[flank_errors]\ntolerance_class = 6\n[motion]\nmesh_cycles = 5", Motion(1.0, 5, 2, speed_given=False)),
+    ],
+)
+def test_motion_of_a_scene_without_inertia(added, expected):
+    """One mesh cycle, or the hunting tooth period (lcm of 16 and 24) where teeth differ; what is given goes first."""
+    assert scene_from_text(f"{SPEEDLESS}\n{added}\n").motion == expected
+
+
+def run(text):
+    """A scene's result with stand-in teeth."""
+    return simulate(scene_from_text(text), preparation=on_stand_ins)
+
+
+def on_stand_ins(built, progress, cache):
+    """Contact operators on teeth without finite elements."""
+    gears = [replace(stand_in_compliance(gear), timings=dict.fromkeys(TIMES, 0.0)) for gear in (built.pair.pinion, built.pair.wheel)]
+    return gears, mesh_cycle(built, gears)
+
+
+def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():
+    """Every recorded number but the time is the same, bit for bit."""
+    alone = run(SPEEDLESS)
+    many = run(STATIC.replace("recorded_cycles = 2", "recorded_cycles = 1").replace("mesh_cycles = 30", "mesh_cycles = 4"))
+    for name in ("transmission_error", "normal_force", "friction_force", "closed_nodes"):
+        np.testing.assert_array_equal(alone[name].values, many[name].values)
+    assert np.ptp(alone["time"].values) == pytest.approx(1.0, rel=1e-12)
+    assert alone["time"].attrs["long_name"].startswith("nominal time") and many["time"].attrs["long_name"] == "time"
+    assert alone.attrs["peak_to_peak_transmission_error"] == many.attrs["peak_to_peak_transmission_error"] > 0.0
+
+
+@pytest.mark.parametrize(("text", "said"), [(SPEEDLESS, ["counts mesh cycles, 1 s each"]), (STATIC, [])])
+def test_check_says_that_time_is_nominal(text, said):
+    """Only where it is."""
+    rows = dict(describe(scene_from_text(text)).sections)["Model"]
+    assert [value for label, value, _ in rows if label == "time"] == said

@@ -1,0 +1,57 @@
+"""What engineers call a field that has another name here. Authority: the schema itself, and ISO 21771's and ISO 1328's symbols."""
+
+from pathlib import Path
+
+import pytest
+
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.problems import _all_fields
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.synonyms import SYNONYMS, meant
+
+DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+FIELDS = {".".join(path) for path in _all_fields(SceneText)}
+
+
+def test_every_synonym_is_of_a_field_and_of_one_alone():
+    """Authority: the schema: a hint names what there is, and no word of a section stands for two of its fields, nor is it one itself."""
+    for section, fields in SYNONYMS.items():
+        assert {f"{section}.{name}".lstrip(".") for name in fields} <= FIELDS
+        words = [word for each in fields.values() for word in each]
+        assert len(words) == len(set(words))
+        assert not any(f"{section}.{word}".lstrip(".") in FIELDS for word in words)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ("moment_of_inertia = ", "mass_moment = ", 'Did you mean "moment_of_inertia"?'),
+        ("moment_of_inertia = ", "inertia = ", 'Did you mean "moment_of_inertia"?'),
+        ("wheel_torque = ", "torque = ", 'Did you mean "wheel_torque"?'),
+        ('mesh_frequency = "200 Hz"', 'speed = "750 rpm"', 'Did you mean "pinion_speed"?'),
+        ("face_width = ", "width = ", 'Did you mean "face_width"?'),
+        ("teeth = 16", "z = 16", 'Did you mean "teeth"?'),
+        ("coefficient = 0.1", "mu = 0.1", 'Did you mean "coefficient"?'),
+        ("[friction]\ncoefficient", "[coulomb]\ncoefficient", 'Did you mean "friction"?'),
+        ("coefficient = 0.1", 'coefficient = 0.1\n[tip_relief]\namount = "31 um"\nstart = "HPSTC"', 'Did you mean "depth"?'),
+        ("coefficient = 0.1", 'coefficient = 0.1\n[tip_relief.wheel]\nCa = "31 um"\nstart = "HPSTC"', 'Did you mean "depth"?'),
+        ("[damping]", 'mass_moment = "3 kg m^2"\n[damping]', 'Did you mean "moment_of_inertia"?'),
+        ("[shafts]", '[shafts]\nmass_moment = "3 kg m^2"', 'Did you mean "moment_of_inertia" of [inertia]?'),
+    ],
+)
+def test_a_synonym_is_answered_with_the_name(old, new, hint):
+    """Authority: the interface: one mistake, which names the field that is meant and does not call it missing besides."""
+    assert old in DEMO
+    with pytest.raises(SceneError) as error:
+        scene_from_text(DEMO.replace(old, new, 1), "pair")
+    assert hint in str(error.value)
+    assert "1 mistake in pair" in str(error.value)
+
+
+def test_a_word_means_what_its_section_has():
+    """Authority: the field's symbols: mu is friction's coefficient and, of a material, often Poisson's ratio; unknown words mean nothing."""
+    assert meant(["friction"], "mu", ["coefficient"]) == "coefficient"
+    assert meant(["gears", "material"], "mu", ["youngs_modulus", "poissons_ratio"]) == "poissons_ratio"
+    assert meant(["gears", "wheel"], "z", ["teeth"]) == "teeth"
+    assert meant(["friction"], "oil", ["coefficient"]) is None

@@ -1,0 +1,43 @@
+"""What a study over the gears keeps is said."""
+
+import pytest
+from tests.studies.conftest import write_study
+
+from fenics_gears.cli import main
+from fenics_gears.studies.axis import Axis
+from fenics_gears.studies.kept_sizes import kept_sizes
+
+
+def axis(dotted):
+    """A swept field."""
+    return Axis(tuple(dotted.split(".")), (1, 2), dotted)
+
+
+@pytest.mark.parametrize(
+    ("swept", "kept"),
+    [
+        (["gears.pinion.profile_shift"], ["gears.pinion.tip_diameter, gears.pinion.root_diameter and gears.centre_distance are kept"]),
+        (["gears.wheel.profile_shift", "gears.wheel.tip_diameter", "gears.wheel.root_diameter"], ["gears.centre_distance is kept"]),
+        (["gears.wheel.teeth", "gears.wheel.tip_diameter", "gears.wheel.root_diameter", "gears.centre_distance"], ["gears.pinion.profile_shift, gears.wheel.profile_shift and gears.pinion.tip_diameter are"]),
+        (["gears.pressure_angle"], ["gears.centre_distance is kept"]),
+        (["gears.face_width", "gears.pinion.bore_diameter", "motion.mesh_frequency", "friction.coefficient"], []),
+    ],
+)
+def test_what_is_kept_is_named(swept, kept):
+    """ISO 21771: tip and root diameter follow from module, teeth and profile shift, the centre distance without backlash from both shifts;
+    what is swept along is not kept, and what no other size follows from needs no word."""
+    said = kept_sizes([axis(each) for each in swept])
+    assert len(said) == len(kept)
+    assert all(words in sentence for words, sentence in zip(kept, said))
+
+
+def test_a_study_says_it_in_summary_and_dataset(folder, capsys):
+    """The interface."""
+    import xarray
+
+    study = write_study(folder, "[sweep]\ngears.pinion.profile_shift = [0.19, 0.196]")
+    assert main(["study", str(study), "--output", "here"]) == 0
+    words = "gears.pinion.profile_shift is swept and gears.pinion.tip_diameter, gears.pinion.root_diameter and gears.centre_distance are kept"
+    assert words in capsys.readouterr().out
+    with xarray.open_dataset("here/study.nc", engine="h5netcdf") as opened:
+        assert opened.attrs["remarks"].startswith(words)
