@@ -11,6 +11,7 @@ from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, result_variables
 from fenics_gears.geometry.characteristics import characteristics
+from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.effects import effects_on
 from fenics_gears.memory import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model import Model, model
@@ -27,6 +28,7 @@ SECONDS_PER_CONTACT_SQUARE, SECONDS_PER_STEP = 6e-8, 8e-5
 # The same of the reference route: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
 SECONDS_PER_REMESHED_UNKNOWN, SECONDS_PER_ROW_CUBE, MATRICES_PER_POSITION = 1.2e-5, 1.5e-10, 7
 BYTES_OF_PROGRAM = 300e6
+MILLIMETRE = 1e-3  # m
 
 
 @dataclass(frozen=True)
@@ -89,6 +91,22 @@ def _model_rows(built: Model) -> Rows:
         ("contact nodes of a tooth pair", grid.nodes, touching),
         ("equations in time", _method(built), ""),
         ("nominal transmitted force T/rb2", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
+        *_speed_rows(built),
+    ]
+
+
+def _speed_rows(built: Model) -> Rows:
+    """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the run."""
+    pair, highest = built.pair, built.scene.mesh_frequencies[1]
+    turns = highest / pair.pinion.teeth
+    ends = np.array([pair.path_start, pair.path_end])
+    sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
+    pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
+    when = "" if built.scene.speed_ramp is None else ", at the ramp's highest speed"
+    return [
+        ("nominal speeds", f"{60.0 * turns:.6g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.6g} rpm wheel", when.lstrip(", ")),
+        ("pitch line velocity", float(pitch), "m/s" + when),
+        ("sliding speed", f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end", when.lstrip(", ")),
     ]
 
 

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
+
+from fenics_gears.contact.tooth_pair import PairNodes, Place
 
 # Exact for cubic pressure, zero for pressure that changes sign from node to node: (1 + d^2/4)(1 - d^2/4), d^2 the second difference.
 WEIGHTS = np.array([-1.0, 4.0, 10.0, 4.0, -1.0]) / 16.0
@@ -24,10 +29,36 @@ def without_oscillation(pressure: np.ndarray) -> np.ndarray:
     return result
 
 
-def peak_pressure(pressure: np.ndarray, offsets: np.ndarray) -> float:
-    """Largest pressure (..., n), MPa, so averaged; `offsets` (..., n), mm, are NaN where there is no contact node."""
-    if not pressure.size:
-        return 0.0
+def read_off(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """Pressure (..., n), MPa, so averaged; `offsets` (..., n), mm, are NaN where there is no contact node. What every peak is read off."""
     inside = np.zeros(pressure.shape, dtype=bool)
     inside[..., :-2] = ~np.isnan(offsets[..., 2:])
-    return float(np.nanmax(np.where(inside, without_oscillation(pressure), pressure)))
+    return np.where(inside, without_oscillation(pressure), pressure)
+
+
+def peak_pressure(pressure: np.ndarray, offsets: np.ndarray) -> float:
+    """Largest pressure (..., n), MPa, so averaged; `offsets` as in `read_off`."""
+    return float(np.nanmax(read_off(pressure, offsets))) if pressure.size else 0.0
+
+
+@dataclass(frozen=True)
+class PressurePeak:
+    """The largest averaged pressure of a step: MPa, the tooth pair's place and the roll angle (rad) on the pinion's flank there."""
+
+    pressure: float
+    place: Place | None = None
+    pinion_roll: float = np.nan
+
+
+def largest_pressure(pairs: Sequence[PairNodes], normal_forces: np.ndarray, face_width: float) -> PressurePeak:
+    """Of the contact nodes of `pairs` under forces (n,), N; zero pressure without a place where nothing touches."""
+    peak, start = PressurePeak(0.0), 0
+    for pair in pairs:
+        forces, start = normal_forces[start : start + len(pair.offsets)], start + len(pair.offsets)
+        if not forces.any():
+            continue
+        pressure = without_oscillation(forces / (pair.lengths * face_width))
+        highest = int(pressure.argmax())
+        if pressure[highest] > peak.pressure:
+            peak = PressurePeak(float(pressure[highest]), pair.place, float(pair.pinion_roll[highest]))
+    return peak

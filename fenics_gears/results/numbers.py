@@ -1,0 +1,56 @@
+"""The numbers that a pair is judged by, as plain functions of curves; `results.rated` takes them from a result.
+
+Curves (steps,) are those of whole mesh cycles of the settled motion, one value a step, the end left out that begins the next cycle.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+HARMONICS = 5
+
+
+def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
+    """Amplitudes (count,) of the first harmonics of the mesh frequency in a curve over `cycles` whole mesh cycles, in the curve's unit.
+
+    The curve is mean + sum over n of amplitude_n cos(2 pi n phase + shift_n) and what lies between the harmonics; harmonics that
+    the steps do not sample, above half of the steps a cycle, are not a number.
+    """
+    steps = len(curve) // cycles
+    spectrum = np.abs(np.fft.rfft(curve)) * (2.0 / len(curve))
+    order = np.arange(1, count + 1)
+    return np.array([spectrum[n * cycles] if 2 * n < steps else np.nan for n in order])
+
+
+def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray) -> np.ndarray:
+    """Share (len(positions),) of the mesh's force that a pair carries at positions on its path, in mesh cycles since the start of contact.
+
+    `phase` (steps,): mesh cycles; `numbers`, `forces` (steps, pairs): the pairs' numbers and their forces, N; a pair with number n is at
+    position `phase - n`. Straight between steps, the mean over the pairs that pass a position; not a number where none does.
+    """
+    total = np.nansum(forces, axis=1, keepdims=True)
+    share = np.divide(forces, total, out=np.full(forces.shape, np.nan), where=total > 0.0)
+    passed = phase[:, None] - numbers
+    found = []
+    for number in np.unique(numbers):
+        known = (numbers == number) & np.isfinite(share)
+        place, carried = passed[known], share[known]
+        if len(place):
+            order = np.argsort(place)
+            found.append(np.interp(positions, place[order], carried[order], left=np.nan, right=np.nan))
+    if not found:
+        return np.full(len(positions), np.nan)
+    known = np.isfinite(found)
+    return np.divide(np.nansum(found, axis=0), known.sum(axis=0), out=np.full(len(positions), np.nan), where=known.any(axis=0))
+
+
+def mean_where_positive(values: np.ndarray) -> float:
+    """Mean of the values of steps at which something touches; not a number where nothing ever does."""
+    touching = values > 0.0
+    return float(values[touching].mean()) if touching.any() else np.nan
+
+
+def largest_of_one_pair(stiffness: np.ndarray, pairs: np.ndarray) -> float:
+    """Largest stiffness (steps,) at steps with one pair (steps,) in mesh; not a number where there are always more."""
+    alone = pairs == 1
+    return float(stiffness[alone].max()) if alone.any() else np.nan
