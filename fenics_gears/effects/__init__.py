@@ -54,7 +54,7 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action"),
     ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action"),
     ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action"),
-    ResultVariable("reaction_couple", "N mm", "couple of the gear on its shaft"),
+    ResultVariable("reaction_couple", "N mm", "torque of the gear on its shaft, positive in the pinion's sense of rotation"),
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
     ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
@@ -62,12 +62,17 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("work_output", "N mm", "work that the wheel's shaft takes out, done on the load; negative where the wheel drives"),
     ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
     ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
+    ResultVariable("contact_point_position", "mm", "distance of the contact point from T1 along the line of action"),
+    ResultVariable("contact_point_diameter", "mm", "diameter at the contact point"),
+    ResultVariable("sliding_speed", "mm/s", "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip"),
+    ResultVariable("specific_sliding", "1", "sliding speed over the speed of the flank's own contact point; negative in the dedendum"),
+    ResultVariable("load_share", "1", "share of the mesh's force that a pair carries at the contact point"),
 )
 
 # What only contact that is spread over nodes has.
 OVER_CONTACT_NODES = tuple(
     f"{side}contact_{name}" for side in ("", "coast_") for name in ("pressure", "traction", "offset", "roll_angle")
-)
+) + ("largest_contact_pressure", "largest_contact_pressure_pair", "largest_contact_pressure_roll_angle", "largest_edge_pressure")
 
 
 def effect(section: str) -> Effect:

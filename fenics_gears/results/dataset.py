@@ -14,7 +14,6 @@ import xarray as xr
 import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.pressure import peak_pressure
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -23,6 +22,8 @@ from fenics_gears.effects import effects_on, result_variables
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_variables, pair_variables
 from fenics_gears.results.energy_variables import energy_variables, transmitted, work_variables
+from fenics_gears.results.key_numbers import contact_point_names, contact_point_variables, key_numbers
+from fenics_gears.results.mesh_curves import mesh_curves
 from fenics_gears.scene.data import Scene
 from fenics_gears.validity import warnings_of, warnings_of_energy
 
@@ -36,6 +37,7 @@ def dataset(
     records = list(march.records)
     values = _centre_variables(scene, drivetrain, records)
     values |= mesh_variables(scene, records)
+    values |= mesh_curves(scene, cycle, records)
     pairs = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
     values |= pair_variables(scene, cycle, records, pairs)
     values |= energy_variables(scene, drivetrain, records)
@@ -54,7 +56,11 @@ def dataset(
             "pair": ("pair", np.array(pairs, dtype=np.int64), {"long_name": "tooth pair, counted through the run"}),
         },
     )
-    attributes = _attributes(scene, march, result) | loss_attributes(march.separations, march.steps, clock)
+    of_points = contact_point_variables(result, scene, cycle.pair)
+    result = result.assign({name: (dims, data, _labels(described[name])) for name, (dims, data) in of_points.items()})
+    result = result.assign_coords(contact_point=contact_point_names())
+    attributes = _attributes(scene, march, result)
+    attributes |= key_numbers(result.assign_attrs(attributes), cycle.pair) | loss_attributes(march.separations, march.steps, clock)
     found = [*warnings_of(cycle, drivetrain, march, clock), *warnings_of_energy(scene, result, cycle.steps), *_undetermined_shares(result)]
     for effect in effects_on(scene):
         if effect.findings is not None:
@@ -112,8 +118,6 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
     }
     attributes |= {f"{RUNG}{rung}": count for rung, count in march.rungs.items() if count}
     if len(error):
-        if "contact_pressure" in result:
-            attributes["peak_contact_pressure"] = _peak_pressure(result)
         attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
         attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
     if len(error) > 1 and scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
@@ -126,11 +130,3 @@ def _friction_loss(result: xr.Dataset) -> dict[str, float]:
     drive = abs(transmitted(result).drive)
     return {"friction_loss": float(result["work_friction"].values[-1]) / drive} if drive else {}
 
-
-def _peak_pressure(result: xr.Dataset) -> float:
-    """The largest pressure (MPa) on drive or coast flanks, whichever it is on."""
-    peak = peak_pressure(result["contact_pressure"].values, result["contact_offset"].values)
-    if "coast_contact_pressure" not in result:
-        return peak
-    # Roll angles, as offsets, are NaN where there is no contact node.
-    return max(peak, peak_pressure(result["coast_contact_pressure"].values, result["coast_contact_roll_angle"].values))

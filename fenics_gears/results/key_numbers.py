@@ -1,0 +1,128 @@
+"""The numbers that people ask a run for, as attributes of its result: of the settled whole mesh cycles, each with its unit and definition.
+
+They are read off the result's curves. What each is and where it comes from stands in `results.attributes`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
+from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.numbers import HARMONICS, harmonics, largest_of_one_pair, mean_where_positive, shares_at
+from fenics_gears.scene.data import Scene
+
+MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
+HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
+
+
+def key_numbers(result: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
+    """All that the result, with the attribute `friction_loss` where it has friction, has steps for."""
+    settled = result.isel(time=settled_steps(result))
+    if not settled.sizes["time"]:
+        return {}
+    return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _power(result)
+
+
+def settled_steps(result: xr.Dataset) -> slice:
+    """The steps that numbers are taken of: all that are stored, the last left out, which begins the next cycle."""
+    steps = result.sizes["time"]
+    return slice(0, steps - 1 if steps > 1 else steps)
+
+
+def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
+    """Harmonics of the transmission error as a length at the wheel's base circle, um; nothing of a run that stopped within a cycle."""
+    phase = settled["mesh_phase"].values
+    steps = len(phase)
+    cycles = steps * (phase[1] - phase[0]) if steps > 1 else 0.0
+    if round(cycles) < 1 or abs(cycles - round(cycles)) > 1e-6:
+        return {}
+    curve = settled["transmission_error"].values * pair.wheel.base_radius / MICROMETRE
+    found = harmonics(curve, round(cycles))
+    return {name: float(amplitude) for name, amplitude in zip(HARMONIC_NAMES, found) if np.isfinite(amplitude)}
+
+
+def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
+    """Mesh stiffness over the face width, N/(mm um): c_gamma, its tangent, and the c' of one pair."""
+    if "mesh_stiffness" not in settled:
+        return {}
+    secant, tangent, pairs = (settled[name].values for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs"))
+    found = {
+        "mean_mesh_stiffness": mean_where_positive(secant),
+        "mean_mesh_stiffness_tangent": mean_where_positive(tangent),
+        "single_pair_stiffness": largest_of_one_pair(secant, pairs),
+    }
+    return {name: value * MICROMETRE / pair.face_width for name, value in found.items() if np.isfinite(value)}
+
+
+def _pair_force(settled: xr.Dataset) -> dict[str, float]:
+    """The largest normal force of a tooth pair, N, on drive or coast flanks; nothing where shares of rigid pairs are not determined."""
+    names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in settled]
+    over_time = np.max([settled[name].values.max(axis=1, initial=0.0) for name in names], axis=0)
+    if np.isnan(over_time).any():
+        return {}
+    place = int(over_time.argmax())
+    return {"largest_pair_force": float(over_time[place]), "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place])}
+
+
+def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
+    """The largest contact pressure and where it is."""
+    if "largest_contact_pressure" not in settled:
+        return {}
+    pressure = settled["largest_contact_pressure"].values
+    place = int(pressure.argmax())
+    found: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
+    edge = float(settled["largest_edge_pressure"].max())
+    if edge:
+        found["peak_edge_pressure"] = edge
+    if not pressure[place]:
+        return found
+    at = settled.isel(time=place)
+    on_coast = "coast_normal_force" in at and float(at["coast_normal_force"]) > float(at["normal_force"])
+    return found | {
+        "peak_contact_pressure_time": float(at["time"]),
+        "peak_contact_pressure_mesh_phase": float(at["mesh_phase"]),
+        "peak_contact_pressure_pair": int(at["largest_contact_pressure_pair"]),
+        "peak_contact_pressure_flank": "coast" if on_coast else "drive",
+        "peak_contact_pressure_diameter": 2.0 * float(pair.pinion.radius(float(at["largest_contact_pressure_roll_angle"]))),
+    }
+
+
+def _power(result: xr.Dataset) -> dict[str, float]:
+    """Mean power of the drive, W, and with friction what the flanks lose of it; nothing where the drive does no work."""
+    time = result["time"].values
+    seconds = time[-1] - time[0]
+    drive = abs(transmitted(result).drive)
+    if not seconds or not drive:
+        return {}
+    found = {"input_power": drive / seconds / WATT}
+    if "friction_loss" in result.attrs:
+        loss = result.attrs["friction_loss"]
+        found |= {"friction_power": loss * found["input_power"], "mesh_efficiency": 1.0 - loss}
+    return found
+
+
+def contact_point_variables(result: xr.Dataset, scene: Scene, pair: GearPair) -> dict:
+    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in the settled steps."""
+    points = contact_points(pair)
+    rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
+    diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
+    settled = result.isel(time=settled_steps(result))
+    cycles = (points - pair.path_start) / pair.base_pitch
+    numbers = np.broadcast_to(settled["pair"].values, settled["pair_normal_force"].shape)
+    share = shares_at(cycles, settled["mesh_phase"].values, numbers, settled["pair_normal_force"].values)
+    return {
+        "contact_point_position": (("contact_point",), points),
+        "contact_point_diameter": (("contact_point", "gear"), np.transpose(diameters)),
+        "sliding_speed": (("contact_point",), sliding_speed(pair, points, scene.mesh_frequencies[1])),
+        "specific_sliding": (("contact_point", "gear"), np.transpose(specific_sliding(pair, points))),
+        "load_share": (("contact_point",), share),
+    }
+
+
+def contact_point_names() -> tuple:
+    """The coordinate of those variables."""
+    words = "start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact"
+    return ("contact_point", list(CONTACT_POINTS), {"long_name": f"point of the path of contact: {words}"})
