@@ -7,8 +7,11 @@ import math
 from fenics_gears.contact.ladder import LADDER, PUBLISHED
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
+from fenics_gears.results.key_numbers import HARMONIC_NAMES
 
 MICROMETRES = 1e3
+KILO = 1e3
+Row = tuple[str, str, str]
 
 # The stages of a run whose wall time the result carries, and what they are called.
 STAGES = {
@@ -20,27 +23,89 @@ STAGES = {
 }
 
 
-def summary_rows(dataset) -> list[tuple[str, str, str]]:
+def summary_rows(dataset) -> list[Row]:
     """Rows of label, value, unit: what came out, how the steps were solved, times, warnings."""
     warnings = [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
     return [*result_rows(dataset), *solver_rows(dataset), *stage_rows(dataset), *warnings]
 
 
-def result_rows(dataset) -> list[tuple[str, str, str]]:
-    """What came out: transmission error as angle and length at the wheel's base circle, friction's share, root stress."""
+def result_rows(dataset) -> list[Row]:
+    """What came out, the most wanted first; a row is there where the run has its numbers."""
+    attributes = dataset.attrs
+    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _pressure)
+    rows = [row for part in parts for row in part(attributes)] + _root_stress(dataset)
+    return rows + _power(attributes) + _sliding(dataset) + _contact_loss(attributes) + _estimated_error(attributes)
+
+
+def _transmission_error(attributes) -> list[Row]:
+    """As length along the line of action, which is that at the wheel's base circle, and as angle of the wheel."""
     rows = []
-    for name, label in (("mean_transmission_error", "transmission error, mean"), ("peak_to_peak_transmission_error", "transmission error, peak to peak")):
-        angle = dataset.attrs.get(name, math.nan)
-        if math.isfinite(angle):
-            rows.append((label, f"{angle:.5g} rad = {angle * dataset.attrs['base_radius_wheel'] * MICROMETRES:.4g} um", ""))
-        else:
-            rows.append((label, "not determined", ""))
-    if "friction_loss" in dataset.attrs:
-        rows.append(("friction takes", f"{dataset.attrs['friction_loss']:.3%} of the work of the drive", ""))
-    return rows + _root_stress(dataset) + _estimated_error(dataset.attrs)
+    for name, label in (("peak_to_peak_transmission_error", "transmission error, peak to peak"), ("mean_transmission_error", "transmission error, mean")):
+        angle = attributes.get(name, math.nan)
+        known = math.isfinite(angle)
+        rows.append((label, f"{angle * attributes['base_radius_wheel'] * MICROMETRES:.4g} um = {angle:.5g} rad" if known else "not determined", ""))
+    return rows
 
 
-def solver_rows(dataset) -> list[tuple[str, str, str]]:
+def _harmonics(attributes) -> list[Row]:
+    found = [attributes[name] for name in HARMONIC_NAMES if name in attributes]
+    return [(f"harmonics of the mesh, 1 to {len(found)}", ", ".join(f"{each:.3g}" for each in found), "um")] if found else []
+
+
+def _stiffness(attributes) -> list[Row]:
+    if "mean_mesh_stiffness" not in attributes:
+        return []
+    one = f", one pair {attributes['single_pair_stiffness']:.4g} at most" if "single_pair_stiffness" in attributes else ""
+    return [("mesh stiffness", f"{attributes['mean_mesh_stiffness']:.4g} N/(mm um) on average{one}", "")]
+
+
+def _pair_force(attributes) -> list[Row]:
+    if not attributes.get("largest_pair_force"):
+        return []
+    rows = [("largest force of a tooth pair", f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.6g}", "")]
+    if "dynamic_factor_by_force" in attributes:
+        stress = f", {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""
+        rows.append(("dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f} by force{stress}", ""))
+    if "dynamic_factor_unknown" in attributes:
+        rows.append(("dynamic factor", attributes["dynamic_factor_unknown"], ""))
+    return rows
+
+
+def _pressure(attributes) -> list[Row]:
+    if not attributes.get("peak_contact_pressure"):
+        return []
+    place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
+    flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
+    return [("peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+
+
+def _power(attributes) -> list[Row]:
+    if "input_power" not in attributes:
+        return []
+    rows = [("input power", f"{attributes['input_power'] / KILO:.4g} kW", "")]
+    if "friction_power" in attributes:
+        loss = f"{attributes['friction_power']:.4g} W = {attributes['friction_loss']:.3%}, efficiency of the mesh {attributes['mesh_efficiency']:.3%}"
+        rows.append(("friction loss", loss, ""))
+    return rows
+
+
+def _sliding(dataset) -> list[Row]:
+    """The fastest sliding, and specific sliding where it is largest in size, at the start of either gear's active profile."""
+    if "sliding_speed" not in dataset:
+        return []
+    fastest = float(abs(dataset["sliding_speed"]).max()) / KILO
+    lowest = dataset["specific_sliding"].min("contact_point").values
+    return [("sliding", f"{fastest:.4g} m/s at most; specific sliding {lowest[0]:.3g} pinion, {lowest[1]:.3g} wheel", "")]
+
+
+def _contact_loss(attributes) -> list[Row]:
+    count = attributes.get("contact_loss_count")
+    if not count:
+        return []
+    return [("contact lost", f"{count} times, {attributes['contact_loss_share']:.2%} of the time, by up to {attributes['contact_loss_opening'] * MICROMETRES:.3g} um", "")]
+
+
+def solver_rows(dataset) -> list[Row]:
     """How the steps were solved."""
     rows = []
     if dataset.sizes["time"]:
@@ -49,26 +114,20 @@ def solver_rows(dataset) -> list[tuple[str, str, str]]:
     return rows + _rungs(dataset.attrs)
 
 
-def stage_rows(dataset) -> list[tuple[str, str, str]]:
+def stage_rows(dataset) -> list[Row]:
     """Wall time of each stage that the result carries."""
     return [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
 
 
-def _root_stress(dataset) -> list[tuple[str, str, str]]:
-    """Largest root stress of either gear and the dynamic factors, where the scene asks for them."""
+def _root_stress(dataset) -> list[Row]:
+    """Largest root stress of either gear, where the scene asks for it."""
     if "root_stress_maximum" not in dataset or not dataset.sizes["time"]:
         return []
     largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
-    rows = [("largest root stress", f"{largest[0]:.4g} pinion, {largest[1]:.4g} wheel", "MPa")]
-    if "dynamic_factor_by_stress" in dataset.attrs:
-        factors = [dataset.attrs[f"dynamic_factor_by_{kind}"] for kind in ("force", "stress")]
-        rows.append(("dynamic factor", f"{factors[0]:.3f} by force, {factors[1]:.3f} by root stress", ""))
-    if "dynamic_factor_unknown" in dataset.attrs:
-        rows.append(("dynamic factor", dataset.attrs["dynamic_factor_unknown"], ""))
-    return rows
+    return [("largest root stress", f"{largest[0]:.4g} pinion, {largest[1]:.4g} wheel", "MPa")]
 
 
-def _estimated_error(attributes) -> list[tuple[str, str, str]]:
+def _estimated_error(attributes) -> list[Row]:
     """What a target asked for and what is estimated, with the settings and the knob that limits them; nothing without a target."""
     if "target" not in attributes:
         return []
@@ -86,7 +145,7 @@ def _estimated_error(attributes) -> list[tuple[str, str, str]]:
     ]
 
 
-def _rungs(attributes) -> list[tuple[str, str, str]]:
+def _rungs(attributes) -> list[Row]:
     """How often a step needed a rung of the fallback ladder beyond its route's own method; nothing where none did."""
     own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else LADDER[0]
     used = {name.removeprefix(RUNG): int(count) for name, count in attributes.items() if name.startswith(RUNG)}

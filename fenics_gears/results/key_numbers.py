@@ -16,6 +16,12 @@ from fenics_gears.scene.data import Scene
 
 MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
 HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
+# What a study takes of its cases' numbers, of those that they have.
+STUDIED = (
+    *HARMONIC_NAMES, "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
+    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure",
+    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
+)  # fmt: skip
 
 
 def key_numbers(result: xr.Dataset, pair: GearPair) -> dict[str, float | str]:

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.key_numbers import STUDIED
 
 # Curves over the recorded cycles; those that a run has are taken.
 CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force")
@@ -18,7 +19,7 @@ CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "n
 class Record:
     """Numbers and curves of one run.
 
-    `numbers`: by name; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
+    `numbers`: by name, those of `STUDIED` that the run has among them; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
     first recorded step; `labels`: units and long name of each curve; `warnings`: what the run says against itself.
     """
 
@@ -48,6 +49,7 @@ def record_of(run: xr.Dataset) -> Record:
         "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
         "wall_time": float(run.attrs["wall_time"]),
     }
+    numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
     phase = run["mesh_phase"].values
     curves = {name: run[name].values for name in CURVES if name in run}
     labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
