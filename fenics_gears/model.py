@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf, lcm
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
-from fenics_gears.effects import check_files, effects_on
+from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.resolution import Resolution, locking_warnings, mesh_stiffness, resolution_warnings, resolve
-from fenics_gears.scene.data import LAST_CYCLES, Scene
+from fenics_gears.storage import counted_bytes, sizes, stored_arrays
+from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -25,13 +29,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Model:
-    """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either flank."""
+    """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either flank.
+
+    `contact_cycles`: mesh cycles, the last, whose contact fields are stored.
+    """
 
     scene: Scene
     pair: GearPair
     drivetrain: Drivetrain
     resolution: Resolution
     removal: tuple
+    contact_cycles: int = 0
 
     @property
     def time_step(self) -> float:
@@ -57,21 +65,26 @@ class Model:
         return self.scene.motion.mesh_cycles * self.resolution.steps_per_mesh_cycle
 
     @property
-    def stored_steps(self) -> int:
-        """Steps that are kept: the recorded cycles, both ends included."""
-        return self.scene.motion.recorded_cycles * self.resolution.steps_per_mesh_cycle + 1
+    def contact_steps(self) -> int:
+        """Steps whose contact fields are stored: the last cycles, both ends included."""
+        return self.contact_cycles * self.resolution.steps_per_mesh_cycle + 1 if self.contact_cycles else 0
 
     @property
     def corner(self):
         """How tips touch off the line of action (`contact.corner`); None where the scene does not ask for it."""
         return corner(self.scene, self.pair)
 
+    @cached_property
+    def slots(self) -> int:
+        """Tooth pairs, one after the other, that can touch at once."""
+        grid, steps, coast = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None
+        return pairs_at_once(pair_places(self.pair, grid, step / steps, coast, self.corner) for step in range(steps))
+
     @property
-    def stored_bytes(self) -> float:
-        """Size of the result in memory: four arrays over stored steps, the tooth pairs counted through them, and contact nodes; root stress."""
-        pairs = self.scene.motion.recorded_cycles + self.pair.contact_ratio + 2.0
-        root_stress = ROOT_STRESS_VALUES if self.scene.output.root_stress else 0
-        return 8.0 * self.stored_steps * pairs * (4.0 * self.resolution.contact_grid.nodes + root_stress)
+    def stored_bytes(self) -> int:
+        """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
+        size = sizes(self.steps + 1, self.contact_steps, self.slots, self.resolution.contact_grid.nodes)
+        return counted_bytes(stored_arrays(self.scene, size), size)
 
     @property
     def vibrations(self) -> list[Vibration]:
@@ -95,7 +108,7 @@ class Model:
     @property
     def warnings(self) -> list[str]:
         """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
-        found = [*self._unrecorded(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
+        found = [*self._of_a_part(), *self._without_fields(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.material)
         for effect in effects_on(self.scene):
             if effect.warnings is not None:
@@ -112,22 +125,32 @@ class Model:
             found += time_step_warnings(self.vibrations, judged, steps, self.pace, self.time_step)
         return found
 
-    def _unrecorded(self) -> list[str]:
-        """A sentence where cycles are not stored that differ from those that are, and nobody has asked for so few."""
+    def _of_a_part(self) -> list[str]:
+        """A sentence where fewer cycles are run than pass until all that differs between them has been gone through."""
+        period, run = common_period(self.scene), self.scene.motion.mesh_cycles
+        if not run < period < inf:
+            return []
+        whole = lcm(self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth)
+        words = f' or "{HUNTING_TOOTH_PERIOD}"' if period == whole else ""
+        return [
+            f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and the transmission error and all other "
+            f"numbers are of a part of them; motion.mesh_cycles = {period}{words} goes through all"
+        ]
+
+    def _without_fields(self) -> list[str]:
+        """A sentence where contact fields of fewer cycles are stored than nobody has asked to leave out."""
         motion = self.scene.motion
-        if not motion.fewer_where_too_large or motion.recorded_cycles == motion.mesh_cycles:
+        if not self.contact_cycles or self.contact_cycles >= motion.recorded_cycles:
             return []
         return [
-            f"only the last {motion.recorded_cycles} of {motion.mesh_cycles} mesh cycles, which are not alike, are stored, and the transmission error is "
-            f"theirs: a result of all would hold more than {MOST_UNASKED_BYTES / 1e9:g} GB; motion.recorded_cycles says how many to store"
+            f"contact fields (pressures over the contact nodes) are stored of the last {self.contact_cycles} of {motion.mesh_cycles} mesh cycles only: "
+            f"with those of all the result would hold more than {MOST_UNASKED_BYTES / 1e9:g} GB; output.contact_fields says how many to store. "
+            "Curves and numbers are of all"
         ]
 
 
 # Of a result; less where a scene does not say how much is to be stored.
 MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
-# Of one tooth pair at one time: both gears, both fillets, 25 points.
-ROOT_STRESS_VALUES = 100
-
 
 def model(scene: Scene) -> Model:
     """Everything about a scene that needs no computing to speak of.
@@ -138,12 +161,27 @@ def model(scene: Scene) -> Model:
     check_files(scene, pair)
     shafts = drivetrain(scene, pair)
     built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
-    if scene.motion.fewer_where_too_large and built.stored_bytes > MOST_UNASKED_BYTES:
-        last = replace(scene.motion, recorded_cycles=min(LAST_CYCLES, scene.motion.mesh_cycles))
-        built = replace(built, scene=replace(scene, motion=last))
-    if built.stored_bytes > MOST_STORED_BYTES:
-        raise SceneError(
-            f"motion.recorded_cycles = {scene.motion.recorded_cycles}: the result would hold {built.stored_bytes / 1e9:.3g} GB, at most "
-            f"{MOST_STORED_BYTES / 1e9:g} GB are allowed; record fewer mesh cycles, or fewer accuracy.steps_per_mesh_cycle"
+    cycles = scene.motion.recorded_cycles if scene.output.contact_fields and scene.resolves_contact else 0
+    whole = replace(built, contact_cycles=cycles)
+    if cycles and scene.motion.fewer_where_too_large and whole.stored_bytes > MOST_UNASKED_BYTES:
+        of_one = (whole.stored_bytes - built.stored_bytes) / cycles
+        fitting = int((MOST_UNASKED_BYTES - built.stored_bytes) / of_one)
+        whole = replace(built, contact_cycles=max(fitting, min(LAST_CYCLES, scene.motion.mesh_cycles)))
+    if whole.stored_bytes > MOST_STORED_BYTES:
+        raise SceneError(_too_large(built, whole))
+    return whole
+
+
+def _too_large(curves: Model, whole: Model) -> str:
+    """Why a result is refused, and what makes it smaller: its curves by themselves, or its contact fields."""
+    allowed = f"at most {MOST_STORED_BYTES / 1e9:g} GB are allowed"
+    motion = whole.scene.motion
+    if curves.stored_bytes > MOST_STORED_BYTES:
+        return (
+            f"motion.mesh_cycles = {motion.mesh_cycles}: the curves of all steps would hold {curves.stored_bytes / 1e9:.3g} GB, {allowed}; run fewer "
+            "mesh cycles, or fewer accuracy.steps_per_mesh_cycle"
         )
-    return built
+    return (
+        f"motion.recorded_cycles = {motion.recorded_cycles}: the result would hold {whole.stored_bytes / 1e9:.3g} GB, {allowed}; store the contact "
+        'fields of fewer mesh cycles, output.contact_fields = "last 2 cycles", or take fewer accuracy.steps_per_mesh_cycle'
+    )

@@ -18,6 +18,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model import Model, model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.resolution import ONCE
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.results.stored_forces import StoredForces, stored_forces
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation import gear_compliances, mesh_cycle
@@ -64,14 +65,15 @@ class GearsInMesh:
 
 
 class RunStresses:
-    """Displacement and stress of both gears at any stored step of a result. Use it in a `with`, or `close` it.
+    """Displacement and stress of both gears at any step of a result whose contact fields are stored. Use it in a `with`, or `close` it.
 
     scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """
 
     def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None):
-        self.result, self.built = result, model(scene)
+        self.built = model(scene)
         self._check()
+        self.result = contact_times(result)
         cache = cache if cache is not None else user_cache()
         self.cycle: Cycle = mesh_cycle(self.built, gear_compliances(self.built, SilentProgress(), cache))
         self.recoveries = tuple(recovery_of(self.built, gear) for gear in (0, 1))

@@ -19,7 +19,8 @@ from fenics_gears.model import Model, model
 from fenics_gears.progress import Progress, SilentProgress
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results import dataset
-from fenics_gears.scene.data import ELASTIC, ISO_6336, STIFFNESS_TABLE, Scene
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.scene.data import ELASTIC, ISO_6336, LAST_CYCLES, STIFFNESS_TABLE, Scene
 from fenics_gears.validity import worst_first
 from fenics_gears.warm_up import compile_kernels
 
@@ -58,21 +59,28 @@ def simulate(
     gears, cycle = preparation(built, progress, cache)
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
+    stress = None
+    # A scene less its elastic teeth, as the cost of effects is measured by, has no stresses; a scene file is refused that asks for both.
+    if scene.output.root_stress and scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP:
+        from fenics_gears.root_stress_output import root_stress
+
+        stress = root_stress(built, cycle, progress, cache)
+    recorder = Recorder(built, cycle, stress=stress)
     friction = scene.friction.coefficient if scene.friction else 0.0
     marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace, built.clock, built.loads)
     progress.stage("march")
     try:
-        march = marcher.run(built.steps, built.stored_steps, progress.update)
+        march = marcher.run(built.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
     except ContactNotConverged as failure:
-        failure.partial = _result(built, cycle, failure.partial, gears, compiled, complete=False)
+        failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
         raise
-    result = _result(built, cycle, march, gears, compiled, complete=not march.interrupted)
-    # A scene less its elastic teeth, as the cost of effects is measured by, has no stresses; a scene file is refused that asks for both.
-    if not (scene.output.root_stress and scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP):
+    result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
+    if stress is None or scene.inertia is None or not result.attrs["complete"]:
         return result
-    from fenics_gears.root_stress_output import with_root_stress
+    from fenics_gears.root_stress_output import dynamic_factors
 
-    return with_root_stress(result, built, cycle, march, progress, cache)
+    progress.stage("quasi-static run")
+    return result.assign_attrs(dynamic_factors(recorder, result))
 
 
 def assist(scene: Scene, comm) -> None:
@@ -197,8 +205,8 @@ def deviating(built: Model, cycle: Cycle) -> Cycle:
     return DeviatingCycle(cycle, [effect.gaps(getattr(scene, effect.section), built) for effect in effects])
 
 
-def _result(built: Model, cycle: Cycle, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
-    result = dataset(built.scene, cycle, built.drivetrain, march, built.clock, built.loads)
+def _result(recorder: Recorder, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
+    result, built, cycle = dataset(recorder, march), recorder.built, recorder.cycle
     resolution = built.resolution
     stopped = {} if complete else {"stopped": "interrupted" if march.interrupted else "failed"}
     return result.assign_attrs(

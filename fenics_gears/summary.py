@@ -8,6 +8,8 @@ from fenics_gears.contact.ladder import LADDER, PUBLISHED
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
 from fenics_gears.results.key_numbers import HARMONIC_NAMES
+from fenics_gears.results.settled import of_settled
+from fenics_gears.validity import FEWER_THAN_THE_PERIOD, NO_MEANING
 
 MICROMETRES = 1e3
 KILO = 1e3
@@ -24,9 +26,11 @@ STAGES = {
 
 
 def summary_rows(dataset) -> list[Row]:
-    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings."""
-    warnings = [("WARNING", warning, "") for warning in dataset.attrs.get("warnings", "").splitlines()]
-    return [*result_rows(dataset), *solver_rows(dataset), *stage_rows(dataset), *warnings]
+    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings; first of all those without which no number is right."""
+    said = dataset.attrs.get("warnings", "").splitlines()
+    first = [warning for warning in said if NO_MEANING in warning or FEWER_THAN_THE_PERIOD in warning]
+    rows = [*result_rows(dataset), *solver_rows(dataset), *stage_rows(dataset)]
+    return [*(("WARNING", warning, "") for warning in first), *rows, *(("WARNING", warning, "") for warning in said if warning not in first)]
 
 
 def result_rows(dataset) -> list[Row]:
@@ -123,7 +127,7 @@ def _root_stress(dataset) -> list[Row]:
     """Largest root stress of either gear, where the scene asks for it."""
     if "root_stress_maximum" not in dataset or not dataset.sizes["time"]:
         return []
-    largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
+    largest = of_settled(dataset)["root_stress_maximum"].max(["time", "slot"]).values
     return [("largest root stress", f"{largest[0]:.4g} pinion, {largest[1]:.4g} wheel", "MPa")]
 
 

@@ -2,36 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.laws import NO_FORCE, OPEN
+from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import over_nodes
-from fenics_gears.contact.window import flank_ends
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import March, Record
+from fenics_gears.dynamics.march import March
 from fenics_gears.scene.data import Scene
 
+if TYPE_CHECKING:
+    from fenics_gears.results.recorder import Recorder
+
+Watched = Mapping[str, np.ndarray]
 # cos(phi) is 1 within 0.1 % up to here: rotations are taken as small (paper, section 2).
 LARGEST_ROTATION = 0.05
-ROTATIONS = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 
 
 # The time stepping's own work at changes of contact, in parts of the largest energy, that is worth a word.
 NOTABLE_WORK = 0.1
 # What the numbers of a run are worthless by, in the words of a warning; such a warning stands before all others.
 NO_MEANING = "the result has no meaning"
+FEWER_THAN_THE_PERIOD = "of the common period"
 WINDOW_REACHED = "contact reached the end of the contact window"
 
 
 def worst_first(warnings: Iterable[str]) -> list[str]:
-    """Sentences by which the result has no meaning before the others, either in their order."""
-    return sorted(warnings, key=lambda said: NO_MEANING not in said)
+    """Sentences by which the result has no meaning before the others, then those by which its numbers are of a part; in their order."""
+    return sorted(warnings, key=lambda said: (NO_MEANING not in said, FEWER_THAN_THE_PERIOD not in said))
 
 
 def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: int) -> list[str]:
@@ -42,132 +45,103 @@ def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: i
     if part <= NOTABLE_WORK:
         return []
     return [
-        f"where teeth part and meet the time stepping itself changes the energy, by {part:.2g} times its largest value in the stored cycles "
+        f"where teeth part and meet the time stepping itself changes the energy, by {part:.2g} times its largest value in the last cycles "
         f"(work_contact_changes): impacts are not resolved; raise accuracy.steps_per_mesh_cycle above {steps_per_mesh_cycle}"
     ]
 
 
-def warnings_of(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock) -> list[str]:
+def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[str]:
     """Sentences on where a march leaves what the model assumes; empty where it does not.
 
-    Window, sharp edges, rank, rotations and uniqueness are judged by the stored steps, loss of contact and locking by every step done.
+    All are judged by every step done but uniqueness, whose certificate costs more than a step: by the last ones, which the march keeps.
     """
-    records = list(march.records)
-    of_flanks = [*_window(cycle, records), *_rank(records)] if cycle.resolves_flanks else []
-    if cycle.resolves_flanks and cycle.spreads_pressure:
-        of_flanks += _sharp_edge(cycle, records)
+    cycle, drivetrain, clock = recorder.cycle, recorder.built.drivetrain, recorder.built.clock
+    of_flanks = [*_window(cycle, recorder.watched), *_rank(recorder.watched)] if cycle.resolves_flanks and recorder.steps else []
+    if cycle.resolves_flanks and cycle.spreads_pressure and recorder.steps:
+        of_flanks += _sharp_edge(recorder.watched)
     return [
-        *_passed_through(cycle, drivetrain, records), *of_flanks, *_rotation(drivetrain, records), *_wedged(cycle, records),
-        *_separation(cycle, drivetrain, march, clock), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
+        *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
+        *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
     ]  # fmt: skip
 
 
-def _window(cycle: Cycle, records: list[Record]) -> list[str]:
+def _window(cycle: Cycle, watched: Watched) -> list[str]:
     """Contact at an end of the window that is no edge of the flank: the window cuts pressure off."""
-    end, reached = 0.5 * cycle.grid.length * (1.0 - 1e-9), 0
-    for record in records:
-        offsets = over_nodes(record.position.operator.pairs, "offsets")
-        reached += bool(np.any((np.abs(offsets) >= end) & (record.solution.status != OPEN)))
+    reached = int(watched["window reached"].sum())
     if not reached:
         return []
     return [
-        f"{WINDOW_REACHED} in {reached} of {len(records)} stored steps: "
+        f"{WINDOW_REACHED} in {reached} of {len(watched['window reached'])} steps: "
         f"raise accuracy.contact_length above {cycle.grid.length:.3g} mm"
     ]
 
 
-def _rank(records: list[Record]) -> list[str]:
+def _rank(watched: Watched) -> list[str]:
     """Contact nodes that the elements cannot tell apart, so that how they share a force is not elasticity's answer."""
-    lacking = [record.position.operator for record in records if record.position.operator.dependent_rows]
-    if not lacking:
+    dependent = watched["dependent rows"]
+    if not dependent.any():
         return []
-    worst = max(lacking, key=lambda operator: operator.dependent_rows)
-    rows = len(worst.compliance)
+    worst = int(np.argmax(dependent))
+    rows = watched["rows"][worst]
     return [
-        f"the contact compliance is singular in {len(lacking)} of {len(records)} stored steps (rank {rows - worst.dependent_rows} of {rows} "
+        f"the contact compliance is singular in {np.count_nonzero(dependent)} of {len(dependent)} steps (rank {rows - dependent[worst]} of {rows} "
         "at worst): contact nodes stand closer than the elements can tell apart and were given a thin layer each; forces hold, the "
         "pressure does not: lower accuracy.contact_nodes or accuracy.flank_element_size"
     ]
 
 
-def _passed_through(cycle: Cycle, drivetrain: Drivetrain, records: list[Record]) -> list[str]:
+def _passed_through(cycle: Cycle, result: xr.Dataset) -> list[str]:
     """A transmission error of more than a pitch: where the gears stand, teeth of one are where those of the other are."""
-    states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
-    pinion, wheel = cycle.pair.pinion, cycle.pair.wheel
-    error = drivetrain.value(states, "rotation_2") + pinion.teeth / wheel.teeth * drivetrain.value(states, "rotation_1")
-    largest = np.abs(error).max(initial=0.0)
-    if largest <= wheel.angular_pitch:
+    pitch = cycle.pair.wheel.angular_pitch
+    largest = np.abs(result["transmission_error"].values).max(initial=0.0)
+    if largest <= pitch:
         return []
     return [
-        f"{NO_MEANING}: the transmission error reaches {largest:.3g} rad, more than the pitch of the wheel's teeth ({wheel.angular_pitch:.3g} rad): "
+        f"{NO_MEANING}: the transmission error reaches {largest:.3g} rad, more than the pitch of the wheel's teeth ({pitch:.3g} rad): "
         "the gears would have gone through each other; the other warnings say why"
     ]
 
 
-def _rotation(drivetrain: Drivetrain, records: list[Record]) -> list[str]:
-    states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
+def _rotation(result: xr.Dataset) -> list[str]:
     found = []
-    for coordinate, name in ROTATIONS.items():
-        largest = np.abs(drivetrain.value(states, coordinate)).max(initial=0.0)
+    for name, rotations in zip(result["gear"].values, result["rotation"].values.T):
+        largest = np.abs(rotations).max(initial=0.0)
         if largest > LARGEST_ROTATION:
             found.append(
-                f"{name} turns by {largest:.3g} rad from its nominal motion; the model takes such rotations as small "
+                f"the {name} turns by {largest:.3g} rad from its nominal motion; the model takes such rotations as small "
                 f"(below {LARGEST_ROTATION} rad): stiffen the shafts or lower the torque"
             )
     return found
 
 
-def _wedged(cycle: Cycle, records: list[Record]) -> list[str]:
+def _wedged(cycle: Cycle, result: xr.Dataset) -> list[str]:
     """Teeth pressed on both sides at once: less backlash than run-out, errors or deflection take, and forces that no load asks for."""
     if not cycle.coast_flanks:
         return []
-    coast = [_force(record, drive=False) for record in records]
-    both = [min(_force(record, drive=True), force) > NO_FORCE for record, force in zip(records, coast)]
-    if not any(both):
+    coast = result["coast_normal_force"].values
+    both = np.minimum(result["normal_force"].values, coast) > NO_FORCE
+    if not both.any():
         return []
-    largest = max(force for force, wedged in zip(coast, both) if wedged)
     return [
-        f"the teeth are wedged in {sum(both)} of {len(records)} stored steps: drive and coast flanks press at once, the coast flanks by up to "
-        f"{largest:.4g} N, since there is less backlash ({max(cycle.pair.backlash * 1e3, 0.0):.3f} um) than the gears need: raise gears.centre_distance"
+        f"the teeth are wedged in {both.sum()} of {len(both)} steps: drive and coast flanks press at once, the coast flanks by up to "
+        f"{coast[both].max():.4g} N, since there is less backlash ({max(cycle.pair.backlash * 1e3, 0.0):.3f} um) than the gears need: raise gears.centre_distance"
     ]
 
 
-def _force(record: Record, *, drive: bool) -> float:
-    """Normal force (N) of all nodes on the drive or on the coast flanks."""
-    operator = record.position.operator
-    return float(record.solution.forces[: operator.nodes][operator.on_drive_flanks == drive].sum())
-
-
-def _sharp_edge(cycle: Cycle, records: list[Record]) -> list[str]:
+def _sharp_edge(watched: Watched) -> list[str]:
     """Contact on the edge of a tip, where the flank ends in a corner: linear elasticity has infinite pressure there."""
-    touched = [_on_tips(cycle, record) for record in records]
-    steps = sum(bool(tips) for tips in touched)
+    touched = {gear: watched[f"on the {gear}'s tip"] for gear in ("pinion", "wheel")}
+    steps = int((touched["pinion"] | touched["wheel"]).sum())
     if not steps:
         return []
-    named = " and ".join(f"the {gear}'s" for gear in ("pinion", "wheel") if any(gear in tips for tips in touched))
+    named = " and ".join(f"the {gear}'s" for gear, at in touched.items() if at.any())
     return [
-        f"contact reaches the sharp edge of {named} tip in {steps} of {len(records)} stored steps: the pressure there does not converge with "
+        f"contact reaches the sharp edge of {named} tip in {steps} of {len(touched['pinion'])} steps: the pressure there does not converge with "
         "the mesh, forces and transmission error do; [tip_relief] takes the load off the edge"
     ]
 
 
-def _on_tips(cycle: Cycle, record: Record) -> set[str]:
-    """The gears whose tip edge carries force in a record: the end node of a tooth pair stands on the edge that ends its flank."""
-    found, start, half = set(), 0, 0.5 * cycle.grid.length * (1.0 - 1e-9)
-    for pair in record.position.operator.pairs:
-        pressed = record.solution.forces[start : start + len(pair.offsets)] > NO_FORCE
-        start += len(pair.offsets)
-        if pair.place.line is not None or not (pressed[0] or pressed[-1]):
-            continue
-        below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
-        if pressed[0] and below[0] >= below[1] and below[0] > -half:
-            found.add("pinion")
-        if pressed[-1] and above[1] <= above[0] and above[1] < half:
-            found.add("wheel")
-    return found
-
-
-def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock) -> list[str]:
+def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock, result: xr.Dataset) -> list[str]:
     """Loss of contact: how often, when, how long, how far; beyond the backlash the coast flanks, which the scene does not have, would touch."""
     losses = contact_losses(march.separations)
     # A negative couple has the wheel drive, on the coast flanks, which is no loss.
@@ -189,8 +163,8 @@ def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
         f"{lost}. That is more than the backlash of {backlash * 1e3:.4g} um: from {_when(crossed, cycle, clock)} on the coast flanks would touch, "
         "which this scene does not have"
     )
-    if march.records and march.separations[-1][0] < march.records[0].step:
-        return [f"{beyond}. The stored cycles are in contact throughout; [coast_flanks] has what comes before them"]
+    if "settled_from" in result.attrs and clock.time(march.separations[-1][0]) < result.attrs["settled_from"]:
+        return [f"{beyond}. The cycles that the numbers are of are in contact throughout; [coast_flanks] has what comes before them"]
     return [f"{beyond}, and {NO_MEANING} from that time on; add [coast_flanks]"]
 
 
@@ -220,6 +194,6 @@ def _uniqueness(march: March) -> list[str]:
     if not count:
         return []
     return [
-        f"in {count} of {len(march.records)} stored steps there may be more than one solution: friction couples the contact nodes so "
+        f"in {count} of the last {len(march.records)} steps there may be more than one solution: friction couples the contact nodes so "
         f"strongly that the one found cannot be certified as the only one (friction.coefficient is {march.friction:g})"
     ]

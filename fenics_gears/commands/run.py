@@ -82,7 +82,7 @@ def _save(dataset, directory: Path, interruption: Interruption) -> Path:
 def _kept(dataset, file: Path) -> str:
     """What an incomplete result holds."""
     steps = dataset.sizes["time"]
-    return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the recorded steps"
+    return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the run's steps"
 
 
 def _print_summary(title: str, dataset, files: Sequence[Path]) -> None:

@@ -6,6 +6,7 @@ phase `i / steps`. All teeth being alike, the equations at a phase are the same 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -64,6 +65,15 @@ def tooth_span(
         teeth = [place.teeth for place in pair_places(pair, grid, step / steps, coast_flanks, corner)]
         spans += [max(of_gear) - min(of_gear) for of_gear in zip(*teeth)]
     return max(spans) + 1
+
+
+def pairs_at_once(positions: Iterable[Iterable[Place]]) -> int:
+    """How many tooth pairs, one after the other, can touch at once at any of some positions, drive and coast flank of a pair counted once."""
+    spans = [0]
+    for places in positions:
+        indices = [place.index for place in places]
+        spans += [max(indices) - min(indices) + 1] if indices else []
+    return max(spans)
 
 
 class Cycle:

@@ -39,9 +39,9 @@ def read_off(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
     return np.where(inside, without_oscillation(pressure), pressure)
 
 
-def peak_pressure(pressure: np.ndarray, offsets: np.ndarray) -> float:
-    """Largest pressure (..., n), MPa, so averaged; `offsets` as in `read_off`."""
-    return float(np.nanmax(read_off(pressure, offsets))) if pressure.size else 0.0
+def peak_pressures(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """Largest pressure (...,) over the last axis of (..., n), MPa, so averaged; `offsets` as in `read_off`."""
+    return read_off(pressure, offsets).max(axis=-1)
 
 
 @dataclass(frozen=True)

@@ -36,8 +36,9 @@ def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss
     return losses
 
 
-def loss_attributes(separations: Sequence[tuple[int, float]], steps: int, clock: Clock) -> dict[str, float]:
-    """What a result says of lost contact: how often; the first time, the longest (s), the share of the time, the widest opening (mm).
+def loss_attributes(separations: Sequence[tuple[int, float]], first: int, last: int, clock: Clock) -> dict[str, float]:
+    """What a result says of lost contact between two steps: how often; the first time, the longest (s), the share of the time, the widest
+    opening (mm).
 
     The last four are there only where contact was lost.
     """
@@ -49,6 +50,6 @@ def loss_attributes(separations: Sequence[tuple[int, float]], steps: int, clock:
         "contact_loss_count": len(losses),
         "contact_loss_first": clock.time(losses[0].first),
         "contact_loss_longest": max(durations),
-        "contact_loss_share": sum(durations) / clock.duration(0, steps),
+        "contact_loss_share": sum(durations) / clock.duration(first, last),
         "contact_loss_opening": max(loss.opening for loss in losses),
     }

@@ -79,6 +79,10 @@ def smallest_opening(record: Record, flank: int = DRIVE) -> float:
     return float(np.min(openings, initial=np.inf))
 
 
+def march_on(record: Record) -> None:
+    """What is done with a record that nobody observes: nothing."""
+
+
 def _method(pace: Pace) -> type[AverageAcceleration] | type[BackwardEuler]:
     """The method in time at a pace; quasi-static scenes, which keep the first, do not load the second."""
     if pace.averages_acceleration:
@@ -113,26 +117,30 @@ class Marcher:
         self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
         self._pace = pace
 
-    def run(self, steps: int, kept: int, report: Callable[[int, int], None] | None = None) -> March:
-        """March `steps` steps from step 0 and keep the last `kept` of those done, wherever the march ends.
+    def run(
+        self, steps: int, kept: int, report: Callable[[int, int], None] | None = None, observe: Callable[[Record], None] | None = None
+    ) -> March:
+        """March `steps` steps from step 0 and keep the last `kept` of those done, wherever the march ends; `observe` is called with each.
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
         with threadpool_limits(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report)
+            return self._run(steps, kept, report, observe or march_on)
 
-    def _run(self, steps: int, kept: int, report: Callable[[int, int], None] | None) -> March:
+    def _run(self, steps: int, kept: int, report, observe: Callable[[Record], None]) -> March:
         march = March(self.friction, self.dynamic.stiffness, deque(maxlen=kept))
         begun, reported = time.perf_counter(), 0.0
         try:
             record = self.start()
             march.records.append(record)
+            observe(record)
             for step in range(1, steps + 1):
                 record = self.step(self.scheme(step), record, step)
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
                 march.rungs[RUNGS[record.solution.rung]] += 1
                 march.records.append(record)
+                observe(record)
                 if not record.solution.status[record.position.operator.on_drive_flanks].any():
                     march.separations.append((step, smallest_opening(record)))
                 if self._may_lock and self._locks(record):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
+from math import inf, lcm
 
 from fenics_gears.effects import (
     bearings,
@@ -26,7 +27,7 @@ from fenics_gears.effects import (
     tooth_elasticity,
     torque_ripple,
 )
-from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.effects.effect import OF_PAIRS, OF_POINTS, Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
     tooth_elasticity.EFFECT,
@@ -49,12 +50,12 @@ EFFECTS: tuple[Effect, ...] = (
 # What every run has, whatever its effects.
 COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("transmission_error", "rad", "transmission error"),
-    ResultVariable("rotation", "rad", "rotation of the hub from its nominal motion"),
+    ResultVariable("rotation", "rad", "rotation of the hub from its nominal motion", dims=("time", "gear")),
     ResultVariable("normal_force", "N", "contact force of the mesh along the line of action"),
-    ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action"),
-    ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action"),
-    ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action"),
-    ResultVariable("reaction_couple", "N mm", "torque of the gear on its shaft, positive in the pinion's sense of rotation"),
+    ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action", dims=OF_PAIRS),
+    ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action", dims=("time", "gear")),
+    ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action", dims=("time", "gear")),
+    ResultVariable("reaction_couple", "N mm", "torque of the gear on its shaft, positive in the pinion's sense of rotation", dims=("time", "gear")),
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
     ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
@@ -62,11 +63,11 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("work_output", "N mm", "work that the wheel's shaft takes out, done on the load; negative where the wheel drives"),
     ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
     ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
-    ResultVariable("contact_point_position", "mm", "distance of the contact point from T1 along the line of action"),
-    ResultVariable("contact_point_diameter", "mm", "diameter at the contact point"),
-    ResultVariable("sliding_speed", "mm/s", "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip"),
-    ResultVariable("specific_sliding", "1", "sliding speed over the speed of the flank's own contact point; negative in the dedendum"),
-    ResultVariable("load_share", "1", "share of the mesh's force that a pair carries at the contact point"),
+    ResultVariable("contact_point_position", "mm", "distance of the contact point from T1 along the line of action", dims=OF_POINTS),
+    ResultVariable("contact_point_diameter", "mm", "diameter at the contact point", dims=(*OF_POINTS, "gear")),
+    ResultVariable("sliding_speed", "mm/s", "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip", dims=OF_POINTS),
+    ResultVariable("specific_sliding", "1", "sliding speed over the speed of the flank's own contact point; negative in the dedendum", dims=(*OF_POINTS, "gear")),
+    ResultVariable("load_share", "1", "share of the mesh's force that a pair carries at the contact point", dims=OF_POINTS),
 )
 
 # What only contact that is spread over nodes has.
@@ -98,6 +99,12 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     named = {each.section for each in on}
     found = COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
     return found if scene.resolves_contact else tuple(each for each in found if each.name not in OVER_CONTACT_NODES)
+
+
+def common_period(scene) -> float:
+    """Mesh cycles after which all that the scene's effects do repeats: the common multiple of their periods; infinite where one never does."""
+    periods = [each.period(getattr(scene, each.section), scene) for each in effects_on(scene) if each.period is not None]
+    return inf if inf in periods else lcm(*periods)
 
 
 def top_level() -> tuple[Effect, ...]:

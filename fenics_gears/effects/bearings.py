@@ -100,8 +100,8 @@ EFFECT = Effect(
     unknowns=("two displacements of each centre",),
     terms=("translational springs",),
     variables=(
-        ResultVariable("centre_x", "mm", "displacement of the centre along the line of action"),
-        ResultVariable("centre_y", "mm", "displacement of the centre off the line of action"),
+        ResultVariable("centre_x", "mm", "displacement of the centre along the line of action", dims=("time", "gear")),
+        ResultVariable("centre_y", "mm", "displacement of the centre off the line of action", dims=("time", "gear")),
         ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
     ),
     read=read,

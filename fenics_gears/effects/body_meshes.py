@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import lcm
 from pathlib import Path
 from typing import Optional
 
@@ -131,11 +132,23 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     return 2 * len(element_nodes(_body(meshes, name, model.pair, element).mesh, element_named(element)).points)
 
 
-def findings(meshes: BodyMeshes, cycle, records) -> list[str]:
+def watched(meshes: BodyMeshes, cycle, records) -> dict:
+    """Smallest and largest openings (steps,), mm, of the cracks of either gear."""
+    from fenics_gears.results.crack_openings import crack_openings
+
+    return crack_openings(cycle, records)
+
+
+def findings(meshes: BodyMeshes, watched) -> list[str]:
     """Sentences on cracks that a run would have closed."""
     from fenics_gears.results.crack_openings import closed_cracks
 
-    return closed_cracks(cycle, records)
+    return closed_cracks(watched)
+
+
+def period(meshes: BodyMeshes, scene) -> int:
+    """Mesh cycles of whole turns of the gears meshed as a whole."""
+    return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if getattr(meshes, name) is not None))
 
 
 def _body(meshes: BodyMeshes, name: str, pair, element: str):
@@ -161,5 +174,7 @@ EFFECT = Effect(
     warnings=warnings,
     elasticity=elasticity,
     unknowns_of=unknowns_of,
+    watched=watched,
     findings=findings,
+    period=period,
 )

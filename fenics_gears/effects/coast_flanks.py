@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
 from fenics_gears.scene.fields import Section
 from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.tree import Tree, quantity_in, table
@@ -43,10 +43,10 @@ EFFECT = Effect(
     variables=(
         ResultVariable("coast_normal_force", "N", "contact force of the coast flanks along their line of action"),
         ResultVariable("coast_friction_force", "N", "friction force of the coast flanks", "friction"),
-        ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth"),
-        ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity"),
-        ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank", "tooth_elasticity"),
-        ResultVariable("coast_contact_traction", "MPa", "friction traction on the coast flanks", "friction"),
+        ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth", dims=OF_PAIRS),
+        ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity", OF_NODES),
+        ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank", "tooth_elasticity", OF_NODES),
+        ResultVariable("coast_contact_traction", "MPa", "friction traction on the coast flanks", "friction", OF_NODES),
         ResultVariable("drive_flank_opening", "mm", "smallest distance of the drive flanks"),
         ResultVariable("coast_flank_opening", "mm", "smallest distance of the coast flanks"),
     ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import lcm
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
@@ -81,6 +82,11 @@ def gaps(eccentricity: Eccentricity, model):
     return RunOut(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
 
 
+def period(eccentricity: Eccentricity, scene) -> int:
+    """Mesh cycles of whole turns of the gears that run out."""
+    return lcm(*(getattr(scene.gears, name).teeth for name in ("pinion", "wheel") if getattr(eccentricity, name) is not None))
+
+
 EFFECT = Effect(
     section="eccentricity",
     description="run-out of either gear",
@@ -91,4 +97,5 @@ EFFECT = Effect(
     read=read,
     rules=run_out_is_small_and_of_some_gear,
     gaps=gaps,
+    period=period,
 )

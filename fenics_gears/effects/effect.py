@@ -16,14 +16,20 @@ from fenics_gears.scene.fields import Section
 from fenics_gears.scene.problem import Problem
 
 
+# Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are stored.
+OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("contact_point",)
+
+
 @dataclass(frozen=True)
 class ResultVariable:
-    """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without which it is not there."""
+    """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without which it is not there;
+    ``dims``: its dimensions."""
 
     name: str
     units: str
     long_name: str
     needs: str = ""
+    dims: tuple[str, ...] = ("time",)
 
 
 @dataclass(frozen=True)
@@ -47,8 +53,10 @@ class Effect:
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
     ``check(data, scene, pair)``: raises SceneError for what only shows in those files.
     ``warnings(data, model)``: sentences that a user should read before the run.
-    ``findings(data, cycle, records)``: sentences on where a run leaves what the effect assumes.
-    ``results(data, scene, cycle, records)``: the effect's own variables, name to (dimensions, values).
+    ``watched(data, cycle, records)``: what of consecutive steps the effect's findings are made of, name to values (steps,).
+    ``findings(data, watched)``: sentences on where a run leaves what the effect assumes, by what was watched at all of its steps.
+    ``results(data, scene, cycle, steps)``: the effect's own variables at steps (time,), name to (dimensions, values).
+    ``period(data, scene)``: mesh cycles after which what the effect does repeats; infinite where it never does. 1 unless given.
     """
 
     section: str
@@ -74,8 +82,10 @@ class Effect:
     located: Callable | None = None
     check: Callable | None = None
     warnings: Callable | None = None
+    watched: Callable | None = None
     findings: Callable | None = None
     results: Callable | None = None
+    period: Callable | None = None
 
     @property
     def written(self) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import lcm
 from typing import Any, Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
@@ -182,7 +183,7 @@ def gaps(errors: FlankErrors, model):
     return flank_gaps(errors, model.pair, model.resolution.steps_per_mesh_cycle)
 
 
-def results(errors: FlankErrors, scene, cycle, records) -> dict[str, Any]:
+def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     """The deviations of every tooth, given and drawn."""
     from fenics_gears.geometry.flank_deviations import flank_deviations
 
@@ -195,6 +196,17 @@ def results(errors: FlankErrors, scene, cycle, records) -> dict[str, Any]:
     return values
 
 
+def period(errors: FlankErrors, scene) -> int:
+    """Mesh cycles of whole turns of the gears whose teeth differ."""
+    return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if _differ(getattr(errors, name), errors.tolerance_class is not None)))
+
+
+def _differ(own: GearErrors, drawn: bool) -> bool:
+    """Whether a gear's teeth are not all alike; what is not given is `drawn`, or there is none of it."""
+    given = (own.pitch, own.profile_slope, own.profile_form)
+    return own.waviness is not None or any(drawn if values is None else len(set(values)) > 1 for values in given)
+
+
 EFFECT = Effect(
     section="flank_errors",
     description="pitch, profile and waviness deviations of single teeth, given or drawn from a flank tolerance class",
@@ -203,7 +215,7 @@ EFFECT = Effect(
     data=FlankErrors,
     terms=("gaps that differ from tooth to tooth, over a hunting tooth period",),
     variables=tuple(
-        ResultVariable(f"{gear}_{name}", "mm", f"{words} of each tooth of the {gear}")
+        ResultVariable(f"{gear}_{name}", "mm", f"{words} of each tooth of the {gear}", dims=(f"{gear}_tooth",))
         for gear in GEARS
         for name, words in (
             ("index_deviation", "cumulative pitch deviation"),
@@ -214,5 +226,6 @@ EFFECT = Effect(
     read=read,
     rules=errors_fit_the_gears,
     gaps=gaps,
+    period=period,
     results=results,
 )

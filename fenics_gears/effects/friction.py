@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
 from fenics_gears.scene.fields import Section, number
 
 
@@ -35,8 +35,8 @@ EFFECT = Effect(
     terms=("friction law with stick and slip",),
     variables=(
         ResultVariable("friction_force", "N", "friction force of the mesh, on the drive flanks"),
-        ResultVariable("pair_friction_force", "N", "friction force of the tooth pair"),
-        ResultVariable("contact_traction", "MPa", "friction traction on the flank"),
+        ResultVariable("pair_friction_force", "N", "friction force of the tooth pair", dims=OF_PAIRS),
+        ResultVariable("contact_traction", "MPa", "friction traction on the flank", dims=OF_NODES),
         ResultVariable("work_friction", "N mm", "friction loss, as work"),
     ),
     # Between rigid flanks the pairs' shares of the force, and with them the friction, are not determined.

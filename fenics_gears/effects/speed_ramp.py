@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
@@ -62,12 +63,17 @@ def load(ramp: SpeedRamp, model):
     return inertia_forces(clock(ramp, model), model.drivetrain, model.scene.gears.wheel.teeth)
 
 
-def results(ramp: SpeedRamp, scene, cycle, records) -> dict:
+def results(ramp: SpeedRamp, scene, cycle, steps) -> dict:
     """The mesh frequency (time,), Hz."""
     import numpy as np
 
     ramped = _clock(ramp, scene, cycle.steps)
-    return {"mesh_frequency": (("time",), np.array([ramped.mesh_frequency(record.step) for record in records]))}
+    return {"mesh_frequency": (("time",), np.array([ramped.mesh_frequency(step) for step in steps]))}
+
+
+def period(ramp: SpeedRamp, scene) -> float:
+    """No two mesh cycles are as long."""
+    return inf
 
 
 def _clock(ramp: SpeedRamp, scene, steps_per_mesh_cycle: int):
@@ -91,4 +97,5 @@ EFFECT = Effect(
     load=load,
     clock=clock,
     results=results,
+    period=period,
 )

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
 from fenics_gears.scene.fields import Section, number, quantity
 
 
@@ -36,11 +36,11 @@ EFFECT = Effect(
         ResultVariable("mesh_stiffness_tangent", "N/mm", "tangent mesh stiffness: change of the force over change of the deflection"),
         ResultVariable("loaded_pairs", "1", "tooth pairs that carry"),
         ResultVariable("largest_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, off the flanks' edges"),
-        ResultVariable("largest_edge_pressure", "MPa", "largest pressure of pairs that press with a tip's edge; it does not converge with the mesh"),
-        ResultVariable("largest_contact_pressure_pair", "1", "tooth pair with the largest contact pressure"),
+        ResultVariable("largest_contact_pressure_pair", "1", "tooth pair with the largest contact pressure; 0 where nothing touches"),
         ResultVariable("largest_contact_pressure_roll_angle", "rad", "roll angle of the largest contact pressure on the pinion's flank"),
-        ResultVariable("contact_pressure", "MPa", "contact pressure of the node, not averaged"),
-        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion"),
-        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank"),
+        ResultVariable("largest_edge_pressure", "MPa", "largest pressure of pairs that press with a tip's edge; it does not converge with the mesh"),
+        ResultVariable("contact_pressure", "MPa", "contact pressure of the node, not averaged", dims=OF_NODES),
+        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion", dims=OF_NODES),
+        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES),
     ),
 )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import isfinite, pi
+from fractions import Fraction
+from math import isfinite, lcm, pi
 from typing import Any
 
 from pydantic import Field
@@ -20,6 +21,8 @@ from fenics_gears.scene.written import as_written
 
 HIGHEST_ORDER = 1e6
 MOST_HARMONICS = 1000
+# Orders are taken as whole parts of this; finer ones repeat in no run.
+FINEST_PART_OF_ORDER = 1000
 # Bounds of amplitude and phase, and what they are written like.
 QUANTITIES = {"amplitude": ("1e-12 N m", "1e12 N m", "20 N m"), "phase": ("-360 deg", "360 deg", "30 deg")}
 
@@ -126,12 +129,18 @@ def load(ripple: TorqueRipple, model):
     return varying_load(ripple, model.drivetrain, shaft_step(model.scene, model.resolution.steps_per_mesh_cycle))
 
 
-def results(ripple: TorqueRipple, scene, cycle, records) -> dict:
+def results(ripple: TorqueRipple, scene, cycle, steps) -> dict:
     """The couple on the wheel's shaft (time,), N mm."""
     from fenics_gears.dynamics.torque_ripple import couple
 
     angle = shaft_step(scene, cycle.steps)
-    return {"wheel_couple": (("time",), scene.load.wheel_torque + couple(ripple, [angle * record.step for record in records]))}
+    return {"wheel_couple": (("time",), scene.load.wheel_torque + couple(ripple, angle * steps))}
+
+
+def period(ripple: TorqueRipple, scene) -> int:
+    """Mesh cycles after which the couple repeats: z2 / order of each harmonic, as often as makes whole ones of all."""
+    teeth = scene.gears.wheel.teeth
+    return lcm(*((teeth / Fraction(each.order).limit_denominator(FINEST_PART_OF_ORDER)).numerator for each in ripple.harmonics))
 
 
 def shaft_step(scene, steps_per_mesh_cycle: int) -> float:
@@ -150,4 +159,5 @@ EFFECT = Effect(
     rules=couple_keeps_its_sign,
     load=load,
     results=results,
+    period=period,
 )

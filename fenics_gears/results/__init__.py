@@ -2,5 +2,6 @@
 
 from fenics_gears.results.dataset import dataset
 from fenics_gears.results.files import load, save
+from fenics_gears.results.pairs import by_pair, shown
 
-__all__ = ["dataset", "load", "save"]
+__all__ = ["by_pair", "dataset", "load", "save", "shown"]

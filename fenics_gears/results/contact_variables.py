@@ -5,43 +5,36 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import rigid_rows
+from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.dynamics.march import Record, smallest_opening
-from fenics_gears.effects import OVER_CONTACT_NODES
+from fenics_gears.results.side_by_side import SideBySide
 from fenics_gears.scene.data import Scene
 
+Values = dict[str, np.ndarray]
 
-COAST_NODE_VARIABLES = ("contact_pressure", "contact_traction", "contact_roll_angle")
 
-
-def mesh_variables(scene: Scene, records: list[Record]) -> dict:
-    """Forces of the whole mesh, on the drive flanks and on the coast flanks, and what all of them ask of either gear's centre."""
-    on_drive = [record.position.operator.on_drive_flanks for record in records]
-    normal = np.array([_normal(record)[drive].sum() for record, drive in zip(records, on_drive)])
-    reactions = np.array([_reactions(record) for record in records]).reshape(len(records), 2, 3)
+def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
+    """Forces of the whole mesh at consecutive records, on the drive flanks and on the coast flanks, and what all of them ask of either
+    gear's centre."""
+    records, drive = nodes.records, nodes.drive
+    reactions = np.array([layout.rows @ record.solution.forces for layout, record in zip(nodes.layouts, records)]).reshape(-1, 2, 3)
     values = {
-        "normal_force": (("time",), normal),
-        "reaction_x": (("time", "gear"), reactions[:, :, 0]),
-        "reaction_y": (("time", "gear"), reactions[:, :, 1]),
-        "reaction_couple": (("time", "gear"), reactions[:, :, 2]),
-        "newton_iterations": (("time",), np.array([record.solution.iterations for record in records])),
-        "closed_nodes": (("time",), np.array([np.count_nonzero(record.solution.status != OPEN) for record in records])),
+        "normal_force": nodes.summed(nodes.normal * drive),
+        "reaction_x": reactions[:, :, 0],
+        "reaction_y": reactions[:, :, 1],
+        "reaction_couple": reactions[:, :, 2],
+        "newton_iterations": np.array([record.solution.iterations for record in records]),
+        "closed_nodes": nodes.summed(nodes.closed),
     }
     if scene.friction is not None:
-        tangential = [_tangential(record)[drive].sum() for record, drive in zip(records, on_drive)]
-        values["friction_force"] = (("time",), np.array(tangential))
+        values["friction_force"] = nodes.summed(nodes.tangential * drive)
     if scene.coast_flanks is not None:
-        coast = [_normal(record)[~drive].sum() for record, drive in zip(records, on_drive)]
-        values["coast_normal_force"] = (("time",), np.array(coast))
+        values["coast_normal_force"] = nodes.summed(nodes.normal * ~drive)
         if scene.friction is not None:
-            across = [_tangential(record)[~drive].sum() for record, drive in zip(records, on_drive)]
-            values["coast_friction_force"] = (("time",), np.array(across))
+            values["coast_friction_force"] = nodes.summed(nodes.tangential * ~drive)
         for name, flank in (("drive_flank_opening", DRIVE), ("coast_flank_opening", COAST)):
-            openings = [max(smallest_opening(record, flank), 0.0) for record in records]
-            values[name] = (("time",), np.array(openings))
+            values[name] = np.array([max(smallest_opening(record, flank), 0.0) for record in records])
     return values
 
 
@@ -51,99 +44,70 @@ def largest_normal_force(result: xr.Dataset) -> float:
     return float(max(forces))
 
 
-def _normal(record: Record) -> np.ndarray:
-    return record.solution.forces[: record.position.operator.nodes]
-
-
-def _tangential(record: Record) -> np.ndarray:
-    return record.solution.forces[record.position.operator.nodes :]
-
-
-def _reactions(record: Record) -> np.ndarray:
-    """Force (x, y), N, and couple (N mm) of the contact forces on pinion and wheel about their centres, (2, 3): -G^T p."""
-    operator, forces = record.position.operator, record.solution.forces
-    rows = rigid_rows(operator.pairs, operator.base_radii, operator.normal_arms, tangential=len(forces) > operator.nodes)
-    return -(rows.T @ forces)[:6].reshape(2, 3) * np.array([[1.0, 1.0, radius] for radius in operator.base_radii])
-
-
-def pair_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
-    """Forces of each tooth pair and the pressure over its contact nodes, on drive and coast flanks; zero where a pair does not touch."""
+def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
+    """Forces of each tooth pair (records, slots), on drive and coast flanks; zero where a pair does not touch."""
     if scene.tooth_elasticity is None:
-        return (_rigid_pairs if scene.friction is None else _sharing_pairs)(scene, cycle, records, numbers)
-    values = _flank_variables(scene, cycle, records, numbers, DRIVE)
+        return (_rigid_pairs if scene.friction is None else _sharing_pairs)(scene, nodes)
+    values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive)}
+    if scene.friction is not None:
+        values["pair_friction_force"] = nodes.by_slot(nodes.tangential * nodes.drive)
     if scene.coast_flanks is not None:
-        coast = _flank_variables(scene, cycle, records, numbers, COAST)
-        values["pair_coast_normal_force"] = coast["pair_normal_force"]
-        values |= {f"coast_{name}": data for name, data in coast.items() if name in COAST_NODE_VARIABLES}
-    if not scene.resolves_contact:
-        values = {name: data for name, data in values.items() if name not in OVER_CONTACT_NODES}
+        values["pair_coast_normal_force"] = nodes.by_slot(nodes.normal * ~nodes.drive)
     return values
 
 
-def _rigid_pairs(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
+def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of pairs of rigid flanks: that of the one pair that touches; not a number for pairs that touch together, whose shares
     are not determined."""
     from fenics_gears.contact.rigid_cycle import pairs_that_touch
 
-    row = {number: i for i, number in enumerate(numbers)}
     sides = {"pair_normal_force": DRIVE} | ({"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {})
-    force = {name: np.zeros((len(records), len(numbers))) for name in sides}
-    for i, record in enumerate(records):
+    force = {name: np.zeros((len(nodes.records), nodes.slots)) for name in sides}
+    for i, record in enumerate(nodes.records):
         operator, forces = record.position.operator, _normal(record)
         for node in np.flatnonzero(forces):
             flank = operator.pairs[operator.node_pair[node]].place.flank
             name = next(each for each, side in sides.items() if side == flank)
             together = pairs_that_touch(operator, node)
             for pair in together:
-                number = int(cycle.pair_number(record.step, operator.pairs[pair].place.index))
-                force[name][i, row[number]] = forces[node] if len(together) == 1 else np.nan
-    return {name: (("time", "pair"), values) for name, values in force.items()}
+                force[name][i, nodes.slot_of(i, operator.pairs[pair].place.index)] = forces[node] if len(together) == 1 else np.nan
+    return force
 
 
-def _sharing_pairs(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int]) -> dict:
+def _sharing_pairs(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of pairs of rigid flanks whose shares are taken as even."""
-    row = {number: i for i, number in enumerate(numbers)}
-    sides = [("pair_normal_force", DRIVE, _normal), ("pair_friction_force", DRIVE, _tangential)]
+    values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive), "pair_friction_force": nodes.by_slot(nodes.tangential * nodes.drive)}
     if scene.coast_flanks is not None:
-        sides.append(("pair_coast_normal_force", COAST, _normal))
-    values = {name: np.zeros((len(records), len(numbers))) for name, _, _ in sides}
-    for i, record in enumerate(records):
-        operator = record.position.operator
-        for name, flank, forces in sides:
-            on_side = np.flatnonzero(operator.on_drive_flanks == (flank == DRIVE))
-            for node in on_side[forces(record)[on_side] != 0.0]:
-                pair = operator.pairs[operator.node_pair[node]]
-                values[name][i, row[int(cycle.pair_number(record.step, pair.place.index))]] += forces(record)[node]
-    return {name: (("time", "pair"), force) for name, force in values.items()}
-
-
-def _flank_variables(scene: Scene, cycle: Cycle, records: list[Record], numbers: list[int], flank: int) -> dict:
-    row = {number: i for i, number in enumerate(numbers)}
-    width, most = scene.gears.face_width, cycle.grid.nodes
-    force = np.zeros((2, len(records), len(numbers)))
-    stress = np.zeros((2, len(records), len(numbers), most))
-    place = np.full((2, len(records), len(numbers), most), np.nan)
-    for i, record in enumerate(records):
-        normal, tangential, start = _normal(record), _tangential(record), 0
-        for pair in record.position.operator.pairs:
-            nodes = slice(start, start + len(pair.offsets))
-            start = nodes.stop
-            if pair.place.flank != flank:
-                continue
-            j, count = row[int(cycle.pair_number(record.step, pair.place.index))], len(pair.offsets)
-            for kind, forces in enumerate((normal, tangential)):
-                if len(forces):
-                    force[kind, i, j] = forces[nodes].sum()
-                    stress[kind, i, j, :count] = forces[nodes] / (pair.lengths * width)
-            place[0, i, j, :count], place[1, i, j, :count] = pair.offsets, pair.pinion_roll
-    over_nodes = ("time", "pair", "contact_node")
-    values = {
-        "pair_normal_force": (("time", "pair"), force[0]),
-        "contact_pressure": (over_nodes, stress[0]),
-        "contact_offset": (over_nodes, place[0]),
-        "contact_roll_angle": (over_nodes, place[1]),
-    }
-    if scene.friction is not None:
-        values["pair_friction_force"] = (("time", "pair"), force[1])
-        values["contact_traction"] = (over_nodes, stress[1])
+        values["pair_coast_normal_force"] = nodes.by_slot(nodes.normal * ~nodes.drive)
     return values
+
+
+def _normal(record: Record) -> np.ndarray:
+    return record.solution.forces[: record.position.operator.nodes]
+
+
+def node_variables(scene: Scene, nodes: SideBySide) -> Values:
+    """Pressure, traction and place of each contact node (records, slots, nodes); pressures are zero, places not a number where there is none."""
+    pressure = nodes.normal / nodes.of("area")
+    traction = None if scene.friction is None else nodes.tangential / nodes.of("area")
+    values = {"contact_offset": nodes.over_nodes(nodes.of("offsets"), True, np.nan)}
+    for side, drive in (("", True), ("coast_", False))[: 1 if scene.coast_flanks is None else 2]:
+        values[f"{side}contact_pressure"] = nodes.over_nodes(pressure, drive, 0.0)
+        values[f"{side}contact_roll_angle"] = nodes.over_nodes(nodes.of("rolls"), drive, np.nan)
+        if traction is not None:
+            values[f"{side}contact_traction"] = nodes.over_nodes(traction, drive, 0.0)
+    return values
+
+
+def watched_contact(nodes: SideBySide) -> Values:
+    """What of consecutive records the run's warnings are made of: contact at the window's ends and on tips, rank of the compliance."""
+    operators = [record.position.operator for record in nodes.records]
+    found = {
+        "window reached": nodes.any(nodes.of("at_end") & nodes.closed),
+        "dependent rows": np.array([operator.dependent_rows for operator in operators]),
+        "rows": np.array([len(operator.compliance) for operator in operators]),
+    }
+    if nodes.cycle.resolves_flanks and nodes.cycle.spreads_pressure:
+        pressed = nodes.normal > NO_FORCE
+        found |= {f"on the {gear}'s tip": nodes.any(tip & pressed) for gear, tip in zip(("pinion", "wheel"), nodes.of("on_tip"))}
+    return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -34,18 +34,26 @@ def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
     return total
 
 
-def closed_cracks(cycle, records: Sequence[Record]) -> list[str]:
+def crack_openings(cycle, records: Sequence[Record]) -> dict[str, np.ndarray]:
+    """Smallest and largest of them at each record, (records,), mm, by the gear's name; only of gears that have cracks."""
+    found = {}
+    for gear in GEARS:
+        if not cycle.bodies[gear].alike and cycle.bodies[gear].openings:
+            ends = np.array([(each.min(), each.max()) for each in (openings_of(cycle, gear, record) for record in records)])
+            found[f"least opening, {NAMES[gear]}"], found[f"largest opening, {NAMES[gear]}"] = ends.T
+    return found
+
+
+def closed_cracks(watched: Mapping[str, np.ndarray]) -> list[str]:
     """Sentences on cracks that would be closed at times; their faces are not kept from passing through each other."""
     found = []
-    for gear in GEARS:
-        if cycle.bodies[gear].alike or not cycle.bodies[gear].openings or not records:
-            continue
-        ends = np.array([(each.min(), each.max()) for each in (openings_of(cycle, gear, record) for record in records)])
-        overlaps = int((ends[:, 0] < -LEAST_OVERLAP).sum())
+    for name in NAMES:
+        least, largest = (watched.get(f"{kind} opening, {name}", np.empty(0)) for kind in ("least", "largest"))
+        overlaps = int((least < -LEAST_OVERLAP).sum())
         if overlaps:
             found.append(
-                f"the faces of a crack in the {NAMES[gear]} would pass through each other in {overlaps} of {len(records)} stored steps, by up to "
-                f"{-1e3 * ends[:, 0].min():.3g} um (it opens by up to {1e3 * max(ends[:, 1].max(), 0.0):.3g} um): a real crack is closed there and carries, "
+                f"the faces of a crack in the {name} would pass through each other in {overlaps} of {len(least)} steps, by up to "
+                f"{-1e3 * least.min():.3g} um (it opens by up to {1e3 * max(largest.max(), 0.0):.3g} um): a real crack is closed there and carries, "
                 "the gear is stiffer then than computed"
             )
     return found

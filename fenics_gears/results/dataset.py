@@ -1,72 +1,107 @@
 """The result of a run: one labelled dataset, with units and long names.
 
-Dimensions: `time`, `gear` ("pinion", "wheel"), `pair` (tooth pairs, counted through the run), `contact_node`. A variable that
-belongs to an effect is there only when the scene names that effect.
+Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at once; `gear` ("pinion", "wheel"); `contact_time`, the
+steps whose contact fields are stored; `contact_node`. A variable that belongs to an effect is there only when the scene names that effect.
 """
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
 import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import loss_attributes
-from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import March, Record, VaryingLoad
+from fenics_gears.dynamics.march import March
 from fenics_gears.effects import effects_on, result_variables
+from fenics_gears.model import Model
 from fenics_gears.results.attributes import RUNG
-from fenics_gears.results.contact_variables import largest_normal_force, mesh_variables, pair_variables
-from fenics_gears.results.energy_variables import energy_variables, transmitted, work_variables
-from fenics_gears.results.key_numbers import contact_point_names, contact_point_variables, key_numbers
-from fenics_gears.results.mesh_curves import mesh_curves
-from fenics_gears.scene.data import Scene
+from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.key_numbers import contact_point_names, contact_point_values, key_numbers
+from fenics_gears.results.pairs import shown
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.results.root_stress_variables import root_stress_labels
+from fenics_gears.results.settled import of_settled, settled
+from fenics_gears.storage import ROOT_STRESS
 from fenics_gears.validity import warnings_of, warnings_of_energy
 
 GEARS = ("pinion", "wheel")
 
 
-def dataset(
-    scene: Scene, cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock, loads: Sequence[VaryingLoad] = ()
-) -> xr.Dataset:
-    """The stored steps of a march as a dataset; every variable with units and long name. `loads`: those that vary."""
-    records = list(march.records)
-    values = _centre_variables(scene, drivetrain, records)
-    values |= mesh_variables(scene, records)
-    values |= mesh_curves(scene, cycle, records)
-    pairs = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
-    values |= pair_variables(scene, cycle, records, pairs)
-    values |= energy_variables(scene, drivetrain, records)
-    values |= work_variables(scene, cycle, drivetrain, clock, loads, records, values["energy"][1])
-    for effect in effects_on(scene):
-        if effect.results is not None:
-            values |= effect.results(getattr(scene, effect.section), scene, cycle, records)
-    steps = np.array([record.step for record in records], dtype=float)
-    described = {variable.name: variable for variable in result_variables(scene)}
+def dataset(recorder: Recorder, march: March) -> xr.Dataset:
+    """What was recorded of a march as a dataset; every variable with units and long name."""
+    recorder.finish()
+    built, arrays = recorder.built, dict(recorder.arrays)
     result = xr.Dataset(
-        {name: (dims, data, _labels(described[name])) for name, (dims, data) in values.items()},
-        coords={
-            "time": ("time", np.array([clock.time(step) for step in steps]), {"units": "s", "long_name": "time"}),
-            "mesh_phase": ("time", steps / cycle.steps, {"units": "1", "long_name": "mesh cycles since the start"}),
-            "gear": ("gear", list(GEARS), {"long_name": "gear"}),
-            "pair": ("pair", np.array(pairs, dtype=np.int64), {"long_name": "tooth pair, counted through the run"}),
-        },
+        {name: (dims, values, labels) for name, dims, values, labels in _variables(recorder, arrays)},
+        coords=_coordinates(recorder, arrays),
     )
-    of_points = contact_point_variables(result, scene, cycle.pair)
-    result = result.assign({name: (dims, data, _labels(described[name])) for name, (dims, data) in of_points.items()})
-    result = result.assign_coords(contact_point=contact_point_names())
-    attributes = _attributes(scene, march, result)
-    attributes |= key_numbers(result.assign_attrs(attributes), cycle.pair) | loss_attributes(march.separations, march.steps, clock)
-    found = [*warnings_of(cycle, drivetrain, march, clock), *warnings_of_energy(scene, result, cycle.steps), *_undetermined_shares(result)]
-    for effect in effects_on(scene):
+    counted = settled(built, max(recorder.steps - 1, 0))
+    attributes = _attributes(recorder, march, result, counted.first)
+    result = result.assign_attrs(attributes).assign(_contact_points(built, result.assign_attrs(attributes)))
+    attributes = _numbers(recorder, march, result)
+    found = [counted.warning] if counted.warning else []
+    found += warnings_of(recorder, march, result)
+    found += [*warnings_of_energy(built.scene, shown(result), recorder.cycle.steps), *_undetermined_shares(result)]
+    for effect in effects_on(built.scene):
         if effect.findings is not None:
-            found += effect.findings(getattr(scene, effect.section), cycle, records)
-    attributes["warnings"] = "\n".join(found)
-    return result.assign_attrs(attributes)
+            found += effect.findings(getattr(built.scene, effect.section), recorder.watched)
+    return result.assign_attrs(attributes, warnings="\n".join(found))
+
+
+def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
+    """Name, dimensions, values and labels of each variable."""
+    scene, described = recorder.built.scene, {variable.name: variable for variable in result_variables(recorder.built.scene)}
+    for name, variable in described.items():
+        if name in arrays:
+            yield name, variable.dims, arrays[name], {"units": variable.units, "long_name": variable.long_name}
+    for effect in effects_on(scene):
+        found = effect.results(getattr(scene, effect.section), scene, recorder.cycle, np.empty(0)) if effect.results is not None else {}
+        for name, (dims, values) in found.items():
+            if dims[:1] != ("time",):
+                yield name, dims, values, {"units": described[name].units, "long_name": described[name].long_name}
+    if recorder.stress is not None:
+        for name, words in root_stress_labels(recorder.stress)[0].items():
+            if name in arrays:
+                yield name, ROOT_STRESS[name], arrays[name], {"units": "MPa", "long_name": words}
+
+
+def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str, tuple]:
+    numbered = {
+        "units": "1",
+        "long_name": "number of the tooth pair in each slot, from 1 on in the order in which they enter; 0 where none is in reach",
+        # A pair's number less this is the mesh phase at which it reaches the start of contact.
+        "number_at_phase_0": recorder.first_number,
+    }
+    coordinates = {
+        "time": ("time", arrays["time"], {"units": "s", "long_name": "time"}),
+        "mesh_phase": ("time", arrays["mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start"}),
+        "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
+        "gear": ("gear", list(GEARS), {"long_name": "gear"}),
+        "contact_point": contact_point_names(),
+        "slot": ("slot", np.arange(recorder.slots), {"long_name": "place of a tooth pair among those that can touch at once"}),
+    }
+    if "contact_time" in arrays:
+        coordinates |= {
+            "contact_time": ("contact_time", arrays["contact_time"], {"units": "s", "long_name": "time at which contact fields are stored"}),
+            "contact_mesh_phase": (
+                "contact_time", arrays["contact_mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start, of the contact fields"},
+            ),
+            "contact_pair_number": (
+                ("contact_time", "slot"), arrays["contact_pair_number"], numbered | {"long_name": f"{numbered['long_name']}, of the contact fields"},
+            ),
+        }  # fmt: skip
+    return coordinates if recorder.stress is None else coordinates | root_stress_labels(recorder.stress)[1]
+
+
+def _contact_points(built: Model, result: xr.Dataset) -> dict[str, tuple]:
+    """Variables over the points of the path of contact."""
+    described = {variable.name: variable for variable in result_variables(built.scene)}
+    return {
+        name: (described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name})
+        for name, values in contact_point_values(of_settled(result), built.scene, built.pair).items()
+    }
 
 
 def _undetermined_shares(result: xr.Dataset) -> list[str]:
@@ -75,37 +110,13 @@ def _undetermined_shares(result: xr.Dataset) -> list[str]:
     if not steps:
         return []
     return [
-        f"several pairs of rigid flanks touch at once in {steps} of {len(result['time'])} stored steps: their shares of the force are not "
+        f"several pairs of rigid flanks touch at once in {steps} of {len(result['time'])} steps: their shares of the force are not "
         "determined, and pair_normal_force is not a number there; a scene with [gears.material] has them"
     ]
 
 
-def _labels(variable) -> dict[str, str]:
-    return {"units": variable.units, "long_name": variable.long_name}
-
-
-def _centre_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]) -> dict:
-    states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
-
-    def both(first: str, second: str) -> np.ndarray:
-        return np.stack([drivetrain.value(states, first), drivetrain.value(states, second)], axis=1)
-
-    rotation = both("rotation_1", "rotation_2")
-    ratio = scene.gears.pinion.teeth / scene.gears.wheel.teeth
-    values = {
-        "transmission_error": (("time",), rotation[:, 1] + ratio * rotation[:, 0]),
-        "rotation": (("time", "gear"), rotation),
-    }
-    if scene.bearings is not None:
-        values["centre_x"] = (("time", "gear"), both("centre_x1", "centre_x2"))
-        values["centre_y"] = (("time", "gear"), both("centre_y1", "centre_y2"))
-    if scene.shafts is not None:
-        values["shaft_end_rotation"] = (("time",), drivetrain.value(states, "shaft_end"))
-    return values
-
-
-def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
-    error = result["transmission_error"].values
+def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int) -> dict:
+    scene = recorder.built.scene
     attributes = {
         "title": scene.title,
         "scene": scene.text,
@@ -113,20 +124,35 @@ def _attributes(scene: Scene, march: March, result: xr.Dataset) -> dict:
         "fenics_gears_version": fenics_gears.__version__,
         "complete": int(not march.interrupted),
         "steps": march.steps,
+        "shown_cycles": scene.motion.recorded_cycles,
         "newton_iterations_total": march.newton_iterations,
         "time_march": march.seconds,
     }
     attributes |= {f"{RUNG}{rung}": count for rung, count in march.rungs.items() if count}
-    if len(error):
-        attributes["peak_to_peak_transmission_error"] = float(np.ptp(error))
-        attributes["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
-    if len(error) > 1 and scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
-        attributes |= _friction_loss(result)
+    if recorder.steps:
+        attributes["settled_from"] = float(result["time"].values[first])
+        attributes["settled_cycles"] = float(result["mesh_phase"].values[-1] - result["mesh_phase"].values[first])
     return attributes
 
 
-def _friction_loss(result: xr.Dataset) -> dict[str, float]:
-    """The share of the drive's work that friction takes; nothing where the drive does no work."""
-    drive = abs(transmitted(result).drive)
-    return {"friction_loss": float(result["work_friction"].values[-1]) / drive} if drive else {}
+def _numbers(recorder: Recorder, march: March, result: xr.Dataset) -> dict[str, float]:
+    """The numbers of a run, of all settled steps."""
+    if not recorder.steps:
+        return {"contact_loss_count": 0}
+    counted = of_settled(result)
+    first = recorder.steps - counted.sizes["time"]
+    error = counted["transmission_error"].values
+    lost = [separation for separation in march.separations if separation[0] > first or first == 0]
+    numbers = loss_attributes(lost, first, march.steps, recorder.built.clock)
+    numbers["peak_to_peak_transmission_error"] = float(np.ptp(error))
+    # The last step begins the next cycle.
+    numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
+    if len(error) > 1 and recorder.built.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
+        numbers |= _friction_loss(counted)
+    return numbers | key_numbers(counted.assign_attrs(numbers), recorder.built.pair)
 
+
+def _friction_loss(counted: xr.Dataset) -> dict[str, float]:
+    """The share of the drive's work that friction takes; nothing where the drive does no work."""
+    drive, taken = abs(transmitted(counted).drive), counted["work_friction"].values
+    return {"friction_loss": float(taken[-1] - taken[0]) / drive} if drive else {}

@@ -33,7 +33,7 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]
         velocities = np.array([record.state.velocity for record in records]).reshape(states.shape)
         parts["energy_kinetic"] = _quadratic(velocities, drivetrain.mass)
     parts["energy"] = sum(parts.values(), np.zeros(len(records)))
-    return {name: (("time",), energy) for name, energy in parts.items()}
+    return parts
 
 
 def _quadratic(states: np.ndarray, matrix: np.ndarray) -> np.ndarray:
@@ -43,7 +43,7 @@ def _quadratic(states: np.ndarray, matrix: np.ndarray) -> np.ndarray:
 def work_variables(
     scene: Scene, cycle: Cycle, drivetrain: Drivetrain, clock: Clock, loads: Sequence[VaryingLoad], records: list[Record], energy: np.ndarray
 ) -> dict:
-    """Work since the first stored step (N mm), which with the `energy` (time,) adds up to nothing but round-off:
+    """Work since the first of consecutive records (N mm), which with the `energy` (time,) adds up to nothing but round-off:
 
     energy - energy[0] = work_input - work_output - work_damping - work_friction + work_contact_changes + energy_defect.
     """
@@ -59,12 +59,12 @@ def work_variables(
         values["work_damping"] = work.damping
     if scene.friction is not None:
         values["work_friction"] = work.friction
-    return {name: (("time",), value) for name, value in values.items()}
+    return values
 
 
 @dataclass(frozen=True)
 class Transmitted:
-    """Work over the stored steps, N mm: of whichever gear's shaft drives, and done on the other's."""
+    """Work over some steps, N mm: of whichever gear's shaft drives, and done on the other's."""
 
     drive: float
     load: float
@@ -72,11 +72,11 @@ class Transmitted:
 
 
 def transmitted(result: xr.Dataset) -> Transmitted:
-    """Which side drives and what work it does, by the last stored step of a result's account.
+    """Which side drives and what work it does, from the first to the last step of a result.
 
     A wheel that drives takes work out of the pinion and negative work out of itself.
     """
-    at_pinion, at_wheel = (float(result[name].values[-1]) for name in ("work_input", "work_output"))
+    at_pinion, at_wheel = (float(np.subtract(*result[name].values[[-1, 0]])) for name in ("work_input", "work_output"))
     if at_pinion + at_wheel < 0.0:
         return Transmitted(-at_wheel, -at_pinion, True)
     return Transmitted(at_pinion, at_wheel, False)

@@ -9,6 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.results.old_layout import upgraded
 from fenics_gears.sealed import seal, unsealed
 
 
@@ -48,11 +49,11 @@ def netcdf(dataset: xr.Dataset) -> memoryview:
 
 
 def load(path: str | Path) -> xr.Dataset:
-    """Read a saved result into memory. Raises ComputationError when the file is no result of this program, or damaged."""
+    """Read a saved result into memory, one of an earlier layout as results are now. Raises ComputationError when the file is no result of this program, or damaged."""
     result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
-    return result
+    return upgraded(result)
 
 
 def read(path: str | Path) -> xr.Dataset:

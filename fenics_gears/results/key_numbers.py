@@ -24,29 +24,24 @@ STUDIED = (
 )  # fmt: skip
 
 
-def key_numbers(result: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
-    """All that the result, with the attribute `friction_loss` where it has friction, has steps for."""
-    settled = result.isel(time=settled_steps(result))
-    if not settled.sizes["time"]:
-        return {}
-    return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _power(result)
-
-
-def settled_steps(result: xr.Dataset) -> slice:
-    """The steps that numbers are taken of: all that are stored, the last left out, which begins the next cycle."""
-    steps = result.sizes["time"]
-    return slice(0, steps - 1 if steps > 1 else steps)
+def key_numbers(counted: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
+    """All that the settled steps of a result have; with the attribute `friction_loss` where there is one."""
+    # The last step begins the next cycle.
+    settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
+    return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _power(counted)
 
 
 def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
-    """Harmonics of the transmission error as a length at the wheel's base circle, um; nothing of a run that stopped within a cycle."""
+    """Harmonics of the transmission error as a length at the wheel's base circle, um, of the last whole mesh cycles; nothing of less than one."""
     phase = settled["mesh_phase"].values
-    steps = len(phase)
-    cycles = steps * (phase[1] - phase[0]) if steps > 1 else 0.0
-    if round(cycles) < 1 or abs(cycles - round(cycles)) > 1e-6:
+    if len(phase) < 2:
         return {}
-    curve = settled["transmission_error"].values * pair.wheel.base_radius / MICROMETRE
-    found = harmonics(curve, round(cycles))
+    a_cycle = round(1.0 / (phase[1] - phase[0]))
+    cycles = len(phase) // a_cycle
+    if not cycles:
+        return {}
+    curve = settled["transmission_error"].values[-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
+    found = harmonics(curve, cycles)
     return {name: float(amplitude) for name, amplitude in zip(HARMONIC_NAMES, found) if np.isfinite(amplitude)}
 
 
@@ -96,35 +91,32 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
     }
 
 
-def _power(result: xr.Dataset) -> dict[str, float]:
+def _power(counted: xr.Dataset) -> dict[str, float]:
     """Mean power of the drive, W, and with friction what the flanks lose of it; nothing where the drive does no work."""
-    time = result["time"].values
-    seconds = time[-1] - time[0]
-    drive = abs(transmitted(result).drive)
+    seconds, drive = float(np.ptp(counted["time"].values)), abs(transmitted(counted).drive)
     if not seconds or not drive:
         return {}
     found = {"input_power": drive / seconds / WATT}
-    if "friction_loss" in result.attrs:
-        loss = result.attrs["friction_loss"]
+    if "friction_loss" in counted.attrs:
+        loss = counted.attrs["friction_loss"]
         found |= {"friction_power": loss * found["input_power"], "mesh_efficiency": 1.0 - loss}
     return found
 
 
-def contact_point_variables(result: xr.Dataset, scene: Scene, pair: GearPair) -> dict:
+def contact_point_values(counted: xr.Dataset, scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
     """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in the settled steps."""
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
     diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
-    settled = result.isel(time=settled_steps(result))
-    cycles = (points - pair.path_start) / pair.base_pitch
-    numbers = np.broadcast_to(settled["pair"].values, settled["pair_normal_force"].shape)
-    share = shares_at(cycles, settled["mesh_phase"].values, numbers, settled["pair_normal_force"].values)
+    numbers = counted["pair_number"].values
+    entered = numbers - counted["pair_number"].attrs["number_at_phase_0"]
+    forces = np.where(numbers > 0, counted["pair_normal_force"].values, np.nan)
     return {
-        "contact_point_position": (("contact_point",), points),
-        "contact_point_diameter": (("contact_point", "gear"), np.transpose(diameters)),
-        "sliding_speed": (("contact_point",), sliding_speed(pair, points, scene.mesh_frequencies[1])),
-        "specific_sliding": (("contact_point", "gear"), np.transpose(specific_sliding(pair, points))),
-        "load_share": (("contact_point",), share),
+        "contact_point_position": points,
+        "contact_point_diameter": np.transpose(diameters),
+        "sliding_speed": sliding_speed(pair, points, scene.mesh_frequencies[1]),
+        "specific_sliding": np.transpose(specific_sliding(pair, points)),
+        "load_share": shares_at((points - pair.path_start) / pair.base_pitch, counted["mesh_phase"].values, entered, forces),
     }
 
 

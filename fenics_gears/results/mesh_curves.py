@@ -23,22 +23,22 @@ def names(scene: Scene) -> tuple[str, ...]:
     return STIFFNESS + PRESSURE if scene.resolves_contact else STIFFNESS
 
 
-def step_values(scene: Scene, cycle: Cycle, record: Record) -> tuple[float, ...]:
-    """The values of `names` at a step."""
+def step_values(scene: Scene, cycle: Cycle, record: Record, first_number: int) -> tuple[float, ...]:
+    """The values of `names` at a step; `first_number`: of the pair that reaches the start of contact at mesh phase 0."""
     operator, solution = record.position.operator, record.solution
     found = mesh_stiffness(operator, solution)
     stiffness = found.secant, found.tangent, found.pairs
     if not scene.resolves_contact:
         return stiffness
     peak = largest_pressure(cycle.pair, cycle.grid, operator.pairs, solution.forces[: operator.nodes])
-    number = np.nan if peak.place is None else float(cycle.pair_number(record.step, peak.place.index))
+    number = 0.0 if peak.place is None else float(cycle.pair_number(record.step, peak.place.index) + first_number)
     return *stiffness, peak.pressure, number, peak.pinion_roll, peak.at_edge
 
 
-def mesh_curves(scene: Scene, cycle: Cycle, records: Sequence[Record]) -> dict:
+def mesh_curves(scene: Scene, cycle: Cycle, records: Sequence[Record], first_number: int) -> dict[str, np.ndarray]:
     """The curves over some steps."""
     known = names(scene)
     if not known:
         return {}
-    values = np.array([step_values(scene, cycle, record) for record in records]).reshape(len(records), len(known))
-    return {name: (("time",), values[:, place]) for place, name in enumerate(known)}
+    values = np.array([step_values(scene, cycle, record, first_number) for record in records]).reshape(len(records), len(known))
+    return {name: values[:, place] for place, name in enumerate(known)}

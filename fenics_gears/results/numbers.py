@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 HARMONICS = 5
+ROUNDING = 1e-9  # mesh cycles
 
 
 def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
@@ -28,20 +29,23 @@ def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndar
     `phase` (steps,): mesh cycles; `numbers`, `forces` (steps, pairs): the pairs' numbers and their forces, N; a pair with number n is at
     position `phase - n`. Straight between steps, the mean over the pairs that pass a position; not a number where none does.
     """
+    positions = np.asarray(positions, dtype=float)
     total = np.nansum(forces, axis=1, keepdims=True)
     share = np.divide(forces, total, out=np.full(forces.shape, np.nan), where=total > 0.0)
-    passed = phase[:, None] - numbers
-    found = []
-    for number in np.unique(numbers):
-        known = (numbers == number) & np.isfinite(share)
-        place, carried = passed[known], share[known]
-        if len(place):
-            order = np.argsort(place)
-            found.append(np.interp(positions, place[order], carried[order], left=np.nan, right=np.nan))
-    if not found:
+    known = np.isfinite(share)
+    passed, number, share = (phase[:, None] - numbers)[known], np.broadcast_to(numbers, forces.shape)[known], share[known]
+    if not len(share):
         return np.full(len(positions), np.nan)
-    known = np.isfinite(found)
-    return np.divide(np.nansum(found, axis=0), known.sum(axis=0), out=np.full(len(positions), np.nan), where=known.any(axis=0))
+    order = np.lexsort((passed, number))
+    passed, share = passed[order], share[order]
+    _, first, of_pair = np.unique(number[order], return_index=True, return_inverse=True)
+    lowest, highest = passed[first], passed[np.append(first[1:], len(passed)) - 1]
+    # One pair after the other on a single axis, so that all are interpolated at once.
+    apart = np.ptp(passed) + 1.0
+    inside = (positions >= lowest[:, None] - ROUNDING) & (positions <= highest[:, None] + ROUNDING)
+    found = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
+    count = inside.sum(axis=0)
+    return np.divide(np.where(inside, found, 0.0).sum(axis=0), count, out=np.full(len(positions), np.nan), where=count > 0)
 
 
 def mean_where_positive(values: np.ndarray) -> float:

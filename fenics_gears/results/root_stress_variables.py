@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
-import xarray as xr
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, flank_rows, sector_of, unmirrored
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -14,6 +13,7 @@ from fenics_gears.dynamics.march import Record
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.side_by_side import SideBySide
 
 Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")
@@ -27,14 +27,13 @@ class RootStress:
         self._matrices: dict[float, tuple[list[int], np.ndarray]] = {}
 
     def at(self, record: Record) -> tuple[list[int], np.ndarray]:
-        """Numbers of the loaded tooth pairs, and their stress (gears, pairs, points), MPa, at a recorded step."""
+        """Indices of the tooth pairs in reach, and their stress (gears, pairs, points), MPa, at a step."""
         phase = record.step % self.cycle.steps
         if phase not in self._matrices:
             tangential = len(record.solution.forces) > record.position.operator.nodes
             self._matrices[phase] = self._matrix(record.position.operator.pairs, tangential)
         teeth, matrix = self._matrices[phase]
-        numbers = [int(self.cycle.pair_number(record.step, index)) for index in teeth]
-        return numbers, matrix @ record.solution.forces
+        return teeth, matrix @ record.solution.forces
 
     def _matrix(self, pairs: Sequence[ToothPair], tangential: bool) -> tuple[list[int], np.ndarray]:
         """Indices of the pairs, and stress (gears, pairs, points, forces) per contact force, N; forces as the operator has them."""
@@ -61,44 +60,37 @@ class RootStress:
         return rows.rows[rows.reach + ahead][:, flank * dofs : (flank + 1) * dofs]
 
 
-def root_stress_variables(stress: RootStress, records: Sequence[Record], numbers: Sequence[int]) -> xr.Dataset:
-    """The variables of root stress for the tooth pairs `numbers` of a result; not a number where a pair's flanks are out of reach."""
+def root_stress_values(stress: RootStress, nodes: SideBySide) -> dict[str, np.ndarray]:
+    """Root stress at consecutive records; not a number where a slot's pair is out of reach."""
     points = stress.rows[0].rows.shape[1] // 2
-    values = np.full((len(records), 2, len(numbers), 2, points), np.nan)
-    row = {number: i for i, number in enumerate(numbers)}
-    for i, record in enumerate(records):
-        present, stresses = stress.at(record)
-        for place, number in enumerate(present):
-            values[i, :, row[number]] = stresses[:, place].reshape(2, 2, points)
-    along, section = values[..., :-1], values[..., -1]
+    values = np.full((len(nodes.records), 2, nodes.slots, 2, points), np.nan)
+    for i, record in enumerate(nodes.records):
+        teeth, stresses = stress.at(record)
+        for place, index in enumerate(teeth):
+            values[i, :, nodes.slot_of(i, index)] = stresses[:, place].reshape(2, 2, points)
+    along = values[..., :-1].reshape(*values.shape[:3], -1)
+    return {"root_stress": along, "root_stress_maximum": _largest(along), "root_stress_at_30_degrees": values[..., -1]}
+
+
+def root_stress_labels(stress: RootStress) -> tuple[dict[str, str], dict[str, tuple]]:
+    """Long names of the variables, and the coordinates of their fillet points."""
     angles = np.array([rows.tangent_angle[:-1] for rows in stress.rows])
-    flat = along.reshape(*along.shape[:3], -1)
-    over = ("time", "gear", "pair")
-    described = {
-        "root_stress": ((*over, "fillet_point"), flat, "stress along the surface of the fillets"),
-        "root_stress_maximum": (over, _largest(flat), "largest tension in the fillets"),
-        "root_stress_at_30_degrees": ((*over, "fillet"), section, "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline"),
+    words = {
+        "root_stress": "stress along the surface of the fillets",
+        "root_stress_maximum": "largest tension in the fillets",
+        "root_stress_at_30_degrees": "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline",
     }
-    return xr.Dataset(
-        {name: (dims, data, {"units": "MPa", "long_name": words}) for name, (dims, data, words) in described.items()},
-        coords={
-            "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
-            "fillet_side": ("fillet_point", np.repeat(SIDES, points - 1), {"long_name": "side of the tooth that the fillet point is on"}),
-            "fillet_tangent_angle": (
-                ("gear", "fillet_point"), np.hstack([angles, angles]),
-                {"units": "rad", "long_name": "angle between the fillet's tangent and the tooth's centreline"},
-            ),
-        },
-    )  # fmt: skip
+    return words, {
+        "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
+        "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that the fillet point is on"}),
+        "fillet_tangent_angle": (
+            ("gear", "fillet_point"), np.hstack([angles, angles]),
+            {"units": "rad", "long_name": "angle between the fillet's tangent and the tooth's centreline"},
+        ),
+    }  # fmt: skip
 
 
 def _largest(values: np.ndarray) -> np.ndarray:
     """Largest value over the last axis; not a number where there is none."""
-    known = np.isfinite(values).any(axis=-1)
-    return np.where(known, np.max(np.where(np.isfinite(values), values, -np.inf), axis=-1), np.nan)
-
-
-def peaks(stress: RootStress, records: Sequence[Record], force: Callable[[Record], float]) -> tuple[float, float]:
-    """Largest root stress (MPa) and largest of a force (N) over some steps."""
-    stresses = [float(np.nanmax(stress.at(record)[1], initial=0.0)) for record in records]
-    return max(stresses, default=0.0), max((force(record) for record in records), default=0.0)
+    known = np.isfinite(values[..., 0])
+    return np.where(known, np.max(values, axis=-1, where=np.isfinite(values), initial=-np.inf), np.nan)

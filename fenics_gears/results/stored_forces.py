@@ -12,6 +12,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, ToothPair
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model import Model
+from fenics_gears.results.pairs import contact_times
 
 # Offsets in a result and those of its scene are the same numbers, but for what they lose on a file.
 SAME_OFFSETS = 1e-9
@@ -44,11 +45,11 @@ class StoredForces:
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
-    """The stored step nearest to `mesh_phase` mesh cycles after the first stored one.
+    """The step among those with contact fields that is nearest to `mesh_phase` mesh cycles after the first of them.
 
-    Raises SceneError outside the stored cycles.
+    Raises SceneError outside these cycles, or where the result has none.
     """
-    phases = result["mesh_phase"].values
+    phases = contact_times(result)["contact_mesh_phase"].values
     since = phases - phases[0]
     spacing = np.diff(since).max(initial=0.0)
     if not -spacing <= mesh_phase <= since[-1] + spacing:
@@ -57,21 +58,23 @@ def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
 
 
 def stored_forces(result: xr.Dataset, built: Model, cycle: Cycle, index: int) -> StoredForces:
-    """The contact forces of a stored step; `cycle`: the one that the run had.
+    """The contact forces of a step, by its place among those with contact fields; `cycle`: the one that the run had.
 
     Raises ComputationError where the result was computed from another scene than `built` is of.
     """
-    step = round(float(result["mesh_phase"].values[index]) * cycle.steps)
+    step = round(float(result["contact_mesh_phase"].values[index]) * cycle.steps)
     pairs = cycle.pairs_at(step % cycle.steps)
-    row = {int(number): i for i, number in enumerate(result["pair"].values)}
-    forces = tuple(_forces_of(result, built, pair, index, row[int(cycle.pair_number(step, pair.place.index))]) for pair in pairs)
+    numbers = result["contact_pair_number"]
+    slot = {int(number): i for i, number in enumerate(numbers.values[index])}
+    first = numbers.attrs["number_at_phase_0"]
+    forces = tuple(_forces_of(result, built, pair, index, slot.get(int(cycle.pair_number(step, pair.place.index)) + first)) for pair in pairs)
     return StoredForces(index, step % cycle.steps / cycle.steps, pairs, forces)
 
 
-def _forces_of(result: xr.Dataset, built: Model, pair: ToothPair, index: int, row: int) -> np.ndarray:
+def _forces_of(result: xr.Dataset, built: Model, pair: ToothPair, index: int, slot: int | None) -> np.ndarray:
     side = {DRIVE: "", COAST: "coast_"}[pair.place.flank]
     count = len(pair.offsets)
-    rolls = result[f"{side}contact_roll_angle"].values[index, row]
+    rolls = np.empty(0) if slot is None else result[f"{side}contact_roll_angle"].values[index, slot]
     if np.count_nonzero(~np.isnan(rolls)) != count or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS:
         raise ComputationError(
             "the stored contact nodes are not those of the scene that the result carries; stresses are recovered from runs whose scene is "
@@ -84,4 +87,4 @@ def _forces_of(result: xr.Dataset, built: Model, pair: ToothPair, index: int, ro
     if missing:
         raise ComputationError(f"the result has no {', '.join(missing)}, which the stresses need; run the scene again with this version")
     area = pair.lengths * built.pair.face_width
-    return np.concatenate([result[name].values[index, row, :count] * area for name in kinds])
+    return np.concatenate([result[name].values[index, slot, :count] * area for name in kinds])

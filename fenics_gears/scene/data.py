@@ -44,15 +44,17 @@ class Load:
     wheel_torque: float
 
 
+# As many mesh cycles as pass until every tooth has met every other; the number follows from the teeth.
+HUNTING_TOOTH_PERIOD = "hunting tooth period"
 # As many are kept where nothing is said of it and all are alike, or all would be too many.
 LAST_CYCLES = 2
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Mesh frequency in Hz (mesh cycles a second) and how many cycles are run and kept.
+    """Mesh frequency in Hz (mesh cycles a second), how many cycles are run, and of how many of them, the last, contact fields are stored and pictures show.
 
-    ``fewer_where_too_large``: where the result could not hold the recorded cycles, only the last two are; the scene does not ask for them by number.
+    ``fewer_where_too_large``: where the result could not hold the contact fields of so many, those of fewer are stored; the scene does not ask for them by number.
     """
 
     mesh_frequency: float
@@ -91,6 +93,7 @@ class Output:
     """Results besides those that every run has."""
 
     root_stress: bool = False
+    contact_fields: bool = True
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from pydantic import create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText
+from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.fields import Section, choice, number, percentage, quantity, switch, text, whole_number
 
 
@@ -54,8 +55,6 @@ class Load(Section):
     )
 
 
-# As many mesh cycles as pass until every tooth has met every other; the number follows from the teeth.
-HUNTING_TOOTH_PERIOD = "hunting tooth period"
 WHOLE_PERIOD = {HUNTING_TOOTH_PERIOD: None}
 
 

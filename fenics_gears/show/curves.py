@@ -5,11 +5,14 @@ Each function takes a result (docs/result.md) and returns a Figure, or None wher
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fenics_gears.results.pairs import lives, shown
 from fenics_gears.show.panels import DARK, GREY, PALETTE, legend, limits, panels, styled
 from fenics_gears.show.units import factor, in_unit
 
@@ -23,6 +26,7 @@ def transmission_error(dataset: xr.Dataset) -> Figure | None:
     """Transmission error in µrad and, as length on the wheel's base circle, in µm; below it the wheel's sideways motion."""
     if "transmission_error" not in dataset:
         return None
+    dataset = shown(dataset)
     below = "centre_y" in dataset
     figure, axes = panels(dataset, "Transmission error", [3.6, 2.2] if below else [4.4])
     _draw_transmission_error(axes[0], dataset)
@@ -74,6 +78,7 @@ def mesh_forces(dataset: xr.Dataset) -> Figure | None:
     there = [name for name in drawings if name in dataset]
     if not there:
         return None
+    dataset = shown(dataset)
     figure, axes = panels(dataset, "Mesh forces", [2.2] * len(there) if len(there) > 1 else [4.4])
     for each, name in zip(axes, there):
         drawings[name](each, dataset)
@@ -134,23 +139,23 @@ def load_sharing(dataset: xr.Dataset) -> Figure | None:
     """Normal force of each tooth pair that carries, and their sum; on the coast flanks downwards."""
     if "pair_normal_force" not in dataset:
         return None
+    dataset = shown(dataset)
     figure, (axes,) = panels(dataset, "Load sharing between tooth pairs", [4.6])
     phase = dataset["mesh_phase"].values
-    forces = in_unit(dataset["pair_normal_force"].transpose("time", "pair"), "N")
+    forces = dataset["pair_normal_force"].values
     total = in_unit(dataset["normal_force"], "N")
     if np.isnan(forces).any():
         axes.set_title("Rigid flanks: where two pairs touch at once their shares are not determined", pad=30.0)
     axes.plot(phase, total, color=DARK, linewidth=1.4, linestyle=(0, (4, 2)), label="all pairs" if "pair_coast_normal_force" not in dataset else "all drive flanks", zorder=3)
-    for number, force in zip(dataset["pair"].values, forces.T):
+    for number, steps, force in pair_curves(dataset, "pair_normal_force"):
         if np.any(force != 0.0):
-            axes.plot(phase, _while_carrying(force), color=PALETTE[number % len(PALETTE)], label=f"pair {number}")
+            axes.plot(phase[steps], _while_carrying(force), color=PALETTE[number % len(PALETTE)], label=f"pair {number}")
     lowest = 0.0
     if "pair_coast_normal_force" in dataset:
-        coast = in_unit(dataset["pair_coast_normal_force"].transpose("time", "pair"), "N")
         lowest = -float(in_unit(dataset["coast_normal_force"], "N").max())
-        for number, force in zip(dataset["pair"].values, coast.T):
+        for number, steps, force in pair_curves(dataset, "pair_coast_normal_force"):
             if np.any(force != 0.0):
-                axes.plot(phase, -_while_carrying(force), color=PALETTE[number % len(PALETTE)], linestyle=":", label=f"coast flank {number}")
+                axes.plot(phase[steps], -_while_carrying(force), color=PALETTE[number % len(PALETTE)], linestyle=":", label=f"coast flank {number}")
         axes.axhline(0.0, color=GREY, linewidth=0.8)
     axes.set_ylabel("Normal force (N)")
     if not total.any() and lowest == 0.0:
@@ -159,6 +164,16 @@ def load_sharing(dataset: xr.Dataset) -> Figure | None:
     axes.set_ylim(1.06 * lowest, max(1.06 * highest, -0.06 * lowest) or 1.0)
     legend(axes, columns=6 if lowest == 0.0 else 5, location="lower left")
     return figure
+
+
+def pair_curves(dataset: xr.Dataset, name: str) -> Iterator[tuple[int, slice, np.ndarray]]:
+    """Number, steps and force (N) of each tooth pair while it is in reach, and a zero on either side."""
+    forces = in_unit(dataset[name].transpose("time", "slot"), "N")
+    for life in lives(dataset["pair_number"].values):
+        steps = slice(max(life.steps.start - 1, 0), min(life.steps.stop + 1, len(forces)))
+        force = np.zeros(steps.stop - steps.start)
+        force[life.steps.start - steps.start : life.steps.stop - steps.start] = forces[life.steps, life.slot]
+        yield life.number, steps, force
 
 
 def _while_carrying(force: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ import xarray as xr
 
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.involute import flank_point
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.run_stresses import GearsInMesh
 from fenics_gears.show.stress_grid import upright
 
@@ -25,8 +26,8 @@ class LoadedContact:
 
 
 def stored_place(mesh: GearsInMesh, dataset: xr.Dataset) -> int:
-    """Which of the stored steps a recovered pair is at."""
-    return int(np.argmin(np.abs(dataset["mesh_phase"].values - mesh.mesh_phase)))
+    """Which of the steps with contact fields a recovered pair is at."""
+    return int(np.argmin(np.abs(dataset["contact_mesh_phase"].values - mesh.mesh_phase)))
 
 
 def on_line(mesh: GearsInMesh, points: np.ndarray, coast: bool) -> np.ndarray:
@@ -38,14 +39,16 @@ def on_line(mesh: GearsInMesh, points: np.ndarray, coast: bool) -> np.ndarray:
 def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | None:
     """The contact of the tooth pair with the largest normal force, on the flanks that carry more; None where nothing touches."""
     index, pair = stored_place(mesh, dataset), mesh.pair
-    coast = mesh.coast
+    coast, dataset = mesh.coast, contact_times(dataset)
     forces = np.nan_to_num(dataset["pair_coast_normal_force" if coast else "pair_normal_force"].values[index])
-    row = int(np.argmax(forces))
-    if forces[row] <= 0.0:
+    slot = int(np.argmax(forces))
+    if forces[slot] <= 0.0:
         return None
     prefix = "coast_" if coast else ""
-    pressure, rolls = (dataset[prefix + name].values[index, row] for name in ("contact_pressure", "contact_roll_angle"))
-    xi = pair.path_start + (mesh.mesh_phase - int(dataset["pair"].values[row])) * pair.base_pitch
+    pressure, rolls = (dataset[prefix + name].values[index, slot] for name in ("contact_pressure", "contact_roll_angle"))
+    numbers = dataset["contact_pair_number"]
+    entered = int(numbers.values[index, slot]) - numbers.attrs["number_at_phase_0"]
+    xi = pair.path_start + (mesh.mesh_phase - entered) * pair.base_pitch
     contact_roll = coast_roll_angles(pair, xi)[0] if coast else xi / pair.pinion.base_radius
     known = ~np.isnan(rolls)
     x, height = flank_point(pair.pinion.base_radius, rolls[known], contact_roll)

@@ -12,6 +12,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.panels import DARK, legend, panels, styled
 from fenics_gears.show.run_scene import gear_pair_of
 from fenics_gears.show.units import factor, in_unit
@@ -40,6 +41,7 @@ def contact_pressure(dataset: xr.Dataset) -> Figure | None:
     """Pressure (MPa) over mesh cycles and the pinion's roll angle (deg), the wheel's beside it, the pitch point marked."""
     if "contact_pressure" not in dataset or "contact_roll_angle" not in dataset:
         return None
+    dataset = contact_times(dataset)
     sides = _sides_under_pressure(dataset)
     figure, every_axes = panels(dataset, "Contact pressure on the flanks", [5.2] * len(sides))
     for axes, side in zip(every_axes, sides):
@@ -73,18 +75,18 @@ def _draw_side(figure: Figure, axes: Axes, dataset: xr.Dataset, side: str) -> No
 
 def pressure_cells(dataset: xr.Dataset, side: str = DRIVE) -> Cells:
     """One rectangle for each contact node under pressure: a time step wide, reaching half-way to the node's neighbours."""
-    order = ("time", "pair", "contact_node")
+    order = ("contact_time", "slot", "contact_node")
     pressure = in_unit(dataset[f"{side}contact_pressure"].transpose(*order), "MPa")
     place = in_unit(dataset[f"{side}contact_roll_angle"].transpose(*order), "deg")
-    phase = dataset["mesh_phase"].values
+    phase = dataset["contact_mesh_phase"].values
     low, high = _node_edges(place)
     before, after = _step_edges(phase)
-    step, pair, node = np.nonzero((pressure > 0.0) & np.isfinite(low) & np.isfinite(high))
-    left, right, bottom, top = before[step], after[step], low[step, pair, node], high[step, pair, node]
+    step, slot, node = np.nonzero((pressure > 0.0) & np.isfinite(low) & np.isfinite(high))
+    left, right, bottom, top = before[step], after[step], low[step, slot, node], high[step, slot, node]
     corners = np.stack(
         [np.stack([left, bottom], 1), np.stack([right, bottom], 1), np.stack([right, top], 1), np.stack([left, top], 1)], axis=1
     )
-    return Cells(corners, pressure[step, pair, node], dataset["pair"].values[pair])
+    return Cells(corners, pressure[step, slot, node], dataset["contact_pair_number"].values[step, slot])
 
 
 def _step_edges(phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

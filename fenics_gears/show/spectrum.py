@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import lcm
+from math import inf, lcm
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fenics_gears.effects import common_period
+from fenics_gears.results.pairs import shown
+from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
 from fenics_gears.show.panels import DARK, GREY, PALETTE, legend, panels, styled
 from fenics_gears.show.run_scene import scene_of
@@ -76,6 +79,8 @@ def order_spectrum(dataset: xr.Dataset) -> Figure | None:
     scene, radius = scene_of(dataset), dataset.attrs.get("base_radius_wheel")
     if "transmission_error" not in dataset or scene is None or not radius:
         return None
+    # Where cycles are not alike all that count show their orders; where they are, no more than is shown.
+    dataset = of_settled(dataset) if 1 < common_period(scene) < inf else shown(dataset)
     phase = dataset["mesh_phase"].values
     error = in_unit(dataset["transmission_error"], "rad") * radius * factor("mm", "µm")
     teeth = scene.gears.pinion.teeth, scene.gears.wheel.teeth

@@ -12,6 +12,7 @@ import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.run_stresses import RunStresses
 from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.stress_picture import COLOURS, colour_limit, exceeds, stress_picture
@@ -56,7 +57,7 @@ def animate(runs: RunStresses, dataset: xr.Dataset, path: Path, scale: float | N
 
 def frame_steps(dataset: xr.Dataset) -> list[int]:
     """The stored steps that are drawn, evenly spaced in the mesh phase."""
-    phases = dataset["mesh_phase"].values
+    phases = contact_times(dataset)["contact_mesh_phase"].values
     cycles = float(phases[-1] - phases[0])
     count = int(min(MOST_FRAMES, max(1, round(cycles * FRAMES_PER_CYCLE)), max(1, len(phases) - 1)))
     return sorted({int(round(place)) for place in np.linspace(0, len(phases) - 1, count, endpoint=False)})

@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.run_stresses import GearsInMesh
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, on_line, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
@@ -262,7 +263,7 @@ def _length_bar(axes: Axes) -> None:
 
 
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
-    index = stored_place(mesh, dataset)
+    index, dataset = stored_place(mesh, dataset), contact_times(dataset)
     forces, pressures = (
         [float(np.nanmax(dataset[name].values[index])) for name in names if name in dataset]
         for names in (("normal_force", "coast_normal_force"), ("contact_pressure", "coast_contact_pressure"))

@@ -10,8 +10,10 @@ import xarray as xr
 
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.key_numbers import STUDIED
+from fenics_gears.results.pairs import shown
+from fenics_gears.results.settled import of_settled
 
-# Curves over the recorded cycles; those that a run has are taken.
+# Curves over the last cycles; those that a run has are taken.
 CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force")
 
 
@@ -44,13 +46,14 @@ def record_of(run: xr.Dataset) -> Record:
     numbers = {
         "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
         "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
-        "max_normal_force": largest_normal_force(run),
+        "max_normal_force": largest_normal_force(of_settled(run)),
         "newton_iterations": float(run.attrs["newton_iterations_total"]),
         "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
         "wall_time": float(run.attrs["wall_time"]),
     }
     numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
-    phase = run["mesh_phase"].values
-    curves = {name: run[name].values for name in CURVES if name in run}
+    last = shown(run)
+    phase = last["mesh_phase"].values
+    curves = {name: last[name].values for name in CURVES if name in run}
     labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
     return Record(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))

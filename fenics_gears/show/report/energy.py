@@ -28,7 +28,7 @@ def energy(run: Run) -> Section:
 
 def _rows(run: Run) -> list[tuple[str, str, str]]:
     last = {
-        name: in_unit(run.dataset[name], UNIT)[-1]
+        name: float(np.subtract(*in_unit(run.dataset[name], UNIT)[[-1, 0]]))
         for name in (*TAKEN, "work_contact_changes") if name in run.dataset
     }  # fmt: skip
     held = in_unit(run.dataset["energy"], UNIT)
@@ -50,25 +50,31 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     rows.append(
         (
             "not explained by any of these",
-            f"{float(np.abs(in_unit(run.dataset['energy_defect'], UNIT)).max()):.2g}",
+            f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}",
             f"{UNIT} at most, at any stored step",
         )
     )
     return rows
 
 
+def _since_first(work) -> np.ndarray:
+    """Work (time,), N m, since the first step that is shown."""
+    values = in_unit(work, UNIT)
+    return values - values[:1]
+
+
 def _curves(run: Run) -> list:
     dataset = run.dataset
     held = [(words, in_unit(dataset[name], UNIT), colour) for (name, words), colour in zip(PARTS.items(), PALETTE) if name in dataset]
     held.append(("all", in_unit(dataset["energy"], UNIT), DARK))
-    taken = [(words, in_unit(dataset[name], UNIT), colour) for (name, words), colour in zip(TAKEN.items(), PALETTE) if name in dataset]
-    taken.append(("contact changes, by the time stepping", -in_unit(dataset["work_contact_changes"], UNIT), PALETTE[3]))
-    defect = in_unit(dataset["energy_defect"], UNIT)
+    taken = [(words, _since_first(dataset[name]), colour) for (name, words), colour in zip(TAKEN.items(), PALETTE) if name in dataset]
+    taken.append(("contact changes, by the time stepping", -_since_first(dataset["work_contact_changes"]), PALETTE[3]))
+    defect = _since_first(dataset["energy_defect"])
     spans = [least(np.concatenate([each for _, each, _ in curves])) * 1e-6 for curves in (held, taken)]
     # A plot of one curve has no legend.
     alone = f": {taken[0][0]}" if len(taken) == 1 else ""
     return [
         over_time(dataset, "Energy held", "Energy (N m)", held, least=spans[0]),
-        over_time(dataset, f"Work taken since the first stored step{alone}", "Work (N m)", taken, least=spans[1]),
+        over_time(dataset, f"Work taken since the first step shown{alone}", "Work (N m)", taken, least=spans[1]),
         over_time(dataset, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
     ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.pairs import lives
 from fenics_gears.show.curves import LEAST_LENGTH, LEAST_SHARE
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.report.page import Plot, Section, Words
@@ -12,7 +13,7 @@ from fenics_gears.show.report.plotting import over_time
 from fenics_gears.show.report.run import TOO_FEW, Run
 from fenics_gears.show.units import in_unit
 
-# More pairs than this share their curves with those that come so many pairs later.
+# More pairs than this share their curves with those that are kept in the same slot.
 NAMED_PAIRS = 6
 COAST_NOTE = "Coast flanks are drawn downwards."
 
@@ -83,27 +84,29 @@ def _pairs(dataset: xr.Dataset) -> list[Plot]:
 
 
 def pair_curves(dataset: xr.Dataset, name: str) -> list[tuple[str, np.ndarray, str]]:
-    """A curve of name, values (time,) and colour for each pair that carries, not a number where it does not; of many pairs every n-th
-    shares a curve with the others of its turn, n being so many that they are never in contact together."""
-    return shared_curves(dataset["pair"].values, in_unit(dataset[name].transpose("time", "pair"), "N"))
+    """A curve of name, values (time,) and colour for each pair that carries, not a number where it does not; of many pairs those
+    that are kept in one slot share a curve, being never in contact together."""
+    return shared_curves(dataset["pair_number"].values, in_unit(dataset[name].transpose("time", "slot"), "N"))
 
 
 def shared_curves(numbers: np.ndarray, values: np.ndarray) -> list[tuple[str, np.ndarray, str]]:
-    """The same for any values (time, pair) that are zero or not a number where a pair has none."""
+    """The same for any values (time, slot), of pairs of those `numbers` (time, slot), that are zero or not a number where a pair has none."""
     there = np.isfinite(values) & (values != 0.0)
-    numbers, values, there = numbers[there.any(axis=0)], values[:, there.any(axis=0)], there[:, there.any(axis=0)]
     shown = _with_ends(there, values)
-    if len(numbers) <= NAMED_PAIRS:
-        return [(f"pair {number}", column, PALETTE[number % len(PALETTE)]) for number, column in zip(numbers, shown.T)]
-    together = np.isfinite(shown).sum(axis=1).max(initial=1)
-    turn = int(max(4, together + 1))
+    carrying = [life for life in lives(numbers) if there[life.steps, life.slot].any()]
+    if len(carrying) <= NAMED_PAIRS:
+        curves = []
+        for life in carrying:
+            near = slice(max(life.steps.start - 1, 0), life.steps.stop + 1)
+            own = np.full(len(values), np.nan)
+            own[near] = shown[near, life.slot]
+            curves.append((f"pair {life.number}", own, PALETTE[life.number % len(PALETTE)]))
+        return curves
     curves = []
-    for first in numbers[:turn]:
-        own = (numbers - first) % turn == 0
-        group = shown[:, own]
-        one = np.where(np.isfinite(group).any(axis=1), np.nansum(group, axis=1), np.nan)
-        listed = ", ".join(map(str, numbers[own][:3]))
-        curves.append((f"pairs {listed}{', …' if own.sum() > 3 else ''}", one, PALETTE[first % len(PALETTE)]))
+    for first in sorted({life.slot: life for life in reversed(carrying)}.values(), key=lambda life: life.number):
+        own = [life.number for life in carrying if life.slot == first.slot]
+        listed = ", ".join(map(str, own[:3]))
+        curves.append((f"pairs {listed}{', …' if len(own) > 3 else ''}", shown[:, first.slot], PALETTE[first.number % len(PALETTE)]))
     return curves
 
 

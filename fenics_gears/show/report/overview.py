@@ -53,7 +53,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
             "over five contact nodes" + (", on a sharp edge: see the warnings" if "sharp edge" in attributes.get("warnings", "") else ""),
         )
     if "root_stress_maximum" in dataset:
-        largest = dataset["root_stress_maximum"].max(["time", "pair"]).values
+        largest = dataset["root_stress_maximum"].max(["time", "slot"]).values
         yield Tile("Largest root stress", digits(float(largest.max())), "MPa", f"pinion {digits(largest[0])}, wheel {digits(largest[1])}")
     if "dynamic_factor_by_force" in attributes:
         yield Tile(

@@ -5,7 +5,9 @@ from __future__ import annotations
 import io
 
 import numpy as np
+import xarray as xr
 
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.plots import save_figure
 from fenics_gears.show.pressure_map import contact_pressure
@@ -29,29 +31,32 @@ def pressure(run: Run) -> Section:
             heading,
             [
                 Words(
-                    "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the "
+                    "There is none: the run has stored no contact fields (`[output] contact_fields`)."
+                    if run.scene is not None and run.scene.resolves_contact
+                    else "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the "
                     "flank."
                 )
             ],
         )
     if not run.has_curves:
         return Section("pressure", heading, [Words(TOO_FEW, warns=True)])
+    dataset = contact_times(run.dataset)
     curves = [
-        (words, in_unit(run.dataset[name].max(["pair", "contact_node"], keep_attrs=True), "MPa"), colour)
+        (words, in_unit(dataset[name].max(["slot", "contact_node"], keep_attrs=True), "MPa"), colour)
         for (name, words), colour in zip(SIDES.items(), PALETTE)
-        if name in run.dataset
+        if name in dataset
     ]
     together = np.concatenate([each for _, each, _ in curves])
-    peaks = over_time(run.dataset, "Largest pressure of a contact node", "Pressure (MPa)", curves, least=least(together))
-    return Section("pressure", heading, [peaks, *_map(run)])
+    peaks = over_time(dataset, "Largest pressure of a contact node", "Pressure (MPa)", curves, least=least(together))
+    return Section("pressure", heading, [peaks, *_map(dataset)])
 
 
-def _map(run: Run) -> list[Block]:
-    phase, note = run.dataset["mesh_phase"].values, ""
-    mapped = run.dataset
-    if run.cycles > MAPPED_CYCLES * (1 + 1e-9):
-        mapped = run.dataset.isel(time=phase >= phase[-1] - MAPPED_CYCLES - 1e-9)
-        note = f"The last {MAPPED_CYCLES:g} of {run.cycles:g} stored mesh cycles."
+def _map(dataset: xr.Dataset) -> list[Block]:
+    phase, note = dataset["contact_mesh_phase"].values, ""
+    mapped, cycles = dataset, float(phase[-1] - phase[0])
+    if cycles > MAPPED_CYCLES * (1 + 1e-9):
+        mapped = dataset.isel(contact_time=phase >= phase[-1] - MAPPED_CYCLES - 1e-9)
+        note = f"The last {MAPPED_CYCLES:g} of {cycles:g} stored mesh cycles."
     figure = contact_pressure(mapped)
     if figure is None:
         return []

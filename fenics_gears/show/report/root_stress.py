@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.report.forces import least, shared_curves
 from fenics_gears.show.report.page import Block, Facts, Plot, Section, Words
@@ -37,19 +38,19 @@ def _factors(run: Run) -> list[Block]:
 
 
 def _over_time(run: Run) -> list[Plot]:
-    largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "pair")
+    largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "slot")
     values, gears = in_unit(largest, "MPa"), [str(gear) for gear in run.dataset["gear"].values]
     envelope = [(gear, _largest(values[:, place]), PALETTE[place]) for place, gear in enumerate(gears)]
     together = np.concatenate([each for _, each, _ in envelope])
     plots = [over_time(run.dataset, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
     for place, gear in enumerate(gears):
-        curves = shared_curves(run.dataset["pair"].values, values[:, place])
+        curves = shared_curves(run.dataset["pair_number"].values, values[:, place])
         plots.append(
             over_time(
                 run.dataset, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)
             )
         )
-    section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "pair")
+    section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "slot")
     at_section = in_unit(section, "MPa")
     curves = [
         (f"{gear}, {side} side", _largest(at_section[:, i, j]), PALETTE[2 * i + j])
@@ -71,13 +72,16 @@ def _largest(values: np.ndarray) -> np.ndarray:
 def _along_fillets(run: Run) -> list[Plot]:
     """Stress along the fillet of the tooth that has the largest tension, at the time it has it."""
     plots = []
-    for gear in run.dataset["gear"].values.tolist():
-        own = run.dataset.sel(gear=gear)
-        stress = own["root_stress_maximum"].transpose("time", "pair").values
+    if "root_stress" not in run.dataset:
+        return []
+    dataset = contact_times(run.dataset)
+    for gear in dataset["gear"].values.tolist():
+        own = dataset.sel(gear=gear)
+        stress = own["root_stress_maximum"].transpose("time", "slot").values
         if not np.isfinite(stress).any():
             continue
-        time, pair = np.unravel_index(np.nanargmax(stress), stress.shape)
-        along = in_unit(own["root_stress"].transpose("time", "pair", "fillet_point")[time, pair], "MPa")
+        time, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
+        along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point")[time, slot], "MPa")
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
         curves = [
             Curve(f"{name} side", angle[side == name], along[side == name], colour, mode="lines+markers")
@@ -85,7 +89,7 @@ def _along_fillets(run: Run) -> list[Plot]:
         ]
         phase = float(own["mesh_phase"].values[time])
         caption = (
-            f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair'].values[pair])}, mesh cycle {phase:.3f}"
+            f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
         )
         note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
         plots.append(plot(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))

@@ -9,6 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.pairs import shown
 from fenics_gears.scene.data import Scene
 from fenics_gears.show.run_scene import gear_pair_of, scene_of
 from fenics_gears.show.units import factor
@@ -29,6 +30,10 @@ class Run:
     file: Path
     at: float | None = None
     stress: bool = True
+
+    def __post_init__(self):
+        """A report is on the cycles that pictures show; its numbers are those of the result."""
+        object.__setattr__(self, "dataset", shown(self.dataset))
 
     @cached_property
     def scene(self) -> Scene | None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 
 import numpy as np
+import xarray as xr
 
 from fenics_gears.errors import GearsError
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.results.stored_forces import stored_index
 from fenics_gears.show.report.page import Picture, Section, Words
 from fenics_gears.show.report.run import NO_SCENE, Run
@@ -28,20 +30,23 @@ def stress(run: Run) -> Section:
             HEADING,
             [Words("There is none: stresses are recovered from gears of equal sectors, and these are meshed as a whole.")],
         )
-    index = _most_loaded(run) if run.at is None else stored_index(run.dataset, run.at)
+    if not run.dataset.sizes.get("contact_time"):
+        return Section("stress", HEADING, [Words("There is none: the run has stored no contact fields (`[output] contact_fields`).")])
+    dataset = contact_times(run.dataset)
+    index = _most_loaded(dataset) if run.at is None else stored_index(dataset, run.at)
     try:
         content = _drawn(run, index)
     except GearsError as error:
         return Section("stress", HEADING, [Words(f"It could not be drawn: {error}", warns=True)])
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
-    since = float(run.dataset["mesh_phase"].values[index] - run.dataset["mesh_phase"].values[0])
+    since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
-    note = f"{since:.4g} mesh cycles after the first stored step, {when}; {others}"
+    note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
     return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note)])
 
 
-def _most_loaded(run: Run) -> int:
-    forces = [run.dataset[name].values for name in ("normal_force", "coast_normal_force") if name in run.dataset]
+def _most_loaded(dataset: xr.Dataset) -> int:
+    forces = [dataset[name].values for name in ("normal_force", "coast_normal_force") if name in dataset]
     return int(np.argmax(np.max(forces, axis=0)))
 
 

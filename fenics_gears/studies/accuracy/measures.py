@@ -85,16 +85,17 @@ def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
 
     Phases are those of the nearest steps: pressures between two steps are no average of both, for they move.
     """
-    phase, last = run["mesh_phase"].values, run["mesh_phase"].values[-1]
+    phase, numbers = run["contact_mesh_phase"].values, run["contact_pair_number"]
+    last, first = phase[-1], numbers.attrs["number_at_phase_0"]
     offsets = np.linspace(-0.5 * window, 0.5 * window, PRESSURE_POINTS)
     field = np.zeros((PRESSURE_PHASES, PAIRS, PRESSURE_POINTS))
-    pressure, places, pairs = (run[name].values for name in ("contact_pressure", "contact_offset", "pair"))
+    pressure, places = (run[name].values for name in ("contact_pressure", "contact_offset"))
     for i in range(PRESSURE_PHASES):
         step = int(np.argmin(np.abs(phase - (last - 1.0 + (i + 1) / PRESSURE_PHASES))))
-        for j, pair in enumerate(pairs):
-            slot, there = int(pair) - round(last) + PAIRS_BACK, np.isfinite(places[step, j])
-            if 0 <= slot < PAIRS and there.any():
-                field[i, slot] = np.interp(offsets, places[step, j][there], pressure[step, j][there], left=0.0, right=0.0)
+        for j, number in enumerate(numbers.values[step]):
+            row, there = int(number) - first - round(last) + PAIRS_BACK, np.isfinite(places[step, j])
+            if 0 <= row < PAIRS and there.any():
+                field[i, row] = np.interp(offsets, places[step, j][there], pressure[step, j][there], left=0.0, right=0.0)
     return field.ravel()
 
 

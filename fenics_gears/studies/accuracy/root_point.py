@@ -33,7 +33,7 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
         tooth_reach(built), scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
-    steps = range(len(run["mesh_phase"]) - cycle.steps, len(run["mesh_phase"]))
+    steps = range(run.sizes["contact_time"] - cycle.steps, run.sizes["contact_time"])
     stresses = [_stress(point, stored_forces(run, built, cycle, index), built) for index in steps]
     return max(stresses, default=0.0)
 

@@ -1,0 +1,66 @@
+"""Tooth pairs of a result, each with its own curve, from the slots in which a result keeps them; and the cycles that pictures show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.errors import SceneError
+
+
+@dataclass(frozen=True)
+class Life:
+    """A tooth pair's `number`, the `slot` that it is kept in, and the `steps` at which it is in reach."""
+
+    number: int
+    slot: int
+    steps: slice
+
+
+def shown(result: xr.Dataset) -> xr.Dataset:
+    """The last cycles of a result, which pictures show: as many as its attribute `shown_cycles` says, all of a ramp."""
+    cycles, phase = result.attrs.get("shown_cycles"), result["mesh_phase"].values
+    if cycles is None or not len(phase) or phase[-1] - phase[0] <= cycles * (1.0 + 1e-9):
+        return result
+    return result.isel(time=slice(int(np.searchsorted(phase, phase[-1] - cycles - 1e-9)), None))
+
+
+def contact_times(result: xr.Dataset) -> xr.Dataset:
+    """A result with those of its steps whose contact fields are stored: `time` and `contact_time` go together. Raises SceneError without any."""
+    if not result.sizes.get("contact_time", 0):
+        raise SceneError(
+            "the result holds no contact fields, which stresses and pressures over the flank need. [output] contact_fields = true or "
+            '"last 2 cycles" in the scene stores them; run it again.'
+        )
+    return result.isel(time=np.isin(result["time"].values, result["contact_time"].values))
+
+
+def lives(numbers: np.ndarray) -> Iterator[Life]:
+    """Every tooth pair of pair numbers (time, slot), in the order in which they enter."""
+    found = []
+    for slot, column in enumerate(np.asarray(numbers).T):
+        ends = np.flatnonzero(np.diff(column)) + 1
+        for first, last in zip([0, *ends], [*ends, len(column)]):
+            if last > first and column[first]:
+                found.append(Life(int(column[first]), slot, slice(int(first), int(last))))
+    yield from sorted(found, key=lambda life: life.number)
+
+
+def by_pair(variable: xr.DataArray, absent: float = np.nan) -> xr.DataArray:
+    """A variable of a result with the dimension `pair` in place of `slot`: each tooth pair's own curve, `absent` while it is out of reach.
+
+    As many values as steps times pairs: of a long run take a part first, `shown(result)` or `result.isel(time=...)`.
+    """
+    time, numbers = ("contact_time", "contact_pair_number") if "contact_time" in variable.dims else ("time", "pair_number")
+    rest = [each for each in variable.dims if each not in (time, "slot")]
+    values, pairs = variable.transpose(time, "slot", *rest).values, list(lives(variable[numbers].values))
+    own = np.full((len(values), len(pairs), *values.shape[2:]), absent)
+    for place, life in enumerate(pairs):
+        own[life.steps, place] = values[life.steps, life.slot]
+    kept = {name: each for name, each in variable.coords.items() if "slot" not in each.dims}
+    found = xr.DataArray(own, {**kept, "pair": [life.number for life in pairs]}, (time, "pair", *rest), variable.name, variable.attrs)
+    found["pair"].attrs["long_name"] = "tooth pair, in the order in which they enter"
+    return found.transpose(*("pair" if each == "slot" else each for each in variable.dims))

@@ -1,0 +1,138 @@
+"""What a march leaves of its steps, gathered while it goes: curves of all of them, contact fields of the last, and what the warnings need.
+
+A few steps are gone over at once; none is kept beyond that. Contact fields go round in their arrays, so that wherever the march ends
+those of its last steps are there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
+from fenics_gears.dynamics.march import Record, VaryingLoad
+from fenics_gears.effects import effects_on
+from fenics_gears.model import Model
+from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
+from fenics_gears.results.energy_variables import energy_variables, work_variables
+from fenics_gears.results.mesh_curves import mesh_curves
+from fenics_gears.results.root_stress_variables import RootStress, root_stress_values
+from fenics_gears.results.side_by_side import Layout, SideBySide
+from fenics_gears.storage import allocated, sizes, stored_arrays
+
+# So many steps are gone over at once.
+AT_ONCE = 128
+
+
+class Recorder:
+    """Takes each record of a march as it is made; `loads`: those that vary, the model's unless given; `stress`: of the fillets, if asked for.
+
+    `steps`: how many are recorded. `watched`: by name (steps so far,), what the warnings are made of. `first_number`: of the pair that
+    reaches the start of contact as the run begins.
+    """
+
+    def __init__(self, built: Model, cycle: Cycle, loads: Sequence[VaryingLoad] | None = None, stress: RootStress | None = None):
+        self.built, self.cycle, self.stress = built, cycle, stress
+        self.loads = built.loads if loads is None else loads
+        places = [[pair.place for pair in cycle.pairs_at(index)] for index in range(cycle.steps)]
+        self.first_number = 1 + max((place.index for each in places for place in each), default=0)
+        self.slots = max(pairs_at_once(places), 1)
+        self.size = sizes(built.steps + 1, built.contact_steps, self.slots, cycle.grid.nodes)
+        self.arrays = allocated(stored_arrays(built.scene, self.size), self.size)
+        self.steps = 0
+        self._watched: list[dict[str, np.ndarray]] = []
+        self._waiting: list[Record] = []
+        self._last: Record | None = None
+        self._worked: dict[str, float] = {}
+        self._layouts: dict[int, Layout] = {}
+
+    def take(self, record: Record) -> None:
+        """The next step."""
+        self._waiting.append(record)
+        if len(self._waiting) == AT_ONCE:
+            self._go_over()
+
+    def finish(self) -> None:
+        """After the last step: go over what waits, and bring the contact fields into the order of time."""
+        if self._waiting:
+            self._go_over()
+        stored = self.size["contact_time"]
+        for name, (dims, _) in stored_arrays(self.built.scene, self.size).items():
+            if dims[0] == "contact_time":
+                whole = self.arrays[name]
+                self.arrays[name] = np.roll(whole, -(self.steps % stored), axis=0) if self.steps > stored else whole[: self.steps]
+            else:
+                self.arrays[name] = self.arrays[name][: self.steps]
+
+    @property
+    def watched(self) -> dict[str, np.ndarray]:
+        """What the warnings are made of, of all steps."""
+        names = self._watched[0] if self._watched else ()
+        return {name: np.concatenate([each[name] for each in self._watched]) for name in names}
+
+    def _go_over(self) -> None:
+        records = self._waiting
+        scene, cycle = self.built.scene, self.cycle
+        nodes = SideBySide(cycle, records, self._layouts, self.slots, self.first_number)
+        steps = np.array([record.step for record in records], dtype=float)
+        times = np.array([self.built.clock.time(step) for step in steps])
+        values = {"time": times, "mesh_phase": steps / cycle.steps, "pair_number": nodes.pair_number}
+        values |= self._centres(records) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
+        values |= mesh_curves(scene, cycle, records, self.first_number)
+        energies, worked = self._energies(records)
+        values |= energies
+        for effect in effects_on(scene):
+            if any(variable.dims == ("time",) for variable in effect.variables) and effect.results is not None:
+                values |= {name: of for name, (_, of) in effect.results(getattr(scene, effect.section), scene, cycle, steps).items()}
+        fields = {"contact_time": times, "contact_mesh_phase": values["mesh_phase"], "contact_pair_number": nodes.pair_number}
+        watched = watched_contact(nodes)
+        if scene.resolves_contact:
+            fields |= node_variables(scene, nodes)
+        if self.stress is not None:
+            stresses = root_stress_values(self.stress, nodes)
+            fields["root_stress"] = stresses.pop("root_stress")
+            values |= stresses
+        for effect in effects_on(scene):
+            if effect.watched is not None:
+                watched |= effect.watched(getattr(scene, effect.section), cycle, records)
+        self._keep(values, fields, len(records))
+        # Last of all: a march that is interrupted on the way here goes over these records again.
+        self._watched.append(watched)
+        self._waiting, self._last, self._worked, self.steps = [], records[-1], worked, self.steps + len(records)
+
+    def _keep(self, values: dict[str, np.ndarray], fields: dict[str, np.ndarray], count: int) -> None:
+        stored = self.size["contact_time"]
+        for name, array in self.arrays.items():
+            if name in fields:
+                own = fields[name][-stored:]
+                array[(self.steps + count - len(own) + np.arange(len(own))) % stored] = own
+            else:
+                array[self.steps : self.steps + count] = values[name]
+
+    def _centres(self, records: Sequence[Record]) -> dict[str, np.ndarray]:
+        scene, drivetrain = self.built.scene, self.built.drivetrain
+        states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
+
+        def both(first: str, second: str) -> np.ndarray:
+            return np.stack([drivetrain.value(states, first), drivetrain.value(states, second)], axis=1)
+
+        rotation = both("rotation_1", "rotation_2")
+        ratio = scene.gears.pinion.teeth / scene.gears.wheel.teeth
+        values = {"transmission_error": rotation[:, 1] + ratio * rotation[:, 0], "rotation": rotation}
+        if scene.bearings is not None:
+            values["centre_x"] = both("centre_x1", "centre_x2")
+            values["centre_y"] = both("centre_y1", "centre_y2")
+        if scene.shafts is not None:
+            values["shaft_end_rotation"] = drivetrain.value(states, "shaft_end")
+        return values
+
+    def _energies(self, records: Sequence[Record]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+        """Energies, and work since the first step of all; and the work at the last: the account goes on from the last record before."""
+        built, before = self.built, [] if self._last is None else [self._last]
+        together = [*before, *records]
+        energies = energy_variables(built.scene, built.drivetrain, together)
+        work = work_variables(built.scene, self.cycle, built.drivetrain, built.clock, self.loads, together, energies["energy"])
+        work = {name: value + self._worked.get(name, 0.0) for name, value in work.items()}
+        worked = {name: value[-1] for name, value in work.items()}
+        return {name: value[len(before) :] for name, value in (energies | work).items()}, worked
