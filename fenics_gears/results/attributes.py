@@ -27,6 +27,7 @@ WITH_TEETH = "the teeth are elastic"
 WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
 WITH_FRICTION = "`[friction]`, and teeth that move and press"
 AFTER_LOSS = "contact was lost"
+WITH_INERTIA = "`[inertia]`, and cycles that are alike or `[output] root_stress`"
 WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
@@ -67,11 +68,11 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("contact_loss_longest", "s", "how long the longest lasted", AFTER_LOSS),
     ResultAttribute("contact_loss_share", "1", "share of the run's time without contact", AFTER_LOSS),
     ResultAttribute("contact_loss_opening", "mm", "widest opening between the drive flanks", AFTER_LOSS),
-    ResultAttribute("dynamic_factor_by_force", "1", "largest force of a tooth pair over that of the quasi-static run", WITH_ROOT_STRESS),
-    ResultAttribute("dynamic_factor_by_stress", "1", "largest root stress over that of the quasi-static run", WITH_ROOT_STRESS),
-    ResultAttribute("quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_ROOT_STRESS),
+    ResultAttribute("dynamic_factor_by_force", "1", "dynamic factor: largest force of a tooth pair over that of the quasi-static run", WITH_INERTIA),
+    ResultAttribute("dynamic_factor_by_stress", "1", "the same by root stress", WITH_ROOT_STRESS),
+    ResultAttribute("quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_INERTIA),
     ResultAttribute("quasi_static_root_stress", "MPa", "largest root stress in the quasi-static run", WITH_ROOT_STRESS),
-    ResultAttribute("dynamic_factor_unknown", "", "why there are none of these four, in their place", WITH_ROOT_STRESS),
+    ResultAttribute("dynamic_factor_unknown", "", "why there are none of these four, in their place", "`[inertia]`"),
     ResultAttribute("element", "", "finite element that was used"),
     ResultAttribute("flank_element_size", "mm", "size of the flank's elements that was used"),
     ResultAttribute("contact_length", "mm", "contact length of a tooth pair that was used"),
