@@ -8,11 +8,12 @@ from fenics_gears.contact.ladder import LADDER, PUBLISHED
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
 from fenics_gears.results.key_numbers import HARMONIC_NAMES
-from fenics_gears.results.settled import of_settled
 from fenics_gears.validity import FEWER_THAN_THE_PERIOD, NO_MEANING
 
 MICROMETRES = 1e3
 KILO = 1e3
+# Lengths (um) that are round-off of positions.
+ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
 
 # The stages of a run whose wall time the result carries, and what they are called.
@@ -36,8 +37,8 @@ def summary_rows(dataset) -> list[Row]:
 def result_rows(dataset) -> list[Row]:
     """What came out, the most wanted first; a row is there where the run has its numbers."""
     attributes = dataset.attrs
-    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _pressure)
-    rows = [row for part in parts for row in part(attributes)] + _root_stress(dataset)
+    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _pressure, _root_stress)
+    rows = [row for part in parts for row in part(attributes)]
     return rows + _power(attributes) + _sliding(dataset) + _contact_loss(attributes) + _estimated_error(attributes)
 
 
@@ -46,13 +47,16 @@ def _transmission_error(attributes) -> list[Row]:
     rows = []
     for name, label in (("peak_to_peak_transmission_error", "transmission error, peak to peak"), ("mean_transmission_error", "transmission error, mean")):
         angle = attributes.get(name, math.nan)
-        known = math.isfinite(angle)
-        rows.append((label, f"{angle * attributes['base_radius_wheel'] * MICROMETRES:.4g} um = {angle:.5g} rad" if known else "not determined", ""))
+        length = angle * attributes["base_radius_wheel"] * MICROMETRES
+        known = f"{length:.4g} um = {angle:.5g} rad" if abs(length) > ROUND_OFF else "0 um"
+        rows.append((label, known if math.isfinite(angle) else "not determined", ""))
     return rows
 
 
 def _harmonics(attributes) -> list[Row]:
     found = [attributes[name] for name in HARMONIC_NAMES if name in attributes]
+    if max(found, default=0.0) < ROUND_OFF:
+        return []
     return [(f"harmonics of the mesh, 1 to {len(found)}", ", ".join(f"{each:.3g}" for each in found), "um")] if found else []
 
 
@@ -80,7 +84,7 @@ def _pressure(attributes) -> list[Row]:
         return []
     place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
-    return [("peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+    return [("peak contact pressure, off edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
 
 
 def _power(attributes) -> list[Row]:
@@ -106,7 +110,7 @@ def _contact_loss(attributes) -> list[Row]:
     count = attributes.get("contact_loss_count")
     if not count:
         return []
-    return [("contact lost", f"{count} times, {attributes['contact_loss_share']:.2%} of the time, by up to {attributes['contact_loss_opening'] * MICROMETRES:.3g} um", "")]
+    return [("contact lost", f"{count} time{'s' * (count > 1)}, {attributes['contact_loss_share']:.2%} of the time, by up to {attributes['contact_loss_opening'] * MICROMETRES:.3g} um", "")]
 
 
 def solver_rows(dataset) -> list[Row]:
@@ -123,12 +127,15 @@ def stage_rows(dataset) -> list[Row]:
     return [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
 
 
-def _root_stress(dataset) -> list[Row]:
-    """Largest root stress of either gear, where the scene asks for it."""
-    if "root_stress_maximum" not in dataset or not dataset.sizes["time"]:
-        return []
-    largest = of_settled(dataset)["root_stress_maximum"].max(["time", "slot"]).values
-    return [("largest root stress", f"{largest[0]:.4g} pinion, {largest[1]:.4g} wheel", "MPa")]
+def _root_stress(attributes) -> list[Row]:
+    """Largest root stress of either gear with its place, where the scene asks for it."""
+    rows = []
+    for gear in ("pinion", "wheel"):
+        name = f"largest_root_stress_{gear}"
+        if name in attributes:
+            place = f"at mesh cycle {attributes[f'{name}_mesh_phase']:.6g}, tooth of pair {attributes[f'{name}_pair']}, {attributes[f'{name}_fillet']} side"
+            rows.append((f"largest root stress, {gear}", f"{attributes[name]:.4g} MPa {place}", ""))
+    return rows
 
 
 def _estimated_error(attributes) -> list[Row]:

@@ -22,11 +22,12 @@ class ResultAttribute:
     when: str = ""
 
 
-OF_WHOLE_CYCLES = "at least one whole mesh cycle is stored"
+OF_WHOLE_CYCLES = "a whole mesh cycle was run, at one speed"
 WITH_TEETH = "the teeth are elastic"
 WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
 WITH_FRICTION = "`[friction]`, and teeth that move and press"
 AFTER_LOSS = "contact was lost"
+ASKED_FOR = "`[output] root_stress`"
 WITH_INERTIA = "`[inertia]`, and cycles that are alike or `[output] root_stress`"
 WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
 WITH_TARGET = "`[accuracy] target`"
@@ -73,6 +74,16 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_INERTIA),
     ResultAttribute("quasi_static_root_stress", "MPa", "largest root stress in the quasi-static run", WITH_ROOT_STRESS),
     ResultAttribute("dynamic_factor_unknown", "", "why there are none of these four, in their place", "`[inertia]`"),
+    *(
+        attribute
+        for gear in ("pinion", "wheel")
+        for attribute in (
+            ResultAttribute(f"largest_root_stress_{gear}", "MPa", f"largest tension in the {gear}'s fillets", ASKED_FOR),
+            ResultAttribute(f"largest_root_stress_{gear}_mesh_phase", "1", "mesh phase at which it is", ASKED_FOR),
+            ResultAttribute(f"largest_root_stress_{gear}_pair", "1", "tooth pair to which its tooth belongs", ASKED_FOR),
+            ResultAttribute(f"largest_root_stress_{gear}_fillet", "", "side of the tooth that it is on: `drive` or `coast`", ASKED_FOR),
+        )
+    ),
     ResultAttribute("element", "", "finite element that was used"),
     ResultAttribute("flank_element_size", "mm", "size of the flank's elements that was used"),
     ResultAttribute("contact_length", "mm", "contact length of a tooth pair that was used"),

@@ -19,8 +19,8 @@ HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARM
 # What a study takes of its cases' numbers, of those that they have.
 STUDIED = (
     *HARMONIC_NAMES, "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
-    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure",
-    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
+    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "largest_root_stress_pinion",
+    "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
 )  # fmt: skip
 
 
@@ -28,13 +28,14 @@ def key_numbers(counted: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
     """All that the settled steps of a result have; with the attribute `friction_loss` where there is one."""
     # The last step begins the next cycle.
     settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
-    return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _power(counted)
+    return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _root_stress(settled) | _power(counted)
 
 
 def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
-    """Harmonics of the transmission error as a length at the wheel's base circle, um, of the last whole mesh cycles; nothing of less than one."""
+    """Harmonics of the transmission error as a length at the wheel's base circle, um, of the last whole mesh cycles; nothing of less than one, or on a
+    ramp, where no two cycles are alike."""
     phase = settled["mesh_phase"].values
-    if len(phase) < 2:
+    if len(phase) < 2 or "mesh_frequency" in settled:
         return {}
     a_cycle = round(1.0 / (phase[1] - phase[0]))
     cycles = len(phase) // a_cycle
@@ -89,6 +90,28 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
         "peak_contact_pressure_flank": "coast" if on_coast else "drive",
         "peak_contact_pressure_diameter": 2.0 * float(pair.pinion.radius(float(at["largest_contact_pressure_roll_angle"]))),
     }
+
+
+def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
+    """The largest root stress of either gear, MPa, when it is, at the tooth of which pair and on which side; where it was asked for."""
+    if "root_stress_maximum" not in settled:
+        return {}
+    found: dict[str, float | str] = {}
+    for gear in ("pinion", "wheel"):
+        stress = settled["root_stress_maximum"].sel(gear=gear).transpose("time", "slot").values
+        if not np.nanmax(stress, initial=0.0):
+            continue
+        step, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
+        at = settled.isel(time=step, slot=slot)
+        sides = at["root_stress_at_30_degrees"].sel(gear=gear)
+        name = f"largest_root_stress_{gear}"
+        found |= {
+            name: float(stress[step, slot]),
+            f"{name}_mesh_phase": float(at["mesh_phase"]),
+            f"{name}_pair": int(at["pair_number"]),
+            f"{name}_fillet": str(sides["fillet"].values[int(np.nanargmax(sides.values))]),
+        }
+    return found
 
 
 def _power(counted: xr.Dataset) -> dict[str, float]:
