@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import lcm
+from math import inf, lcm
 
 import numpy as np
 
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
-from fenics_gears.effects import EFFECTS, Effect, result_variables
+from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.effects import effects_on
@@ -142,8 +142,25 @@ def _accuracy_rows(built: Model) -> Rows:
         *(condensation if built.scene.tooth_elasticity is not None else []),
         ("steps per mesh cycle", resolution.steps_per_mesh_cycle, origin(asked.steps_per_mesh_cycle).lstrip(", ")),
         ("time step" if built.scene.speed_ramp is None else "time step, the longest", built.time_step, "s"),
-        ("steps", built.steps, f"the last {built.stored_steps} stored"),
+        ("steps", built.steps, _contact_fields(built)),
+        *_period_rows(built),
     ]
+
+
+def _contact_fields(built: Model) -> str:
+    """Of how many steps contact fields are stored."""
+    if not built.scene.resolves_contact:
+        return "curves of all stored"
+    return f"curves of all stored, contact fields of the last {built.contact_steps}" if built.contact_steps else "curves of all stored, no contact fields"
+
+
+def _period_rows(built: Model) -> Rows:
+    """How many mesh cycles pass until all that differs between them has been gone through."""
+    period, gears = common_period(built.scene), built.scene.gears
+    if period == inf:
+        return [("mesh cycles of the common period", "none", "no two cycles are alike")]
+    whole = period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth)
+    return [("mesh cycles of the common period", period, "every tooth has met every other" if whole else "all cycles are alike" if period == 1 else "")]
 
 
 def _frequency_rows(built: Model) -> Rows:

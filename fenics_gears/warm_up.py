@@ -10,6 +10,7 @@ from fenics_gears.contact.compliance_product import compliance_product
 from fenics_gears.contact.interpolation import flank_interpolation
 from fenics_gears.contact.ladder import StepProblem, solve_step
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
+from fenics_gears.dynamics.contact_work import compile_contact_work
 
 
 def compile_kernels(tangential: bool) -> float:
@@ -37,4 +38,5 @@ def compile_kernels(tangential: bool) -> float:
         tolerance=Tolerance.of_load(1.0),
     )
     solve_step(problem, np.array([SLIP_FORWARD], dtype=np.int8))
+    compile_contact_work()
     return time.perf_counter() - begun

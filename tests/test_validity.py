@@ -103,7 +103,7 @@ def test_losses_are_runs_of_steps_without_contact():
     """By hand: steps 3, 4, 5 and 9 are two losses, of 0.3 and 0.1 s in steps of 0.1 s, four tenths of ten steps."""
     separations = [(3, 1e-3), (4, 3e-3), (5, 2e-3), (9, 1e-4)]
     assert contact_losses(separations) == [ContactLoss(3, 5, 3e-3), ContactLoss(9, 9, 1e-4)]
-    found = loss_attributes(separations, 10, SteadyClock(0.1))
+    found = loss_attributes(separations, 0, 10, SteadyClock(0.1))
     expected = {"count": 2, "first": 0.3, "longest": 0.3, "share": 0.4, "opening": 3e-3}
     assert found == pytest.approx({f"contact_loss_{name}": value for name, value in expected.items()})
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,12 +33,22 @@ class Position:
 
 def pair_places(
     pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False, corner: CornerContact | None = None
-) -> list[Place]:
+) -> tuple[Place, ...]:
     """Every pair of flanks whose window is not empty at `phase` (0 <= phase < 1): drive flanks, then coast flanks if asked for.
 
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips touch by
     their edges too; places are theoretical ones all the same.
     """
+    # Asked for by the reach of teeth, the memory of a result and the cycle itself; edges of tips are no key.
+    return _pair_places(pair, grid, phase, coast_flanks) if corner is None else _places(pair, grid, phase, coast_flanks, corner)
+
+
+@lru_cache(maxsize=4096)
+def _pair_places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool) -> tuple[Place, ...]:
+    return _places(pair, grid, phase, coast_flanks, None)
+
+
+def _places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool, corner: CornerContact | None) -> tuple[Place, ...]:
     half = 0.5 * grid.length
 
     def can_touch(place: Place) -> bool:
@@ -53,7 +64,7 @@ def pair_places(
     candidates = range(-reach, int(np.ceil(pair.contact_ratio)) + reach)
     sides = (drive_place, coast_place) if coast_flanks else (drive_place,)
     places = (side(pair, k, pair.path_start + (phase + k) * pair.base_pitch) for side in sides for k in candidates)
-    return [place for place in places if can_touch(place)]
+    return tuple(place for place in places if can_touch(place))
 
 
 def tooth_span(

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg.lapack import dposv
 
 from fenics_gears.contact.ladder import StepSolution
-from fenics_gears.contact.laws import OPEN
+from fenics_gears.contact.laws import NO_FORCE, OPEN
 from fenics_gears.contact.operator import ContactOperator
 
 
@@ -21,7 +21,7 @@ from fenics_gears.contact.operator import ContactOperator
 class MeshStiffness:
     """Of the flanks, drive or coast, that carry more: `force` N, `deflection` mm, `secant` and `tangent` N/mm, number of `pairs` that carry.
 
-    All are zero where nothing touches.
+    All are zero where nothing presses.
     """
 
     force: float
@@ -40,7 +40,7 @@ def mesh_stiffness(operator: ContactOperator, solution: StepSolution) -> MeshSti
     on_side = drive if 2.0 * forces.dot(drive) >= forces.sum() else ~drive
     nodes = (on_side & (solution.status != OPEN)).nonzero()[0]
     force = float(forces[nodes].sum())
-    if force <= 0.0:
+    if force <= NO_FORCE:
         return NOTHING_TOUCHES
     overlap = operator.rigid[: operator.nodes] @ solution.coordinates - operator.gap
     deflection = _highest(np.where(on_side, overlap, -np.inf), operator.node_pair)

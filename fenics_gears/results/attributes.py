@@ -25,6 +25,8 @@ class ResultAttribute:
 OF_WHOLE_CYCLES = "a whole mesh cycle was run, at one speed"
 WITH_TEETH = "the teeth are elastic"
 WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
+WITH_PRESSURE = "the teeth are elastic, contact is resolved over nodes and some node carries"
+WITH_STEPS = "a step was done"
 WITH_FRICTION = "`[friction]`, and teeth that move and press"
 AFTER_LOSS = "contact was lost"
 ASKED_FOR = "`[output] root_stress`"
@@ -41,8 +43,11 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
     ResultAttribute("stopped", "", "why it is not complete: `interrupted` or `failed`", "`complete` is 0"),
     ResultAttribute("warnings", "", "what to be wary of, a line each"),
-    ResultAttribute("mean_transmission_error", "rad", "mean over the stored steps, the last left out, which begins the next cycle"),
-    ResultAttribute("peak_to_peak_transmission_error", "rad", "largest less smallest over the stored steps"),
+    ResultAttribute("settled_from", "s", "from when on steps are settled, the start having died down: all numbers are of these", WITH_STEPS),
+    ResultAttribute("settled_cycles", "1", "mesh cycles from then to the end", WITH_STEPS),
+    ResultAttribute("shown_cycles", "1", "mesh cycles, the last, that pictures show; all of a ramp"),
+    ResultAttribute("mean_transmission_error", "rad", "mean over the settled steps, the last left out, which begins the next cycle"),
+    ResultAttribute("peak_to_peak_transmission_error", "rad", "largest less smallest over the settled steps"),
     ResultAttribute("base_radius_wheel", "mm", "takes the transmission error to a length along the line of action"),
     *(
         ResultAttribute(f"transmission_error_harmonic_{n}", "um", f"amplitude of {words} mesh frequency in the transmission error, along the line of action", OF_WHOLE_CYCLES)
@@ -54,20 +59,20 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("largest_pair_force", "N", "largest normal force of a tooth pair", "shares of the pairs are determined"),
     ResultAttribute("largest_pair_force_mesh_phase", "1", "mesh phase at which it is", "shares of the pairs are determined"),
     ResultAttribute("peak_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, off the flanks' edges: the largest `largest_contact_pressure`", WITH_CONTACT),
-    ResultAttribute("peak_contact_pressure_time", "s", "time of the peak", WITH_CONTACT),
-    ResultAttribute("peak_contact_pressure_mesh_phase", "1", "mesh phase of the peak", WITH_CONTACT),
-    ResultAttribute("peak_contact_pressure_pair", "1", "tooth pair of the peak", WITH_CONTACT),
-    ResultAttribute("peak_contact_pressure_flank", "", "flanks of the peak: `drive` or `coast`", WITH_CONTACT),
-    ResultAttribute("peak_contact_pressure_diameter", "mm", "diameter of the pinion at the peak", WITH_CONTACT),
+    ResultAttribute("peak_contact_pressure_time", "s", "time of the peak", WITH_PRESSURE),
+    ResultAttribute("peak_contact_pressure_mesh_phase", "1", "mesh phase of the peak", WITH_PRESSURE),
+    ResultAttribute("peak_contact_pressure_pair", "1", "tooth pair of the peak", WITH_PRESSURE),
+    ResultAttribute("peak_contact_pressure_flank", "", "flanks of the peak: `drive` or `coast`", WITH_PRESSURE),
+    ResultAttribute("peak_contact_pressure_diameter", "mm", "diameter of the pinion at the peak", WITH_PRESSURE),
     ResultAttribute("peak_edge_pressure", "MPa", "largest `largest_edge_pressure`; it does not converge with the mesh", "a pair presses with a tip's edge"),
     ResultAttribute("input_power", "W", "mean power of the gear that drives", "the drive does work"),
     ResultAttribute("friction_loss", "1", "share of the drive's work that is lost to friction between the flanks", WITH_FRICTION),
     ResultAttribute("friction_power", "W", "mean power lost to friction between the flanks", WITH_FRICTION),
     ResultAttribute("mesh_efficiency", "1", "1 less `friction_loss`: losses of bearings, oil and damping are not in it", WITH_FRICTION),
-    ResultAttribute("contact_loss_count", "1", "how often the drive flanks lost contact, over the whole run"),
+    ResultAttribute("contact_loss_count", "1", "how often the drive flanks lost contact, over the settled steps"),
     ResultAttribute("contact_loss_first", "s", "time of the first loss", AFTER_LOSS),
     ResultAttribute("contact_loss_longest", "s", "how long the longest lasted", AFTER_LOSS),
-    ResultAttribute("contact_loss_share", "1", "share of the run's time without contact", AFTER_LOSS),
+    ResultAttribute("contact_loss_share", "1", "share of the settled time without contact", AFTER_LOSS),
     ResultAttribute("contact_loss_opening", "mm", "widest opening between the drive flanks", AFTER_LOSS),
     ResultAttribute("dynamic_factor_by_force", "1", "dynamic factor: largest force of a tooth pair over that of the quasi-static run", WITH_INERTIA),
     ResultAttribute("dynamic_factor_by_stress", "1", "the same by root stress", WITH_ROOT_STRESS),

@@ -6,6 +6,8 @@ steps whose contact fields are stored; `contact_node`. A variable that belongs t
 
 from __future__ import annotations
 
+from math import isfinite
+
 import numpy as np
 import xarray as xr
 
@@ -13,7 +15,7 @@ import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
-from fenics_gears.effects import effects_on, result_variables
+from fenics_gears.effects import common_period, effects_on, result_variables
 from fenics_gears.model import Model
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
@@ -124,7 +126,8 @@ def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int
         "fenics_gears_version": fenics_gears.__version__,
         "complete": int(not march.interrupted),
         "steps": march.steps,
-        "shown_cycles": scene.motion.recorded_cycles,
+        # Pictures show the last cycles of a steady run, all of one that never repeats.
+        "shown_cycles": scene.motion.recorded_cycles if isfinite(common_period(scene)) else scene.motion.mesh_cycles,
         "newton_iterations_total": march.newton_iterations,
         "time_march": march.seconds,
     }

@@ -16,7 +16,7 @@ from fenics_gears.effects import effects_on
 from fenics_gears.model import Model
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
-from fenics_gears.results.mesh_curves import mesh_curves
+from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
 from fenics_gears.results.root_stress_variables import RootStress, root_stress_values
 from fenics_gears.results.side_by_side import Layout, SideBySide
 from fenics_gears.storage import allocated, sizes, stored_arrays
@@ -79,7 +79,8 @@ class Recorder:
         times = np.array([self.built.clock.time(step) for step in steps])
         values = {"time": times, "mesh_phase": steps / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(records) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
-        values |= mesh_curves(scene, cycle, records, self.first_number)
+        if scene.tooth_elasticity is not None:
+            values |= stiffness_curves(nodes)
         energies, worked = self._energies(records)
         values |= energies
         for effect in effects_on(scene):
@@ -89,6 +90,7 @@ class Recorder:
         watched = watched_contact(nodes)
         if scene.resolves_contact:
             fields |= node_variables(scene, nodes)
+            values |= pressure_curves(nodes, fields)
         if self.stress is not None:
             stresses = root_stress_values(self.stress, nodes)
             fields["root_stress"] = stresses.pop("root_stress")

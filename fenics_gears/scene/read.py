@@ -79,9 +79,9 @@ def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
         title=checked.title or name,
         gears=_gears(checked.gears),
         load=same_names(data.Load, checked.load),
-        motion=_motion(checked.motion, checked.gears, ramped=checked.speed_ramp is not None),
+        motion=_motion(checked.motion, checked.output.contact_fields, checked.gears, ramped=checked.speed_ramp is not None),
         accuracy=same_names(data.Accuracy, checked.accuracy),
-        output=same_names(data.Output, checked.output),
+        output=data.Output(checked.output.root_stress, contact_fields=checked.output.contact_fields is not False),
         text=text,
         name=name,
         **{effect.section: effect.from_text(getattr(checked, effect.section), directory) for effect in top_level()},
@@ -100,16 +100,19 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     )
 
 
-def _motion(motion: schema.Motion, gears: schema.Gears, ramped: bool) -> data.Motion:
+def _motion(motion: schema.Motion, contact_fields: bool | int | None, gears: schema.Gears, ramped: bool) -> data.Motion:
     """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth.
 
-    Where it is not said how many cycles are recorded: the last two, of a speed ramp or of a whole hunting tooth period all that fit.
+    Where it is not said how many cycles are recorded: the last two, of a speed ramp or of a whole hunting tooth period all.
     """
     frequency = motion.mesh_frequency
     if frequency is None:
         frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
     whole_period = math.lcm(gears.pinion.teeth, gears.wheel.teeth)
     cycles = motion.mesh_cycles or whole_period
+    if contact_fields:
+        # True is no number of cycles, though Python has it as one.
+        return data.Motion(frequency, cycles, cycles if contact_fields is True else contact_fields)
     if "recorded_cycles" in motion.model_fields_set:
         return data.Motion(frequency, cycles, motion.recorded_cycles or whole_period)
     if ramped or motion.mesh_cycles is None:

@@ -5,6 +5,7 @@ The rules read the parsed TOML file, so that they speak even where some field is
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from math import inf, lcm
 
@@ -60,6 +61,17 @@ def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
         count = "" if motion["recorded_cycles"] == recorded else f"({recorded} mesh cycles) "
         message = f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as are run."
         yield Problem(("motion", "recorded_cycles"), as_written(motion["recorded_cycles"]), message)
+
+
+def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Iterator[Problem]:
+    written, motion = (table(tree, "output") or {}).get("contact_fields"), table(tree, "motion") or {}
+    place = ("output", "contact_fields")
+    if written is not None and "recorded_cycles" in motion:
+        yield Problem(place, as_written(written), "stands beside motion.recorded_cycles, which says the same in another way. Leave one of the two out.")
+    asked, run = re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None, _cycles(tree, motion.get("mesh_cycles"))
+    if asked and type(run) is int and int(asked[1]) > run > 0:
+        message = f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as are run, or true."
+        yield Problem(place, as_written(written), message)
 
 
 def _cycles(tree: Tree, written) -> object:
@@ -168,6 +180,7 @@ _RULES = (
     _effects_fit_together,
     _one_speed,
     _recorded_cycles_are_run,
+    _contact_fields_are_of_cycles_that_run,
     _resolution_fits_the_teeth,
     _body_is_no_finer_than_the_flank,
     _remeshing_has_its_own_nodes,

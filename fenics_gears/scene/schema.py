@@ -5,14 +5,16 @@ Ranges are generous: what is physically possible is allowed. Whether teeth and d
 
 from __future__ import annotations
 
-from typing import Literal, Optional
+import re
+from typing import Any, Literal, Optional, Union
 
-from pydantic import create_model
+from pydantic import Field, create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-from fenics_gears.scene.fields import Section, choice, number, percentage, quantity, switch, text, whole_number
+from fenics_gears.scene.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
+from fenics_gears.scene.written import as_written
 
 
 def _diameter(example: str, meaning: str):
@@ -72,8 +74,8 @@ class Motion(Section):
         1,
         1_000_000,
         2,
-        meaning="how many of them, the last, are stored",
-        otherwise="2; all of them with `[speed_ramp]`, or where `\"hunting tooth period\"` are run, unless the result would be larger than 1 GB",
+        meaning="of how many of them, the last, contact fields are stored and pictures show; curves and numbers are of all",
+        otherwise="2; all of them with `[speed_ramp]`, or where `\"hunting tooth period\"` are run, contact fields of as many as 1 GB holds",
         words=WHOLE_PERIOD,
     )
 
@@ -163,11 +165,36 @@ class Accuracy(Section):
     )
 
 
+_LAST_CYCLES = re.compile(r"last ([1-9]\d{0,6}) cycles?")
+
+
+class AllowedContactFields(Allowed):
+    """True, false or "last N cycles"."""
+
+    def convert(self, value: Any) -> bool | int:
+        """A number of cycles for the text. Raises PydanticCustomError for anything else."""
+        found = _LAST_CYCLES.fullmatch(value) if isinstance(value, str) else None
+        if found is None and not isinstance(value, bool):
+            raise refused(f"is {as_written(value)}.")
+        return value if found is None else int(found[1])
+
+
 class Output(Section):
     """``[output]``: results that cost something of their own."""
 
     root_stress: bool = switch(
         meaning="stress along the fillets of the loaded teeth over time, and dynamic factors by force and by stress; see [stress](stress.md)"
+    )
+    contact_fields: Optional[Union[bool, int]] = Field(
+        None,
+        json_schema_extra={
+            "allowed": AllowedContactFields(
+                'true, false, or "last N cycles", such as "last 3 cycles"',
+                meaning="at which steps pressure, traction and place of every contact node are stored: at all, at none, or in the last mesh cycles of "
+                "the run; pictures of stresses and of the pressure over the flank need them. It stands in place of `motion.recorded_cycles`",
+                otherwise="in the last `motion.recorded_cycles`",
+            )
+        },
     )
 
 

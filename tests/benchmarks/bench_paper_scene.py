@@ -33,7 +33,7 @@ def compliances(built):
 def marched(built, compliances):
     """All 3000 steps, the contact operators of the mesh cycle included."""
     cycle = mesh_cycle(built, compliances)
-    return Marcher(cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient).run(built.steps, built.stored_steps)
+    return Marcher(cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient).run(built.steps, built.contact_steps)
 
 
 def test_mesh_and_condense_both_gears(benchmark, built):

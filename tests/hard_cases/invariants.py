@@ -12,6 +12,7 @@ from fenics_gears.contact.operator import rigid_rows
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model import Model
 from fenics_gears.results import dataset
+from fenics_gears.results.recorder import Recorder
 from fenics_gears.simulation import Compliances, mesh_cycle, rigid_cycle
 
 
@@ -40,11 +41,12 @@ def run_of(built: Model, compliances: Compliances | None) -> Run:
     without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
     friction = built.scene.friction.coefficient if built.scene.friction else 0.0
     marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace, built.clock, built.loads)
+    recorder = Recorder(built, cycle)
     try:
-        march, failure = marcher.run(built.steps, built.steps + 1), None
+        march, failure = marcher.run(built.steps, built.steps + 1, observe=recorder.take), None
     except ContactNotConverged as failed:
         march, failure = failed.partial, failed
-    result = dataset(built.scene, cycle, built.drivetrain, march, built.clock, built.loads)
+    result = dataset(recorder, march)
     for name, variable in result.data_vars.items():
         assert np.all(np.isfinite(variable)) or name.endswith(without_number), name
     return Run(built, marcher, list(march.records), failure)

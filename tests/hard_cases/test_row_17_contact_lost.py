@@ -14,6 +14,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.results import dataset
+from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.curves import load_sharing
 from fenics_gears.simulation import gear_compliances, mesh_cycle, prepared, simulate
@@ -37,7 +38,8 @@ def with_torque(scene, part):
     _, cycle = prepared(built, SilentProgress(), user_cache())
     change = (lambda step: (part(step) - 1.0) * built.drivetrain.load,)
     marcher = Marcher(cycle, built.drivetrain, built.time_step, 0.0, built.pace, built.clock, change)
-    return dataset(scene, cycle, built.drivetrain, marcher.run(built.steps, built.stored_steps), built.clock, change)
+    recorder = Recorder(built, cycle, loads=change)
+    return dataset(recorder, marcher.run(built.steps, 1, observe=recorder.take))
 
 
 @pytest.mark.parametrize("absent", [("shafts", "bearings"), ()], ids=["teeth alone", "whole drivetrain"])

@@ -132,7 +132,7 @@ def test_of_cycles_that_a_result_cannot_hold_the_last_two_are_recorded():
     """Authority: the same; the run says so. So many that are asked for by number are refused."""
     text = DEMO.replace("mesh_cycles = 30 ", "mesh_cycles = 3000 ") + RAMP
     built = model(scene_from_text(text.replace("recorded_cycles = 2\n", "")))
-    assert built.scene.motion.recorded_cycles == 2 and built.stored_steps == 2 * built.resolution.steps_per_mesh_cycle + 1
+    assert built.contact_steps == built.contact_cycles * built.resolution.steps_per_mesh_cycle + 1
     assert "only the last 2 of 3000 mesh cycles" in built.warnings[0]
     assert not any("only the last" in words for words in model(scene_from_text(text)).warnings)
     with pytest.raises(SceneError, match="the result would hold"):

@@ -35,7 +35,7 @@ def test_two_to_three_pairs_carry(result):
 
 def test_pairs_share_the_whole_load(result):
     """Equilibrium: the pairs' forces sum to T/rb2."""
-    assert result.pair_normal_force.sum("pair").values == pytest.approx(300.0 * 15.0, rel=1e-9)
+    assert result.pair_normal_force.sum("slot").values == pytest.approx(300.0 * 15.0, rel=1e-9)
 
 
 def test_error_is_continuous_and_varies_less_than_that_of_the_papers_pair(result):

@@ -129,7 +129,7 @@ class Point:
         marcher = Marcher(
             cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient, built.pace, built.clock, built.loads,
         )  # fmt: skip
-        return marcher.run(built.steps, built.stored_steps)
+        return marcher.run(built.steps, built.contact_steps)
 
 
 def _bytes_of_cycle(cycle) -> int:

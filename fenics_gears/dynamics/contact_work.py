@@ -1,0 +1,134 @@
+"""Work of the contact over one step, split without remainder as `dynamics.energy_account` says; compiled, since every step asks for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from fenics_gears.dynamics.march import Record
+
+NONE, NO_ROWS = np.empty(0), np.empty((0, 0))
+
+
+@dataclass(frozen=True)
+class ContactWork:
+    """Work of the contact over one step, N mm: `rotation` done by the prescribed rotation, `friction` lost, `changes` of the algorithm."""
+
+    rotation: float
+    friction: float
+    changes: float
+
+
+def contact_work(last: Record, record: Record) -> ContactWork:
+    """The contact's work between two consecutive records."""
+    before, now, frictional = last.position.operator, record.position.operator, record.position.operator.sliding is not None
+    ends = (
+        (each.gap, each.rigid, np.ascontiguousarray(each.compliance), of.solution.forces, of.solution.displacement, of.state.position)
+        for each, of in ((before, last), (now, record))
+    )
+    slid = (now.sliding, now.previous_rigid, now.previous_compliance) if frictional else (NONE, NO_ROWS, NO_ROWS)
+    return ContactWork(*_work(record.position.carried_from, *next(ends), *next(ends), *(np.ascontiguousarray(each) for each in slid)))
+
+
+def compile_contact_work() -> None:
+    """Compile the work of a step, or load it from disk: that of one open contact node."""
+    node, row, square = np.zeros(1), np.zeros((1, 1)), np.zeros((1, 1))
+    end = (node, row, square, node, node, node)
+    _work(np.zeros(1, dtype=np.int64), *end, *end, NONE, NO_ROWS, NO_ROWS)
+
+
+@njit(cache=True)
+def _work(
+    carried, gap_0, rigid_0, compliance_0, forces_0, displaced_0, x_0, gap_1, rigid_1, compliance_1, forces_1, displaced_1, x_1,
+    sliding, previous_rigid, previous_compliance,
+):  # fmt: skip
+    """Rotation, friction and changes, N mm. `carried` (n,): the node before of each node now, -1 where it is new.
+
+    Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
+    """
+    n_0, n_1, kinds = len(gap_0), len(gap_1), 2 if len(sliding) else 1
+    successor, fresh = np.full(n_0, -1), np.ones(n_1, dtype=np.bool_)
+    for node in range(n_1):
+        if carried[node] >= 0:
+            successor[carried[node]] = node
+    for node in successor:
+        if node >= 0:
+            fresh[node] = False
+    # Rows now and before of what both ends have, and the forces there.
+    rows_0, rows_1 = np.empty(kinds * n_0, dtype=np.int64), np.empty(kinds * n_0, dtype=np.int64)
+    kept = 0
+    for kind in range(kinds):
+        for node in range(n_0):
+            if successor[node] >= 0:
+                rows_0[kept], rows_1[kept] = kind * n_0 + node, kind * n_1 + successor[node]
+                kept += 1
+    rows_0, rows_1 = rows_0[:kept], rows_1[:kept]
+    rotation, changes, friction = _by_shape(rows_0, rows_1, rigid_0, compliance_0, forces_0, x_0, rigid_1, compliance_1, forces_1, x_1), 0.0, 0.0
+    for node in range(n_0):
+        p_0, after = forces_0[node], successor[node]
+        if after >= 0:
+            p_1 = forces_1[after]
+            rotation -= 0.5 * (p_0 + p_1) * (gap_1[after] - gap_0[node])
+            changes += 0.5 * (p_0 * (gap_1[after] - displaced_1[after]) - p_1 * (gap_0[node] - displaced_0[node]))
+        elif p_0 != 0.0:
+            changes += 0.5 * p_0 * (gap_0[node] - _at_other(node, rigid_0, compliance_0, x_1, rows_0, rows_1, forces_1))
+        if after < 0 and kinds == 2 and forces_0[n_0 + node] != 0.0:
+            there = _at_other(n_0 + node, rigid_0, compliance_0, x_1, rows_0, rows_1, forces_1)
+            changes -= 0.5 * forces_0[n_0 + node] * (there - displaced_0[n_0 + node])
+    for node in range(n_1):
+        if fresh[node] and forces_1[node] != 0.0:
+            changes -= 0.5 * forces_1[node] * (gap_1[node] - _at_other(node, rigid_1, compliance_1, x_0, rows_1, rows_0, forces_0))
+        if kinds == 1:
+            continue
+        # `slid`: by the nominal motion and what the same points were displaced by before; `moved`: as now the node would have been.
+        before = carried[node] if not fresh[node] else -1
+        p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
+        if p_0 == 0.0 and p_1 == 0.0:
+            continue
+        slid = sliding[node] - previous_rigid[node] @ x_0
+        for column in range(len(forces_0)):
+            if forces_0[column] != 0.0:
+                slid += previous_compliance[node, column] * forces_0[column]
+        if before >= 0:
+            moved = displaced_0[n_0 + before]
+        else:
+            moved = _at_other(n_1 + node, rigid_1, compliance_1, x_0, rows_1, rows_0, forces_0)
+        slip = displaced_1[n_1 + node] + slid
+        rotation += 0.5 * (p_0 + p_1) * (slid + moved)
+        friction += p_1 * slip
+        changes += 0.5 * (p_1 - p_0) * slip
+    return rotation, friction, changes
+
+
+@njit(cache=True)
+def _by_shape(rows_0, rows_1, rigid_0, compliance_0, forces_0, x_0, rigid_1, compliance_1, forces_1, x_1):
+    """Half of p0 (G1 - G0) x1 + p1 (G1 - G0) x0 - p0 (C1 - C0) p1 over the rows of both ends, N mm."""
+    work = 0.0
+    for row in range(len(rows_0)):
+        i_0, i_1 = rows_0[row], rows_1[row]
+        p_0, p_1 = forces_0[i_0], forces_1[i_1]
+        if p_0 == 0.0 and p_1 == 0.0:
+            continue
+        for k in range(len(x_0)):
+            work += (rigid_1[i_1, k] - rigid_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
+        if p_0 != 0.0:
+            for column in range(len(rows_0)):
+                other = forces_1[rows_1[column]]
+                if other != 0.0:
+                    work -= p_0 * (compliance_1[i_1, rows_1[column]] - compliance_0[i_0, rows_0[column]]) * other
+    return 0.5 * work
+
+
+@njit(cache=True)
+def _at_other(row, rigid, compliance, x, rows, other_rows, forces):
+    """Displacement G x - C p (mm) that a row of one end would have at the other: `rows` here are `other_rows` there, with its `forces`."""
+    found = 0.0
+    for k in range(len(x)):
+        found += rigid[row, k] * x[k]
+    for column in range(len(rows)):
+        force = forces[other_rows[column]]
+        if force != 0.0:
+            found -= compliance[row, rows[column]] * force
+    return found
