@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth_alone
 
+from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
 from fenics_gears.model import model
 from fenics_gears.resolution import plane_contact_modulus
@@ -84,6 +85,23 @@ def test_efficiency_by_the_energy_account(paper_scene):
     assert attributes["mesh_efficiency"] == pytest.approx(came_out / work["work_input"], rel=1e-9)
     assert attributes["friction_power"] == pytest.approx(1e-3 * work["work_friction"] / seconds, rel=1e-9)
     assert attributes["friction_power"] == pytest.approx((1.0 - attributes["mesh_efficiency"]) * attributes["input_power"], rel=1e-9)
+
+
+def test_dynamic_factor_without_root_stress(paper_scene):
+    """Definition: the largest force of a tooth pair over that of a run of the same scene without inertia, which has none itself."""
+    scene = coarse_scene(paper_scene, cycles=4)
+    moving, still = simulate(scene), simulate(quasi_static(scene))
+    assert moving.attrs["quasi_static_pair_normal_force"] == pytest.approx(still.attrs["largest_pair_force"], rel=1e-6)
+    ratio = moving.attrs["largest_pair_force"] / still.attrs["largest_pair_force"]
+    assert moving.attrs["dynamic_factor_by_force"] == pytest.approx(ratio, rel=1e-6) and ratio > 1.01
+    assert not [name for name in still.attrs if "dynamic" in name or "quasi_static" in name]
+
+
+def test_cycles_that_differ_are_not_run_twice_unasked(paper_scene):
+    """Definition: with torque ripple a quasi-static march as long as the run's own is left out, and the result says why."""
+    scene = replace(coarse_scene(paper_scene), torque_ripple=TorqueRipple((Harmonic(1, 1e4, 0.0),)))
+    attributes = simulate(scene).attrs
+    assert "mesh cycles differ" in attributes["dynamic_factor_unknown"] and "dynamic_factor_by_force" not in attributes
 
 
 def test_load_shares_at_the_contact_points(static):
