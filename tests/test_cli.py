@@ -175,12 +175,12 @@ def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_pat
 
 
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
-    """Authority: design.md; a run without a recorded step is kept, marked incomplete, and not summed up as if it had some."""
+    """Authority: design.md; a run without a step is kept, marked incomplete, and not summed up as if it had some."""
     simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     output = capsys.readouterr()
     assert "Newton" not in output.out
-    assert "marked incomplete: here/run.nc, none of the recorded steps" in output.err
+    assert "marked incomplete: here/run.nc, none of the run's steps" in output.err
 
 
 @pytest.mark.parametrize("partial", [True, False])

@@ -16,6 +16,7 @@ from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_gear_mesh
 from fenics_gears.model import model
+from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Scene
 from fenics_gears.show.spectrum import OrderLines, order_lines
 
@@ -71,13 +72,14 @@ def turn(scene: Scene, depth: float) -> Turn:
 
 
 def _turn(result: xr.Dataset, depth: float) -> Turn:
-    radius = result.attrs["base_radius_wheel"]
+    radius, force = result.attrs["base_radius_wheel"], by_pair(result.pair_normal_force, absent=0.0)
     return Turn(
         depth=depth,
         phase=result.mesh_phase.values,
         error=1e3 * radius * result.transmission_error.values,
-        pairs=result.pair.values,
-        pair_force=result.pair_normal_force.values.T,
+        # Counted from the pair that reaches the start of contact with mesh cycle 0.
+        pairs=force.pair.values - result.pair_number.attrs["number_at_phase_0"],
+        pair_force=force.values.T,
         load=float(result.normal_force.values.mean()),
     )
 

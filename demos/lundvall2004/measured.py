@@ -51,9 +51,9 @@ class Measured:
         return self.sweep(*(f"{reading}figure{figure}_{band}" for band in bands))
 
     def run(self, name: str, **where) -> xr.Dataset:
-        """The run of one case: run("figure04", friction="present")."""
+        """The last cycles of the run of one case: run("figure04", friction="present")."""
         case = self.study(name).case_file.sel(where)
-        return results.load(self.directory / name / str(case.item()))
+        return results.shown(results.load(self.directory / name / str(case.item())))
 
 
 def peak_to_peak(dataset: xr.Dataset, friction: str) -> np.ndarray:

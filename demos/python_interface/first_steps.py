@@ -20,6 +20,7 @@ PICTURES = CHECKOUT / "results" / "python_interface"
 PICTURES.mkdir(parents=True, exist_ok=True)
 
 from fenics_gears import load_scene, simulate
+from fenics_gears.results import by_pair, shown
 
 # %% [markdown]
 # ## A scene
@@ -57,8 +58,8 @@ radius = result.attrs["base_radius_wheel"]  # mm
 
 
 def micrometres(run: xr.Dataset) -> xr.DataArray:
-    """Transmission error on the wheel's base circle over mesh cycles, um."""
-    error = run["transmission_error"].swap_dims(time="mesh_phase") * radius * 1e3
+    """Transmission error on the wheel's base circle over the last mesh cycles, which pictures show, um."""
+    error = shown(run)["transmission_error"].swap_dims(time="mesh_phase") * radius * 1e3
     return error.assign_attrs(long_name="transmission error", units="µm")
 
 
@@ -80,7 +81,8 @@ with_friction.plot(ax=above, label="μ = 0.1")
 micrometres(frictionless).plot(ax=above, label="μ = 0", linestyle="--")
 above.set(title="The paper's pair at 200 Hz", xlabel="", ylabel="Transmission error (µm)")
 above.legend()
-force = result["pair_normal_force"].swap_dims(time="mesh_phase") / 1e3
+# A pair keeps one of a few slots while it is in reach; `by_pair` gives each its own curve.
+force = by_pair(shown(result)["pair_normal_force"]).swap_dims(time="mesh_phase") / 1e3
 force.where(force > 0.0).plot.line(ax=below, x="mesh_phase", hue="pair")
 below.set(xlabel="Time (mesh cycles)", ylabel="Force of a tooth pair (kN)", xlim=(28, 30), ylim=(0, None))
 below.get_legend().set_title("tooth pair")
@@ -130,7 +132,7 @@ print(f"peak to peak with tip relief: {np.ptp(micrometres(relieved).values):.1f}
 # %%
 def mesh_orders(run: xr.Dataset, highest: int = 6) -> np.ndarray:
     """Amplitudes (highest,) of the first mesh orders, um."""
-    cycles = run.sizes["time"] // int(run.attrs["steps_per_mesh_cycle"])
+    cycles = micrometres(run).size // int(run.attrs["steps_per_mesh_cycle"])
     error = micrometres(run).values[:-1]  # the last step is the first of the next cycle
     return 2.0 * np.abs(np.fft.rfft(error))[cycles : highest * cycles + 1 : cycles] / len(error)
 

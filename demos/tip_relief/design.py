@@ -14,6 +14,7 @@ from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model import model
+from fenics_gears.results import shown
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
 from fenics_gears.studies.workshop import Workshop
 
@@ -76,7 +77,7 @@ class Bench:
 
     def error(self, design: Design | None, load: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Time (n,) in mesh cycles, and transmission error (n,) in um on the wheel's base circle, load included."""
-        result = self.run(design, load)
+        result = shown(self.run(design, load))
         return result["mesh_phase"].values, result["transmission_error"].values * self.pair.wheel.base_radius * MICROMETRES
 
     def peak_to_peak(self, design: Design | None, load: float = 1.0) -> float:

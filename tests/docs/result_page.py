@@ -31,16 +31,26 @@ exist are not a number: places of contact nodes that a pair does not have, share
 * `load.wheel_torque` and `wheel_couple` are torques of the load on the wheel's shaft: positive where they resist the drive, that is in the pinion's sense of rotation.
 * Normal forces and pressures are positive in compression. Friction on the pinion acts along -y where it is positive. Sliding is that of the pinion's flank over the wheel's, positive towards the pinion's tip:
   negative before the pitch point, positive after it.
-* Work and power are positive from the pinion to the wheel; where the wheel drives, `work_input` and `work_output` are negative.
+* Work is positive from the pinion to the wheel; where the wheel drives, `work_input` and `work_output` are negative. `input_power` is that of the gear that drives, and positive.
 
 At whole numbers of `mesh_phase` a new pair reaches the theoretical start of contact; with bearings and teeth that give way it touches before.
 
 This page is written by `python -m tests.docs.write`, from `fenics_gears/effects`, `fenics_gears/results/attributes.py` and a run with every effect; a test says when it is out of date.
 """
+PAIRS = """Curves are of all steps. `pair_number` says which tooth pair a slot holds: pairs are numbered from 1 on in the order in which they enter, 0 is none; a pair's number
+less the attribute `number_at_phase_0` of `pair_number` is the mesh phase at which it reaches the theoretical start of contact. `by_pair(result["pair_normal_force"])` of
+`fenics_gears.results` gives each pair its own curve, over `pair` in place of `slot`, `shown(result)` the last cycles, which pictures show
+([in Python](python.md#tooth-pairs)). Files of earlier versions are read as results are now.
+
+All numbers among the attributes are of the settled steps, whatever contact fields are stored: of all steps from `settled_from` on, when the slowest vibration that the start sets off has
+fallen to 1 %; without inertia of all. Where cycles are not alike these are whole common periods: as many mesh cycles as pass until every deviation has met every other.
+The last common period counts in any case, where all cycles are alike the last `recorded_cycles`; `warnings` say what of the start is left then, and where fewer cycles were run than the common period has.
+"""
 DIMENSIONS = {
-    "time": "the stored steps",
+    "time": "all steps that were marched, the first being step 0",
+    "contact_time": "those of them, the last, whose contact fields are stored (`[output] contact_fields`)",
     "gear": '"pinion", "wheel"',
-    "pair": "tooth pairs, counted through the run: pair n reaches the theoretical start of contact at mesh phase n",
+    "slot": "places for the tooth pairs that can touch at once; a pair keeps its own as long as it is in reach, `pair_number` says which is there",
     "contact_point": "points of the path of contact: A start, B and D ends of contact by the fewest pairs, C pitch point, E end",
     "contact_node": "contact nodes of a pair, in the order of their offset",
     "pinion_tooth": "teeth of the pinion, in the order in which they mesh",
@@ -64,7 +74,7 @@ def page(result: xr.Dataset | None = None) -> str:
     """The whole page; `result`: that of `run_with_everything` where it is at hand."""
     result = run_with_everything() if result is None else result
     lines = [HEADING, "## Dimensions and coordinates", "", *_dimensions(result), "", *_coordinates(result), ""]
-    lines += ["## Variables of every run", "", *_variables(result, COMMON_VARIABLES), ""]
+    lines += [PAIRS, "## Variables of every run", "", *_variables(result, COMMON_VARIABLES), ""]
     lines += ["## Variables of effects", ""]
     for each in EFFECTS:
         if each.variables:

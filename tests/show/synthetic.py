@@ -3,6 +3,8 @@
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.old_layout import upgraded
+
 UNITS = {
     "transmission_error": "rad",
     "centre_y": "mm",
@@ -17,7 +19,8 @@ BARE = ("centre_y", "friction_force")
 
 
 def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.Dataset:
-    """Every variable that a picture shows, over `cycles` mesh cycles that begin with cycle 28; three tooth pairs a cycle wide and more."""
+    """Every variable that a picture shows, over `cycles` mesh cycles that begin with cycle 28; three tooth pairs a cycle wide
+    and more, in slots as those of any result."""
     phase = 28.0 + np.linspace(0.0, cycles, steps)
     wave = np.sin(2 * np.pi * phase)
     pairs = np.arange(27, 29 + int(cycles))
@@ -40,4 +43,4 @@ def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.
     coordinates = {"time": phase / 200.0, "mesh_phase": ("time", phase), "gear": ["pinion", "wheel"], "pair": pairs}
     given = {"title": "A made-up run", "scene": scene, "complete": 1, "base_radius_wheel": 50.0}
     given["peak_to_peak_transmission_error"] = float(np.ptp(values["transmission_error"][1]))
-    return xr.Dataset(variables, coordinates, given | attributes)
+    return upgraded(xr.Dataset(variables, coordinates, given | attributes))

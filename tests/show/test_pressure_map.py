@@ -22,7 +22,7 @@ def test_every_node_under_pressure_is_a_cell_around_it():
     pressure = run["contact_pressure"].values
     step, pair, node = np.nonzero(pressure > 0)
     np.testing.assert_array_equal(cells.pressure, pressure[step, pair, node])
-    np.testing.assert_array_equal(cells.pair, run["pair"].values[pair])
+    np.testing.assert_array_equal(cells.pair, run["contact_pair_number"].values[step, pair])
     roll = np.degrees(run["contact_roll_angle"].values)[step, pair, node]
     phase = run["mesh_phase"].values[step]
     for axis, place in ((0, phase), (1, roll)):

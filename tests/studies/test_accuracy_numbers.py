@@ -181,8 +181,9 @@ def run(steps, amplitude=1.0, nodes=41, first_pair=0):
     data = {
         "transmission_error": ("time", error), "mesh_phase": ("time", phase), "normal_force": ("time", np.full(len(phase), 100.0)),
         "energy_teeth": ("time", np.full(len(phase), 2.0)), "work_input": ("time", 50.0 * phase), "energy_defect": ("time", 0.1 * phase),
-        "contact_pressure": (("time", "pair", "contact_node"), pressure), "contact_offset": (("time", "pair", "contact_node"), offsets),
-        "pair": ("pair", np.array([first_pair, first_pair + 1])),
+        "contact_pressure": (("contact_time", "slot", "contact_node"), pressure), "contact_offset": (("contact_time", "slot", "contact_node"), offsets),
+        "contact_mesh_phase": ("contact_time", phase),
+        "contact_pair_number": (("contact_time", "slot"), np.tile([first_pair + 1, first_pair + 2], (len(phase), 1)), {"number_at_phase_0": 1}),
     }  # fmt: skip
     attributes = {
         "peak_to_peak_transmission_error": float(np.ptp(error)), "base_radius_wheel": 50.0, "peak_contact_pressure": 100.0 * amplitude,

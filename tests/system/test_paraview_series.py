@@ -10,6 +10,7 @@ import pytest
 
 from fenics_gears import results
 from fenics_gears.cli import main
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.run_stresses import RunStresses
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.stress_animation import frame_steps
@@ -106,12 +107,13 @@ def test_points_are_the_same_material_points_through_both_cycles(run, series):
 
 def test_tooth_is_the_pair_that_loads_it(run, series):
     """Teeth have the numbers of their tooth pairs: the loaded pairs' teeth, and no others, have flanks under pressure."""
-    result = results.load(run[0] / "run.nc")
+    result = contact_times(results.load(run[0] / "run.nc"))
+    first = result["contact_pair_number"].attrs["number_at_phase_0"]
     for place, step in enumerate(frame_steps(result)):
         file = series.with_name(f"turn_{place:04d}.vtu")
         gear, tooth, stress = (array(file, name)[:, 0] for name in ("gear", "tooth", "von_mises_stress"))
         force = result.pair_normal_force.isel(time=step)
-        loaded = {int(pair) for pair in force.pair[np.nan_to_num(force.values) > 0.15 * float(np.nansum(force))]}
+        loaded = {int(pair) - first for pair in force.pair_number.values[np.nan_to_num(force.values) > 0.15 * float(np.nansum(force))]}
         for number, teeth in ((1, 16), (2, 24)):
             largest = [stress[(gear == number) & (tooth == each)].max() for each in range(teeth)]
             assert {int(each) for each in np.argsort(largest)[-len(loaded) :]} == {pair % teeth for pair in loaded}
