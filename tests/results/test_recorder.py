@@ -1,0 +1,151 @@
+"""What a march leaves: pairs in slots, curves of all steps, contact fields of the last, memory as it was counted."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.dynamics.contact_work_by_numpy import contact_work as by_numpy
+
+from fenics_gears import results
+from fenics_gears.dynamics.contact_work import contact_work
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.speed_ramp import SpeedRamp
+from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.errors import SceneError
+from fenics_gears.model import model
+from fenics_gears.progress import SilentProgress
+from fenics_gears.results.energy_variables import energy_variables, work_variables
+from fenics_gears.results.pairs import contact_times, lives
+from fenics_gears.results.recorder import AT_ONCE, Recorder
+from fenics_gears.scene.data import Motion, Output
+from fenics_gears.simulation import prepared, simulate
+
+FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_roll_angle")
+
+
+@pytest.fixture(scope="module")
+def marched(paper_scene):
+    """A run of four mesh cycles, more steps than are gone over at once, with all of its records."""
+    built = model(replace(coarse_scene(paper_scene), coast_flanks=CoastFlanks(), motion=Motion(200.0, 4, 2)))
+    _, cycle = prepared(built, SilentProgress(), user_cache())
+    recorder = Recorder(built, cycle)
+    marcher = Marcher(cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient, built.pace, built.clock)
+    march = marcher.run(built.steps, built.steps + 1, observe=recorder.take)
+    assert built.steps > AT_ONCE
+    return built, cycle, march.records, results.dataset(recorder, march)
+
+
+def in_old_layout(built, cycle, records) -> xr.Dataset:
+    """A result as versions before slots had it, by pair counted through the run, written out of the records one by one: brute force."""
+    numbers = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
+    shape = (len(records), len(numbers), cycle.grid.nodes)
+    fields = {name: np.full(shape, np.nan if name.endswith(("offset", "angle")) else 0.0) for name in FIELDS + tuple(f"coast_{each}" for each in FIELDS)}
+    forces = {name: np.zeros(shape[:2]) for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force", "unused")}
+    for i, record in enumerate(records):
+        start, count = 0, record.position.operator.nodes
+        for pair in record.position.operator.pairs:
+            nodes = slice(start, start + len(pair.offsets))
+            start, row = nodes.stop, numbers.index(int(cycle.pair_number(record.step, pair.place.index)))
+            normal, tangential = record.solution.forces[:count][nodes], record.solution.forces[count:][nodes]
+            coast, area = bool(pair.place.flank), pair.lengths * built.pair.face_width
+            values = (normal / area, tangential / area, pair.offsets, pair.pinion_roll)
+            for name, each in zip(FIELDS, values):
+                fields[f"coast_{name}" if coast else name][i, row, : len(each)] = each
+            for name, force in zip(("pair_coast_normal_force", "unused") if coast else ("pair_normal_force", "pair_friction_force"), (normal, tangential)):
+                forces[name][i, row] = force.sum()
+    fields.pop("coast_contact_offset"), forces.pop("unused")
+    steps = np.array([record.step for record in records])
+    variables = {name: (("time", "pair"), force) for name, force in forces.items()}
+    variables |= {name: (("time", "pair", "contact_node"), field) for name, field in fields.items()}
+    variables["transmission_error"] = ("time", np.cos(steps))
+    coordinates = {"time": steps * built.time_step, "mesh_phase": ("time", steps / cycle.steps), "pair": numbers}
+    return xr.Dataset(variables, coordinates, {"scene": "", "complete": 1})
+
+
+def test_slots_hold_what_pairs_held(marched):
+    """Brute force: forces of all steps and fields of the last cycles, pair by pair, from the march's own records."""
+    built, cycle, records, result = marched
+    old = in_old_layout(built, cycle, list(records))
+    first = result["pair_number"].attrs["number_at_phase_0"]
+    assert result["pair_number"].values.max() == old["pair"].values.max() + first and result["pair_number"].values[0].min() >= 0
+    assert 1 in result["pair_number"].values[0]
+    for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force"):
+        found = results.by_pair(result[name], absent=0.0)
+        np.testing.assert_allclose(found.values, old[name].sel(pair=found["pair"].values - first).values, rtol=1e-12, atol=1e-9)
+    assert result.sizes["contact_time"] == built.contact_steps == 2 * cycle.steps + 1 < result.sizes["time"] == built.steps + 1
+    for name in [name for name in old.data_vars if "contact_" in name]:
+        found = results.by_pair(result[name], absent=np.nan if name.endswith(("offset", "angle")) else 0.0)
+        expected = old[name].sel(pair=found["pair"].values - first).values[-built.contact_steps :]
+        np.testing.assert_allclose(found.values, expected, rtol=1e-12)
+
+
+def test_a_file_of_before_slots_is_read_as_one_of_now(marched, tmp_path):
+    """Round trip: a file in the old layout, made by brute force, has the same curves and fields pair by pair when it is read."""
+    built, cycle, records, result = marched
+    old = in_old_layout(built, cycle, list(records)[-built.contact_steps :])
+    results.save(old, tmp_path / "run.nc")
+    read = results.load(tmp_path / "run.nc")
+    assert "pair" not in read.dims and read.sizes["slot"] == result.sizes["slot"]
+    assert read["pair_number"].values.min(where=read["pair_number"].values > 0, initial=99) == 1
+    for name in set(old.data_vars) - {"transmission_error"}:
+        theirs = read[name].values, read["pair_number"].values
+        for life in lives(theirs[1]):
+            number = life.number - read["pair_number"].attrs["number_at_phase_0"]
+            np.testing.assert_array_equal(theirs[0][life.steps, life.slot], old[name].sel(pair=number).values[life.steps])
+    np.testing.assert_array_equal(contact_times(read)["transmission_error"].values, old["transmission_error"].values)
+
+
+def test_the_account_goes_on_from_block_to_block(marched):
+    """Identity: energies and works gathered while marching are those of all records at once, and nothing is left but round-off."""
+    built, cycle, records, result = marched
+    energies = energy_variables(built.scene, built.drivetrain, list(records))
+    works = work_variables(built.scene, cycle, built.drivetrain, built.clock, built.loads, list(records), energies["energy"])
+    for name, values in (energies | works).items():
+        np.testing.assert_allclose(result[name].values, values, rtol=1e-9, atol=1e-9 * np.abs(result["work_input"].values).max())
+    assert np.abs(result["energy_defect"].values).max() <= 1e-10 * np.abs(result["work_input"].values).max()
+
+
+def test_compiled_contact_work_is_that_of_whole_arrays(marched):
+    """Brute force: rotation, friction and changes of every step against the same splitting by whole arrays."""
+    records = list(marched[2])
+    for last, record in zip(records, records[1:]):
+        one, other = contact_work(last, record), by_numpy(last, record)
+        scale = abs(other.rotation) + abs(other.friction) + 1e-6
+        for name in ("rotation", "friction", "changes"):
+            assert getattr(one, name) == pytest.approx(getattr(other, name), abs=1e-10 * scale)
+
+
+@pytest.mark.parametrize("coast", [False, True])
+@pytest.mark.parametrize("friction", [False, True])
+@pytest.mark.parametrize("root_stress", [False, True])
+def test_memory_is_as_it_was_counted(paper_scene, coast, friction, root_stress):
+    """Count: what `gears check` counts is what the result's arrays over time take, to the byte."""
+    scene = replace(quasi_static(coarse_scene(paper_scene)), coast_flanks=CoastFlanks() if coast else None, output=Output(root_stress=root_stress))
+    result = simulate(scene if friction else frictionless(scene))
+    held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
+    assert held == model(scene if friction else frictionless(scene)).stored_bytes
+
+
+def test_a_long_ramp_is_stored_as_curves(paper_scene):
+    """Count: 300 cycles of a run-up with friction and coast flanks, all curves, fields of the last two cycles; by pair they took gigabytes."""
+    motion = Motion(150.0, 300, 2)
+    scene = replace(paper_scene, accuracy=replace(COARSE, steps_per_mesh_cycle=12), motion=motion, coast_flanks=CoastFlanks(), speed_ramp=SpeedRamp(250.0))
+    result = simulate(scene)
+    assert result.sizes["time"] == 300 * 12 + 1 and result.sizes["contact_time"] == 2 * 12 + 1 and result.sizes["slot"] <= 5
+    assert result.nbytes < 3e6 and result["pair_normal_force"].dims == ("time", "slot")
+    assert result["pair_number"].values.max() >= 300
+    np.testing.assert_allclose(result["pair_normal_force"].sum("slot"), result["normal_force"], rtol=1e-12)
+
+
+def test_without_contact_fields_what_needs_them_says_so(paper_scene):
+    """Authority: docs/scene.md; curves and the peak pressure are there, the field is not, and what would draw it names the key."""
+    scene = quasi_static(coarse_scene(paper_scene))
+    result, whole = simulate(replace(scene, output=Output(contact_fields=False))), simulate(scene)
+    assert not [name for name in result.variables if name.startswith("contact_")]
+    for name in ("peak_contact_pressure", "peak_to_peak_transmission_error", "friction_loss"):
+        assert result.attrs[name] == whole.attrs[name]
+    with pytest.raises(SceneError, match="contact_fields"):
+        contact_times(result)

@@ -1,0 +1,130 @@
+"""Which steps numbers are of: whole common periods after the start has died down, and what is said where they are not."""
+
+from dataclasses import replace
+from math import ceil, log, pi
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, quasi_static
+
+from fenics_gears.description import describe
+from fenics_gears.effects import common_period
+from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.model import model
+from fenics_gears.results.settled import settled
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation import simulate
+from fenics_gears.summary import summary_rows
+
+# z = 23 and 47, no common factor: every tooth has met every other after 1081 mesh cycles.
+PAIR = """
+[gears]
+module = "3 mm"
+pressure_angle = "20 deg"
+centre_distance = "105.2 mm"
+face_width = "25 mm"
+[gears.pinion]
+teeth = 23
+profile_shift = 0.0
+tip_diameter = "75 mm"
+root_diameter = "61.5 mm"
+bore_diameter = "30 mm"
+[gears.wheel]
+teeth = 47
+profile_shift = 0.0
+tip_diameter = "147 mm"
+root_diameter = "133.5 mm"
+bore_diameter = "50 mm"
+[gears.material]
+youngs_modulus = "206 GPa"
+poissons_ratio = 0.3
+[load]
+wheel_torque = "200 N m"
+[motion]
+mesh_frequency = "500 Hz"
+mesh_cycles = 23
+[flank_errors]
+tolerance_class = 7
+[eccentricity.pinion]
+distance = "10 um"
+[eccentricity.wheel]
+distance = "15 um"
+[accuracy]
+model = "ISO 6336-1"
+steps_per_mesh_cycle = 8
+"""
+
+
+@pytest.fixture(scope="module")
+def by_cycles():
+    """The pair, its scene and results by 23, 47 and 1081 mesh cycles, on the standard's springs."""
+    scene = scene_from_text(PAIR, "pair")
+    return scene, {cycles: simulate(replace(scene, motion=replace(scene.motion, mesh_cycles=cycles))) for cycles in (23, 47, 1081)}
+
+
+def test_numbers_are_of_all_cycles_that_were_run(by_cycles):
+    """Definition, and brute force over the longest run: each shorter one is its beginning, and T_EPP is the span of all of its steps."""
+    _, found = by_cycles
+    whole = found[1081]["transmission_error"].values
+    spans = {}
+    for cycles, result in found.items():
+        part = whole[: 8 * cycles + 1]
+        np.testing.assert_allclose(result["transmission_error"].values, part, rtol=1e-9)
+        spans[cycles] = result.attrs["peak_to_peak_transmission_error"]
+        assert spans[cycles] == pytest.approx(np.ptp(part), rel=1e-9)
+        assert result.attrs["mean_transmission_error"] == pytest.approx(part[:-1].mean(), rel=1e-9)
+        assert result.attrs["settled_cycles"] == pytest.approx(cycles)
+    # The last two cycles alone, which numbers once were of, see a part of it.
+    assert spans[1081] > spans[23] > 1.5 * np.ptp(whole[21 * 8 : 23 * 8 + 1])
+
+
+def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
+    """Authority: z1 z2 without common factor; warning, summary and `gears check` say 1081, and a whole period has no such warning."""
+    scene, found = by_cycles
+    assert common_period(scene) == 1081 == 23 * 47
+    for cycles in (23, 47):
+        said = f"only {cycles} of the 1081 mesh cycles of the common period are run"
+        assert found[cycles].attrs["warnings"].startswith(said)
+        assert summary_rows(found[cycles])[0][0] == "WARNING" and summary_rows(found[cycles])[0][1].startswith(said)
+    assert "common period" not in found[1081].attrs["warnings"] and summary_rows(found[1081])[0][0] != "WARNING"
+    rows = [row for _, section in describe(scene).sections for row in section]
+    assert ("mesh cycles of the common period", 1081, "every tooth has met every other") in rows
+    assert any("only 23 of the 1081" in str(row[1]) for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("order", "cycles"), [(1.0, 24), (24.0, 1), (12.0, 2), (1.5, 16), (0.5, 48), (5.0, 24)], ids=str
+)
+def test_a_ripple_repeats_after_whole_turns_of_its_order(paper_scene, order, cycles):
+    """Arithmetic: the least whole number of mesh cycles, 1/24 of the wheel's turn each, that is a multiple of 1/order of a turn."""
+    ripple = TorqueRipple((Harmonic(order, 1e3),))
+    assert common_period(replace(paper_scene, torque_ripple=ripple)) == cycles
+    assert order * cycles / 24 == round(order * cycles / 24)
+
+
+def test_the_start_has_died_down_to_a_hundredth(paper_scene):
+    """Exponential decay of the slowest mode: exp(-zeta omega t) = 0.01 at the first step that counts, or none before the last cycles."""
+    built = model(coarse_scene(paper_scene, cycles=30))
+    slowest = min((each.damping_ratio * 2 * pi * each.frequency for each in built.vibrations if each.excited and each.damping_ratio < 1), default=0)
+    a_cycle = built.resolution.steps_per_mesh_cycle
+    calm = ceil(log(100.0) / slowest / built.time_step)
+    expected = built.steps - (built.steps - calm) // a_cycle * a_cycle
+    assert settled(built, built.steps) == type(settled(built, built.steps))(expected)
+    short = model(coarse_scene(paper_scene, cycles=2))
+    found = settled(short, short.steps)
+    assert found.first == a_cycle and "has not died down" in found.warning
+    assert f"motion.mesh_cycles = {ceil(calm * short.time_step * 200.0 + 1)}" in found.warning
+
+
+def test_without_damping_the_start_never_dies_down(paper_scene):
+    """Conservation: nothing takes the vibration's energy; the result says so, of a ramp too."""
+    built = model(replace(coarse_scene(paper_scene, cycles=30), damping=None))
+    assert "nothing damps" in settled(built, built.steps).warning
+
+
+def test_all_of_a_quasi_static_run_counts(paper_scene):
+    """Definition: without masses nothing rings."""
+    scene = replace(quasi_static(coarse_scene(paper_scene)), motion=Motion(200.0, 3, 1))
+    built = model(scene)
+    assert settled(built, built.steps).first == 0 and not settled(built, built.steps).warning
