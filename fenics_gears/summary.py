@@ -39,7 +39,7 @@ def result_rows(dataset) -> list[Row]:
     attributes = dataset.attrs
     parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _pressure, _root_stress)
     rows = [row for part in parts for row in part(attributes)]
-    return rows + _power(attributes) + _sliding(dataset) + _contact_loss(attributes) + _estimated_error(attributes)
+    return rows + _power(attributes) + _sliding(dataset) + _contact_loss(dataset) + _estimated_error(attributes)
 
 
 def _transmission_error(attributes) -> list[Row]:
@@ -80,7 +80,7 @@ def _pair_force(attributes) -> list[Row]:
 
 
 def _pressure(attributes) -> list[Row]:
-    if not attributes.get("peak_contact_pressure"):
+    if not attributes.get("peak_contact_pressure") or "peak_contact_pressure_diameter" not in attributes:
         return []
     place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
@@ -102,15 +102,17 @@ def _sliding(dataset) -> list[Row]:
     if "sliding_speed" not in dataset:
         return []
     fastest = float(abs(dataset["sliding_speed"]).max()) / KILO
-    lowest = dataset["specific_sliding"].min("contact_point").values
+    lowest = dataset["specific_sliding"].min("path_point").values
     return [("sliding", f"{fastest:.4g} m/s at most; specific sliding {lowest[0]:.3g} pinion, {lowest[1]:.3g} wheel", "")]
 
 
-def _contact_loss(attributes) -> list[Row]:
+def _contact_loss(dataset) -> list[Row]:
+    """Of the drive flanks; nothing where they never touch, as where the wheel drives."""
+    attributes = dataset.attrs
     count = attributes.get("contact_loss_count")
-    if not count:
+    if not count or not dataset["normal_force"].max() > 0.0:
         return []
-    return [("contact lost", f"{count} time{'s' * (count > 1)}, {attributes['contact_loss_share']:.2%} of the time, by up to {attributes['contact_loss_opening'] * MICROMETRES:.3g} um", "")]
+    return [("contact of the drive flanks lost" if "coast_normal_force" in dataset else "contact lost", f"{count} time{'s' * (count > 1)}, {attributes['contact_loss_share']:.2%} of the time, by up to {attributes['contact_loss_opening'] * MICROMETRES:.3g} um", "")]
 
 
 def solver_rows(dataset) -> list[Row]:

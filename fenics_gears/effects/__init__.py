@@ -63,11 +63,11 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("work_output", "N mm", "work that the wheel's shaft takes out, done on the load; negative where the wheel drives"),
     ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
     ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
-    ResultVariable("contact_point_position", "mm", "distance of the contact point from T1 along the line of action", dims=OF_POINTS),
-    ResultVariable("contact_point_diameter", "mm", "diameter at the contact point", dims=(*OF_POINTS, "gear")),
+    ResultVariable("path_point_position", "mm", "distance of the point from T1 along the line of action", dims=OF_POINTS),
+    ResultVariable("path_point_diameter", "mm", "diameter at the point of the path of contact", dims=(*OF_POINTS, "gear")),
     ResultVariable("sliding_speed", "mm/s", "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip", dims=OF_POINTS),
     ResultVariable("specific_sliding", "1", "sliding speed over the speed of the flank's own contact point; negative in the dedendum", dims=(*OF_POINTS, "gear")),
-    ResultVariable("load_share", "1", "share of the mesh's force that a pair carries at the contact point", dims=OF_POINTS),
+    ResultVariable("load_share", "1", "share of the mesh's force that a pair carries at the point of the path of contact", dims=OF_POINTS),
 )
 
 # What only contact that is spread over nodes has.

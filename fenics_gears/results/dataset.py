@@ -20,7 +20,7 @@ from fenics_gears.model import Model
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
-from fenics_gears.results.key_numbers import contact_point_names, contact_point_values, key_numbers
+from fenics_gears.results.key_numbers import path_point_coordinate, path_point_values, key_numbers
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.root_stress_variables import root_stress_labels
@@ -81,7 +81,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "mesh_phase": ("time", arrays["mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start"}),
         "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
         "gear": ("gear", list(GEARS), {"long_name": "gear"}),
-        "contact_point": contact_point_names(),
+        "path_point": path_point_coordinate(),
         "slot": ("slot", np.arange(recorder.slots), {"long_name": "place of a tooth pair among those that can touch at once"}),
     }
     if "contact_time" in arrays:
@@ -102,7 +102,7 @@ def _contact_points(built: Model, result: xr.Dataset) -> dict[str, tuple]:
     described = {variable.name: variable for variable in result_variables(built.scene)}
     return {
         name: (described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name})
-        for name, values in contact_point_values(of_settled(result), built.scene, built.pair).items()
+        for name, values in path_point_values(of_settled(result), built.scene, built.pair).items()
     }
 
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
+from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.results.numbers import HARMONICS, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 from fenics_gears.scene.data import Scene
@@ -60,10 +62,11 @@ def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
 
 
 def _pair_force(settled: xr.Dataset) -> dict[str, float]:
-    """The largest normal force of a tooth pair, N, on drive or coast flanks; nothing where shares of rigid pairs are not determined."""
+    """The largest normal force of a tooth pair, N, on drive or coast flanks; nothing where shares of rigid pairs are not
+    determined, or nothing presses."""
     names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in settled]
     over_time = np.max([settled[name].values.max(axis=1, initial=0.0) for name in names], axis=0)
-    if np.isnan(over_time).any():
+    if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
         return {}
     place = int(over_time.argmax())
     return {"largest_pair_force": float(over_time[place]), "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place])}
@@ -79,8 +82,8 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
     edge = float(settled["largest_edge_pressure"].max())
     if edge:
         found["peak_edge_pressure"] = edge
-    if not pressure[place]:
-        return found
+    if pressure[place] <= NO_FORCE / pair.face_width**2:
+        return {"peak_contact_pressure": 0.0}
     at = settled.isel(time=place)
     on_coast = "coast_normal_force" in at and float(at["coast_normal_force"]) > float(at["normal_force"])
     return found | {
@@ -117,7 +120,7 @@ def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
 def _power(counted: xr.Dataset) -> dict[str, float]:
     """Mean power of the drive, W, and with friction what the flanks lose of it; nothing where the drive does no work."""
     seconds, drive = float(np.ptp(counted["time"].values)), abs(transmitted(counted).drive)
-    if not seconds or not drive:
+    if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
         return {}
     found = {"input_power": drive / seconds / WATT}
     if "friction_loss" in counted.attrs:
@@ -126,7 +129,7 @@ def _power(counted: xr.Dataset) -> dict[str, float]:
     return found
 
 
-def contact_point_values(counted: xr.Dataset, scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
+def path_point_values(counted: xr.Dataset, scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
     """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in the settled steps."""
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
@@ -135,15 +138,15 @@ def contact_point_values(counted: xr.Dataset, scene: Scene, pair: GearPair) -> d
     entered = numbers - counted["pair_number"].attrs["number_at_phase_0"]
     forces = np.where(numbers > 0, counted["pair_normal_force"].values, np.nan)
     return {
-        "contact_point_position": points,
-        "contact_point_diameter": np.transpose(diameters),
+        "path_point_position": points,
+        "path_point_diameter": np.transpose(diameters),
         "sliding_speed": sliding_speed(pair, points, scene.mesh_frequencies[1]),
         "specific_sliding": np.transpose(specific_sliding(pair, points)),
         "load_share": shares_at((points - pair.path_start) / pair.base_pitch, counted["mesh_phase"].values, entered, forces),
     }
 
 
-def contact_point_names() -> tuple:
+def path_point_coordinate() -> tuple:
     """The coordinate of those variables."""
     words = "start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact"
-    return ("contact_point", list(CONTACT_POINTS), {"long_name": f"point of the path of contact: {words}"})
+    return ("path_point", list(CONTACT_POINTS), {"long_name": f"point of the path of contact: {words}"})

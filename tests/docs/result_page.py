@@ -51,7 +51,7 @@ DIMENSIONS = {
     "contact_time": "those of them, the last, whose contact fields are stored (`[output] contact_fields`)",
     "gear": '"pinion", "wheel"',
     "slot": "places for the tooth pairs that can touch at once; a pair keeps its own as long as it is in reach, `pair_number` says which is there",
-    "contact_point": "points of the path of contact: A start, B and D ends of contact by the fewest pairs, C pitch point, E end",
+    "path_point": "points of the path of contact: A start, B and D ends of contact by the fewest pairs, C pitch point, E end",
     "contact_node": "contact nodes of a pair, in the order of their offset",
     "pinion_tooth": "teeth of the pinion, in the order in which they mesh",
     "wheel_tooth": "teeth of the wheel, likewise",

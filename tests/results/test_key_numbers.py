@@ -106,7 +106,7 @@ def test_cycles_that_differ_are_not_run_twice_unasked(paper_scene):
 
 def test_load_shares_at_the_contact_points(static):
     """Definition of the contact ratio: A and D, B and E are a base pitch apart, so their shares add up to all; at C one pair carries."""
-    share = {str(point): float(value) for point, value in zip(static.contact_point.values, static.load_share.values)}
+    share = {str(point): float(value) for point, value in zip(static.path_point.values, static.load_share.values)}
     assert share["A"] + share["D"] == pytest.approx(1.0, abs=0.02) and share["B"] + share["E"] == pytest.approx(1.0, abs=0.02)
     assert share["C"] == pytest.approx(1.0) and 0.2 < share["A"] < 0.6
 

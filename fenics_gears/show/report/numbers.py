@@ -46,10 +46,10 @@ def _contact_points(run: Run) -> Table:
     headings = ("Point", "Pinion, mm", "Wheel, mm", "Sliding speed, m/s", "Specific sliding, pinion", "Specific sliding, wheel", "Load share")
     words = dict(zip("ABCDE", ("start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact")))
     rows = []
-    for point in dataset["contact_point"].values.tolist():
-        at = dataset.sel(contact_point=point)
+    for point in dataset["path_point"].values.tolist():
+        at = dataset.sel(path_point=point)
         values = [
-            *(f"{each:.2f}" for each in at["contact_point_diameter"].values),
+            *(f"{each:.2f}" for each in at["path_point_diameter"].values),
             f"{round(1e-3 * float(at['sliding_speed']), 9) + 0.0:.3f}",
             *(f"{round(each, 9) + 0.0:.3f}" for each in at["specific_sliding"].values),
             "" if math.isnan(share := float(at["load_share"])) else f"{share:.3f}",
