@@ -20,10 +20,9 @@ from fenics_gears.model import Model
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
-from fenics_gears.results.key_numbers import path_point_coordinate, path_point_values, key_numbers
+from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate, path_point_values
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.results.root_stress_variables import root_stress_labels
 from fenics_gears.results.settled import of_settled, settled
 from fenics_gears.storage import ROOT_STRESS
 from fenics_gears.validity import warnings_of, warnings_of_energy
@@ -64,7 +63,7 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
             if dims[:1] != ("time",):
                 yield name, dims, values, {"units": described[name].units, "long_name": described[name].long_name}
     if recorder.stress is not None:
-        for name, words in root_stress_labels(recorder.stress)[0].items():
+        for name, words in recorder.stress.labels()[0].items():
             if name in arrays:
                 yield name, ROOT_STRESS[name], arrays[name], {"units": "MPa", "long_name": words}
 
@@ -94,7 +93,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
                 ("contact_time", "slot"), arrays["contact_pair_number"], numbered | {"long_name": f"{numbered['long_name']}, of the contact fields"},
             ),
         }  # fmt: skip
-    return coordinates if recorder.stress is None else coordinates | root_stress_labels(recorder.stress)[1]
+    return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
 
 
 def _contact_points(built: Model, result: xr.Dataset) -> dict[str, tuple]:

@@ -15,9 +15,10 @@ def upgraded(result: xr.Dataset) -> xr.Dataset:
     """
     if "pair" not in result.dims:
         return result
-    phase, first = result["mesh_phase"].values, 1 - int(result["pair"].values.min(initial=0))
+    phase, pairs = result["mesh_phase"].values, result["pair"].values
+    first = 1 - int(min(pairs, default=0))
     there = _in_reach(result)
-    held = np.where(there, result["pair"].values + first, 0)
+    held = np.where(there, pairs + first, 0)
     # Consecutive pairs, of which so many are in reach at once.
     ends = [(row[row > 0].min(), row[row > 0].max()) for row in held if row.any()]
     slots = max((last - begin + 1 for begin, last in ends), default=1)

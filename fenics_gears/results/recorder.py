@@ -7,6 +7,7 @@ those of its last steps are there.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,9 +18,11 @@ from fenics_gears.model import Model
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
-from fenics_gears.results.root_stress_variables import RootStress, root_stress_values
 from fenics_gears.results.side_by_side import Layout, SideBySide
 from fenics_gears.storage import allocated, sizes, stored_arrays
+
+if TYPE_CHECKING:
+    from fenics_gears.results.root_stress_variables import RootStress
 
 # So many steps are gone over at once.
 AT_ONCE = 128
@@ -92,7 +95,7 @@ class Recorder:
             fields |= node_variables(scene, nodes)
             values |= pressure_curves(nodes, fields)
         if self.stress is not None:
-            stresses = root_stress_values(self.stress, nodes)
+            stresses = self.stress.values(nodes)
             fields["root_stress"] = stresses.pop("root_stress")
             values |= stresses
         for effect in effects_on(scene):

@@ -59,35 +59,33 @@ class RootStress:
             raise ComputationError(f"root stress: the stress of a tooth {ahead} pitches from the loaded one was not computed, known are {rows.reach}")
         return rows.rows[rows.reach + ahead][:, flank * dofs : (flank + 1) * dofs]
 
+    def values(self, nodes: SideBySide) -> dict[str, np.ndarray]:
+        """Root stress at consecutive records; not a number where a slot's pair is out of reach."""
+        points = self.rows[0].rows.shape[1] // 2
+        values = np.full((len(nodes.records), 2, nodes.slots, 2, points), np.nan)
+        for i, record in enumerate(nodes.records):
+            teeth, stresses = self.at(record)
+            for place, index in enumerate(teeth):
+                values[i, :, nodes.slot_of(i, index)] = stresses[:, place].reshape(2, 2, points)
+        along = values[..., :-1].reshape(*values.shape[:3], -1)
+        return {"root_stress": along, "root_stress_maximum": _largest(along), "root_stress_at_30_degrees": values[..., -1]}
 
-def root_stress_values(stress: RootStress, nodes: SideBySide) -> dict[str, np.ndarray]:
-    """Root stress at consecutive records; not a number where a slot's pair is out of reach."""
-    points = stress.rows[0].rows.shape[1] // 2
-    values = np.full((len(nodes.records), 2, nodes.slots, 2, points), np.nan)
-    for i, record in enumerate(nodes.records):
-        teeth, stresses = stress.at(record)
-        for place, index in enumerate(teeth):
-            values[i, :, nodes.slot_of(i, index)] = stresses[:, place].reshape(2, 2, points)
-    along = values[..., :-1].reshape(*values.shape[:3], -1)
-    return {"root_stress": along, "root_stress_maximum": _largest(along), "root_stress_at_30_degrees": values[..., -1]}
-
-
-def root_stress_labels(stress: RootStress) -> tuple[dict[str, str], dict[str, tuple]]:
-    """Long names of the variables, and the coordinates of their fillet points."""
-    angles = np.array([rows.tangent_angle[:-1] for rows in stress.rows])
-    words = {
-        "root_stress": "stress along the surface of the fillets",
-        "root_stress_maximum": "largest tension in the fillets",
-        "root_stress_at_30_degrees": "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline",
-    }
-    return words, {
-        "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
-        "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that the fillet point is on"}),
-        "fillet_tangent_angle": (
-            ("gear", "fillet_point"), np.hstack([angles, angles]),
-            {"units": "rad", "long_name": "angle between the fillet's tangent and the tooth's centreline"},
-        ),
-    }  # fmt: skip
+    def labels(self) -> tuple[dict[str, str], dict[str, tuple]]:
+        """Long names of the variables, and the coordinates of their fillet points."""
+        angles = np.array([rows.tangent_angle[:-1] for rows in self.rows])
+        words = {
+            "root_stress": "stress along the surface of the fillets",
+            "root_stress_maximum": "largest tension in the fillets",
+            "root_stress_at_30_degrees": "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline",
+        }
+        return words, {
+            "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
+            "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that the fillet point is on"}),
+            "fillet_tangent_angle": (
+                ("gear", "fillet_point"), np.hstack([angles, angles]),
+                {"units": "rad", "long_name": "angle between the fillet's tangent and the tooth's centreline"},
+            ),
+        }  # fmt: skip
 
 
 def _largest(values: np.ndarray) -> np.ndarray:

@@ -111,7 +111,8 @@ def test_peak_that_a_run_reports(paper_scene, measured):
     scene = frictionless(teeth_alone(replace(paper_scene, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))))
     pair, result = model(scene).pair, simulate(scene)
     phases = (pair.pitch_point - pair.path_start) / pair.base_pitch
-    at = result.isel(time=[int(np.argmin(np.abs(result.mesh_phase.values - phases)))])
+    step = [int(np.argmin(np.abs(result.mesh_phase.values - phases)))]
+    at = result.isel(time=step, contact_time=step)
     xi = pair.path_start + float(at.mesh_phase[0]) * pair.base_pitch
     line_load = float(at.normal_force[0]) / pair.face_width
     half_width = hertz_half_width(line_load, relative_radius(pair, xi), plane_contact_modulus(scene))

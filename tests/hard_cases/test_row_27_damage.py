@@ -39,7 +39,7 @@ def own_cache(tmp_path):
 def run(tmp_path_factory):
     """A result like that of a run, small."""
     values = {"transmission_error": ("time", np.sin(np.arange(40.0))), "contact_pressure": (("time", "node"), np.arange(120.0).reshape(40, 3))}
-    coordinates = {"gear": ("gear", ["pinion", "wheel"], {"long_name": "gear"}), "pair": ("pair", np.array([3, 4]))}
+    coordinates = {"gear": ("gear", ["pinion", "wheel"], {"long_name": "gear"}), "slot": ("slot", np.array([0, 1]))}
     made = xr.Dataset(values, coordinates).assign_attrs(scene="[gears]\n", complete=1, peak=0.25, warnings="")
     made["transmission_error"].attrs["units"] = "rad"
     return made

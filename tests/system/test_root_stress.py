@@ -24,6 +24,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
 from fenics_gears.dynamic_factor import quasi_static as without_inertia
 from fenics_gears.run_stresses import RunStresses
+from fenics_gears.results.settled import of_settled
 from fenics_gears.results.stored_forces import stored_forces
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Load, Motion, Output
