@@ -33,7 +33,7 @@ def test_the_summary_is_as_shown(first_run):
     lines = [re.split(r"\s{2,}", line.strip()) for line in shown[1:] if line.strip() != "..."]
     assert len(lines) >= 3
     for label, value in lines:
-        numbers = [[float(number) for number in re.findall(r"[\d.]+", text)] for text in (value, rows[label])]
+        numbers = [[float(number) for number in re.findall(r"\d+\.?\d*", text)] for text in (value, rows[label])]
         assert numbers[0] == pytest.approx(numbers[1], rel=5e-3)
 
 

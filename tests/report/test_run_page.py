@@ -23,7 +23,7 @@ from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[2]
 SECTIONS = [
-    "summary", "warnings", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
+    "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
     "versions", "scene",
 ]  # fmt: skip
 
@@ -102,7 +102,7 @@ def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, 
     page = seen(bare / "report.html")
     said = set(captions(page))
     assert not any("riction" in each or "centres" in each or "shaft's end" in each for each in said)
-    assert "Friction takes" not in page.sections["summary"] and "Dynamic factor" not in page.sections["summary"]
+    assert "Friction loss" not in page.sections["summary"] and "Dynamic factor" not in page.sections["summary"]
     assert "lost to" not in page.sections["energy"] and "Natural frequencies" not in page.sections["solver"]
     assert "was not recorded" in page.sections["root-stress"] and "no-stress" in page.sections["stress"]
     assert "does not vary" in page.sections["spectra"]
