@@ -91,8 +91,8 @@ def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation
     """Authority: identity; 5e-5 rad on a base radius of 50 mm are 2.5 um, 2e-4 rad are 10 um."""
     main(["run", str(DEMO)])
     lines = {line.split("  ")[1]: line for line in capsys.readouterr().out.splitlines() if line.startswith("  ")}
-    assert lines["transmission error, mean"].endswith("5e-05 rad = 2.5 um")
-    assert lines["transmission error, peak to peak"].endswith("0.0002 rad = 10 um")
+    assert lines["transmission error, mean"].endswith("2.5 um = 5e-05 rad")
+    assert lines["transmission error, peak to peak"].endswith("10 um = 0.0002 rad")
     assert lines["Newton iterations a step"].endswith("3.00 on average, 4 at most")
     assert lines["marching through time"].endswith("2.50 s")
 
