@@ -14,7 +14,7 @@ from fenics_gears.results.pairs import shown
 from fenics_gears.results.settled import of_settled
 
 # Curves over the last cycles; those that a run has are taken.
-CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force")
+CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness")
 
 
 @dataclass(frozen=True)
