@@ -21,10 +21,10 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
-from fenics_gears.model import Model, model
-from fenics_gears.resolution import hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.model.model import Model, model
+from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation import gear_compliance
+from fenics_gears.simulation.simulate import gear_compliance
 
 # The smaller load, in parts of the larger: half its half-width.
 SMALLER = 0.25

@@ -5,12 +5,12 @@ from math import pi, sqrt
 
 import pytest
 
-from fenics_gears.description import describe
+from fenics_gears.model.description import describe
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.geometry.rough_stiffness import mesh_stiffness
-from fenics_gears.model import model
-from fenics_gears.resolution import (
+from fenics_gears.model.model import model
+from fenics_gears.model.resolution import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     MOST_STEPS_PER_MESH_CYCLE,

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.read import scene_from_text
 
 WITH, WITHOUT = "present", "absent"

@@ -15,7 +15,7 @@ from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_gear_mesh
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Scene
 from fenics_gears.show.spectrum import OrderLines, order_lines

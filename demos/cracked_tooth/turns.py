@@ -20,7 +20,7 @@ from fenics_gears import load_scene
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_sector_mesh
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.show.panels import DOTS_PER_INCH
 
 # The crack whose mesh is shown.

@@ -14,8 +14,8 @@ from fenics_gears import load_scene
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model import Model, model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.model.model import Model, model
+from fenics_gears.system.progress import SilentProgress
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.studies.gear_store import GearStore
 

@@ -13,7 +13,7 @@ from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
 from fenics_gears.studies.gear_store import GearStore

@@ -38,7 +38,7 @@ def accuracy(options: argparse.Namespace) -> int:
 
 
 def _print(report, files) -> None:
-    from fenics_gears.console import print_rows, print_table
+    from fenics_gears.system.console import print_rows, print_table
     from fenics_gears.studies.accuracy import table
 
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"

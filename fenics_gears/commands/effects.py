@@ -32,7 +32,7 @@ def effects(options: argparse.Namespace) -> int:
 
 
 def _print(report, files) -> None:
-    from fenics_gears.console import print_rows, print_table
+    from fenics_gears.system.console import print_rows, print_table
     from fenics_gears.studies.effect_lattice import table
 
     heading = f"{report.scene.title}: effects, one more than the bare scene and one less than all"

@@ -28,7 +28,7 @@ def checked_scene(path: Path):
 
 def checked_scene_and_directory(options):
     """The scene of a command's options, found right, and the directory to write into, found writable. Raises as `checked_scene` does."""
-    from fenics_gears.output import check_writable
+    from fenics_gears.system.output import check_writable
 
     scene = checked_scene(options.scene)
     directory = options.output or Path("results") / scene.name

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.tree import GEARS
+from fenics_gears.inputs.tree import GEARS
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.section import CrossSection

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, number, numbers, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import GEARS, Tree, material_sections, quantity_in, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs.fields import Section, number, numbers, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, Tree, material_sections, quantity_in, table
+from fenics_gears.inputs.written import as_written
 
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 

@@ -8,9 +8,9 @@ from math import lcm
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.scene.fields import Section, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table, too_large_for_the_module
+from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, table, too_large_for_the_module
 
 
 @dataclass(frozen=True)

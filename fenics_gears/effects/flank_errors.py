@@ -15,10 +15,10 @@ from typing import Any, Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.errors import SceneError
-from fenics_gears.scene.fields import Section, file_name, quantities, quantity, whole_number
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import LARGEST_ERROR, Tree, quantity_in, table, teeth_in, too_large_for_the_module
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs.fields import Section, file_name, quantities, quantity, whole_number
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import LARGEST_ERROR, Tree, quantity_in, table, teeth_in, too_large_for_the_module
+from fenics_gears.inputs.written import as_written
 
 GEARS = ("pinion", "wheel")
 LISTS = ("pitch", "profile_slope", "profile_form")

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import GEARS, Tree, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, Tree, table
+from fenics_gears.inputs.written import as_written
 
 LUMPED = ("mass", "moment_of_inertia")
 

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Optional
 
-from fenics_gears.scene import units
-from fenics_gears.scene.fields import Measured, Section, choice, either, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs import units
+from fenics_gears.inputs.fields import Measured, Section, choice, either, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.written import as_written
 
 LINEAR, PARABOLIC = "linear", "parabolic"
 GEARS = ("pinion", "wheel")

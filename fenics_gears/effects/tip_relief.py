@@ -8,8 +8,8 @@ from typing import Optional
 
 from fenics_gears.effects.effect import Effect
 from fenics_gears.effects.relief import GEARS, Relief, TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
-from fenics_gears.scene.fields import Section, number, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import GEARS, Tree, material_sections, table
+from fenics_gears.inputs.fields import Section, number, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
 
 
 @dataclass(frozen=True)

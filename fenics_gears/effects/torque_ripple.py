@@ -12,12 +12,12 @@ from pydantic import Field
 from pydantic_core import PydanticCustomError
 
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene import units
-from fenics_gears.scene.fields import Allowed, Section, out_of_range, refused
-from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, quantity_in, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs import units
+from fenics_gears.inputs.fields import Allowed, Section, out_of_range, refused
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, quantity_in, table
+from fenics_gears.inputs.written import as_written
 
 HIGHEST_ORDER = 1e6
 MOST_HARMONICS = 1000

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import xarray as xr
 
 from fenics_gears.effects import common_period
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration

@@ -16,7 +16,7 @@ from fenics_gears.rexs.read import read_model
 from fenics_gears.rexs.scene_text import scene_text
 from fenics_gears.rexs.stage import Stage, chosen_stage
 from fenics_gears.rexs.values import Value, ValueProblem
-from fenics_gears.scene import units
+from fenics_gears.inputs import units
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD
 
 # Options that stand in for what the file says, with an example each.

@@ -13,8 +13,8 @@ from pydantic import Field, create_model
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-from fenics_gears.scene.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
+from fenics_gears.inputs.written import as_written
 
 
 def _diameter(example: str, meaning: str):

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.path import Path
 from scipy.spatial import cKDTree
 
-from fenics_gears.run_stresses import GearsInMesh
+from fenics_gears.simulation.run_stresses import GearsInMesh
 from fenics_gears.show.stress_grid import largest_movement, shown_points
 
 # In modules: how far the largest displacement may be drawn, and how deep one tooth into another. Gaps are drawn as large as they are, so

@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.output import written_aside
+from fenics_gears.system.output import written_aside
 from fenics_gears.show import PICTURE_FILES
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import heading, picture

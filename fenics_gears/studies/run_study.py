@@ -7,9 +7,9 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fenics_gears.interruption import Interruption
-from fenics_gears.output import check_writable
-from fenics_gears.progress import Progress
+from fenics_gears.system.interruption import Interruption
+from fenics_gears.system.output import check_writable
+from fenics_gears.system.progress import Progress
 from fenics_gears.studies.case_files import base_changed, kept_records, sole_writer
 from fenics_gears.studies.combine import combined, save_study
 from fenics_gears.studies.ranks import Alone, Together, ranks

@@ -9,7 +9,7 @@ from __future__ import annotations
 import statistics
 from pathlib import Path
 
-from fenics_gears.progress import LineProgress
+from fenics_gears.system.progress import LineProgress
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.effect_lattice import table
 from fenics_gears.studies.effect_lattice.measured import Report, measure

@@ -19,9 +19,9 @@ from tests.benchmarks.target_pairs import pairs
 from tests.benchmarks.target_reference import Reference, reference
 
 from fenics_gears.errors import GearsError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.model.model import model
+from fenics_gears.system.progress import SilentProgress
+from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.accuracy.setting import Setting, half_width
@@ -30,7 +30,7 @@ from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, s
 from fenics_gears.studies.effect_lattice.machine import machine
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.simulation.warm_up import compile_kernels
 
 ROOT = Path(__file__).resolve().parents[2]
 TARGETS = (0.05, 0.01, 0.002)

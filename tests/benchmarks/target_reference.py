@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.model import model
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.model.model import model
+from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, answer

@@ -12,8 +12,8 @@ from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.mesh_stiffness import NOTHING_TOUCHES, mesh_stiffness
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.mesh_springs import iso_cycle
-from fenics_gears.model import model
+from fenics_gears.simulation.mesh_springs import iso_cycle
+from fenics_gears.model.model import model
 from tests.coarse import COARSE
 
 ROTATION_OF_THE_WHEEL = 5

@@ -15,7 +15,7 @@ from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import Accuracy, Scene
 
 WHEEL_ROTATION = 5  # in CENTRE_COORDINATES

@@ -10,7 +10,7 @@ from tests.coarse import COARSE
 
 from fenics_gears import load_scene, simulate
 from fenics_gears.dynamics.gear_inertia import lumped_gears
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 
 SCENES = [load_scene(pairs.HERE / f"{name}.toml") for name in pairs.SCENES]
 

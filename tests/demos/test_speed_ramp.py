@@ -9,7 +9,7 @@ from demos.speed_ramp.picture import draw
 from tests.coarse import COARSE
 
 from fenics_gears import load_scene
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import Motion
 from fenics_gears.studies.gear_store import GearStore
 

@@ -7,7 +7,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from fenics_gears.description import describe
+from fenics_gears.model.description import describe
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.effects.damping import Damping, Rayleigh

@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 from tests.effects.examples import MESHES, text_of
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import cracked_gear_mesh
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.run_stresses import RunStresses
+from fenics_gears.model.model import model
+from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.refinement import checked_model
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.studies.gear_store import GearStore

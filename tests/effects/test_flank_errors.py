@@ -23,7 +23,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations
 from fenics_gears.geometry.involute import roll_angle_at_height
 from fenics_gears.scene.data import Accuracy, Load, Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 STEPS, PERIOD = 20, 48
 ERROR = 0.01

@@ -20,7 +20,7 @@ from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
 from fenics_gears.geometry.modification import removals
 from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 DEPTH = 0.02
 KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, root_reliefs)}

@@ -24,12 +24,12 @@ from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.model.model import model
+from fenics_gears.system.progress import SilentProgress
 from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.simulation.simulate import prepared, simulate
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400, 40)
@@ -272,9 +272,9 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene):
     assert isinstance(built.clock, SteadyClock) and built.loads == ()
     assert not {variable.name for variable in effect("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
     program = (
-        "import sys; from fenics_gears import load_scene; from fenics_gears.model import model\n"
+        "import sys; from fenics_gears import load_scene; from fenics_gears.model.model import model\n"
         f"built = model(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r})); built.clock, built.loads\n"
-        "import fenics_gears.simulation, fenics_gears.results\n"
+        "import fenics_gears.simulation.simulate, fenics_gears.results\n"
         "assert 'fenics_gears.dynamics.speed_ramp' not in sys.modules\n"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)

@@ -11,10 +11,10 @@ from tests.contact.laws_of_contact import law_residual
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.operator import rigid_rows
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.simulation import Compliances, mesh_cycle, rigid_cycle
+from fenics_gears.simulation.simulate import Compliances, mesh_cycle, rigid_cycle
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from tests.hard_cases.random_effects import decades, random_effects
 from tests.random_pairs import valid_pairs
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 

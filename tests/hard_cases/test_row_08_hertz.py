@@ -19,10 +19,10 @@ from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.model import model
-from fenics_gears.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.model.model import model
+from fenics_gears.model.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 NIGHTLY = pytest.mark.nightly
 LIMITS = {2: 0.04, 4: 0.01, 8: 0.005}

@@ -14,8 +14,8 @@ from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import canonical_normal
-from fenics_gears.model import model
-from fenics_gears.simulation import simulate
+from fenics_gears.model.model import model
+from fenics_gears.simulation.simulate import simulate
 
 ALLOWED = {"Q2": "0.1 %", "Q1 incompatible": "0.5 %"}
 SECOND_ORDER, FIRST_ORDER = ("P2", "Q2"), ("P1", "Q1")

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 
-from fenics_gears.model import model
-from fenics_gears.simulation import simulate
+from fenics_gears.model.model import model
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

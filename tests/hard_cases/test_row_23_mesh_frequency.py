@@ -13,9 +13,9 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 CYCLES = 3
 TIP_RELIEF = TipRelief(pinion=Relief(0.031, None), wheel=Relief(0.031, None))

@@ -11,7 +11,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import involute_arms, rigid_rows
-from fenics_gears.reference_route import remeshed
+from fenics_gears.simulation.reference_route import remeshed
 
 
 class InvoluteArms(Cycle):

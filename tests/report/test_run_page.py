@@ -16,7 +16,7 @@ from tests.report.pages import seen
 
 from fenics_gears import results
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.show.report.effects import effects
 from fenics_gears.show.run import Run
 from fenics_gears.show.report.stress import stress
@@ -283,7 +283,7 @@ def test_the_page_goes_where_it_is_asked_to_and_replaces_an_earlier_one(run, tmp
 
 def test_other_commands_load_neither_plotly_nor_jinja():
     """They are needed by the report alone."""
-    code = "import sys, fenics_gears.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if name in sys.modules])"
+    code = "import sys, fenics_gears.commands.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if name in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=CHECKOUT, check=True).stdout.strip() == "[]"
 
 

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from tests.report.pages import seen
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.show.cases import Cases
 from fenics_gears.show.study_charts import over_parameter, result_charts
 from fenics_gears.show.report.interactive import figure, height

@@ -8,12 +8,12 @@ from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth
 
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.model import model
-from fenics_gears.resolution import plane_contact_modulus
+from fenics_gears.model.model import model
+from fenics_gears.model.resolution import plane_contact_modulus
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.key_numbers import HARMONIC_NAMES, STUDIED
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

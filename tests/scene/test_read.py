@@ -9,7 +9,7 @@ import fenics_gears
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene import data
 from fenics_gears.scene.read import load_scene, scene_from_text
 

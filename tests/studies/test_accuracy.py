@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from tests.effects.examples import scene_of, text_of
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy import refinement, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged

@@ -16,7 +16,7 @@ from tests.benchmarks.growth.point import Point
 from tests.benchmarks.growth.report import MEBI, column, exponents, section, write_csv
 from tests.benchmarks.marked_section import replaced
 
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 
 MACHINE = {"processor": "a machine", "load": "0.1", "threads": "1", "versions": "0"}
 

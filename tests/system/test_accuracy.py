@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fenics_gears.model import model
-from fenics_gears.resolution import hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.model.model import model
+from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

@@ -12,11 +12,11 @@ from fenics_gears.contact.stiffness_table import LOADS
 from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.mesh_springs import table_cycle
-from fenics_gears.model import model
+from fenics_gears.simulation.mesh_springs import table_cycle
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import deviating, gear_compliances, mesh_cycle, simulate
+from fenics_gears.simulation.simulate import deviating, gear_compliances, mesh_cycle, simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.studies.work import gear_tasks, in_order_of_sharing
 from fenics_gears.studies.gear_store import GearStore, cycle_key
@@ -262,7 +262,7 @@ def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
 
 def test_other_models_are_not_loaded():
     """Rule of the house: a scene that does not ask for them does not import them."""
-    code = "import sys, fenics_gears.simulation; print([m for m in sys.modules if 'spring' in m or 'stiffness_table' in m or 'iso_6336' in m])"
+    code = "import sys, fenics_gears.simulation.simulate; print([m for m in sys.modules if 'spring' in m or 'stiffness_table' in m or 'iso_6336' in m])"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert said.strip() == "[]"
 

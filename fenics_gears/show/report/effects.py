@@ -6,7 +6,7 @@ import csv
 import math
 from pathlib import Path
 
-from fenics_gears.description import effect_states
+from fenics_gears.model.description import effect_states
 from fenics_gears.effects import effects_on
 from fenics_gears.show.report.page import Block, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run

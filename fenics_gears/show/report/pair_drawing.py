@@ -10,7 +10,7 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.run_stresses import standing
+from fenics_gears.simulation.run_stresses import standing
 from fenics_gears.show.chart import MARKERS, Chart, Curve
 from fenics_gears.show.panels import DARK, GREY, PALETTE
 

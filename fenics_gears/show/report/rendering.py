@@ -8,7 +8,7 @@ import re
 from functools import cache
 from importlib import resources
 
-from fenics_gears.console import number_text
+from fenics_gears.system.console import number_text
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import still
 from fenics_gears.show.report.interactive import figure, height

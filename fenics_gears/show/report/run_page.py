@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.system.progress import Progress, SilentProgress
 from fenics_gears.show.report.curves import forces, motion, pressure, spectra
 from fenics_gears.show.report.effects import effects
 from fenics_gears.show.report.energy import energy
@@ -16,7 +16,7 @@ from fenics_gears.show.run import Run
 from fenics_gears.show.report.solver import solver
 from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run_scene import conditions
-from fenics_gears.validity import NO_MEANING
+from fenics_gears.results.validity import NO_MEANING
 
 SECTIONS = (summary, warnings, numbers, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)
 

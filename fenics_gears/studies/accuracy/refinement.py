@@ -7,8 +7,8 @@ from math import inf
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
-from fenics_gears.model import Model, model
-from fenics_gears.resolution import EVERY_STEP, ONCE
+from fenics_gears.model.model import Model, model
+from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings
 

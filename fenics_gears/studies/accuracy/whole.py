@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import ceil
 
-from fenics_gears.cost import operator_bytes
-from fenics_gears.model import model
+from fenics_gears.model.cost import operator_bytes
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.refinement import LENGTH, Refinement

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.progress import Progress
+from fenics_gears.system.progress import Progress
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.convergence import SAFETY, ErrorCurve, largest_part, total_error
 from fenics_gears.studies.accuracy.measures import distance

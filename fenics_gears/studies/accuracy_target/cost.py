@@ -1,15 +1,15 @@
 """What a run costs, counted from what it has to do: the same scene chooses the same settings on every machine.
 
-The counts and their weights are those of `fenics_gears.cost`, here of any sizes at once; only their ratios matter.
+The counts and their weights are those of `fenics_gears.model.cost`, here of any sizes at once; only their ratios matter.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears import cost
-from fenics_gears.cost import SECTOR_UNKNOWNS, Number, flank_unknowns, loaded_pairs
-from fenics_gears.model import Model
+from fenics_gears.model import cost
+from fenics_gears.model.cost import SECTOR_UNKNOWNS, Number, flank_unknowns, loaded_pairs
+from fenics_gears.model.model import Model
 
 
 def run_cost(built: Model, element: str, flank: Number, body: Number, step: Number, nodes: Number) -> np.ndarray:

@@ -8,9 +8,9 @@ import numpy as np
 
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
 from fenics_gears.errors import ComputationError
-from fenics_gears.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
-from fenics_gears.model import MOST_STORED_BYTES, Model, model
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.model.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
+from fenics_gears.model.model import MOST_STORED_BYTES, Model, model
+from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.schema import MOST_CONTACT_NODES

@@ -8,10 +8,10 @@ from dataclasses import asdict, replace
 
 import xarray as xr
 
-from fenics_gears.progress import Progress
+from fenics_gears.system.progress import Progress
 from fenics_gears.results.attributes import ESTIMATED
 from fenics_gears.scene.data import Accuracy, Scene
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.fields import as_toml, changed
 from fenics_gears.studies.accuracy_target.choose import Chosen, choose
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.data import Accuracy, GearData, Motion, Scene
 from fenics_gears.scene.read import load_scene
 

@@ -8,7 +8,7 @@ import pytest
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.elasticity.whole_body.parts import crack_faces
-from fenics_gears.model import model
+from fenics_gears.model.model import model
 from fenics_gears.scene.read import load_scene
 from meshes.cracked_gear import main
 

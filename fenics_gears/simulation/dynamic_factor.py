@@ -15,8 +15,8 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
-from fenics_gears.model import model
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import model
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene

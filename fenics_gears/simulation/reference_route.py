@@ -10,9 +10,9 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
 from fenics_gears.errors import SceneError
-from fenics_gears.model import Model
-from fenics_gears.progress import Progress
-from fenics_gears.resolution import EVERY_STEP, ONCE
+from fenics_gears.model.model import Model
+from fenics_gears.system.progress import Progress
+from fenics_gears.model.resolution import EVERY_STEP, ONCE
 
 
 def remeshed(

@@ -16,14 +16,14 @@ from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
-from fenics_gears.model import Model, model
-from fenics_gears.progress import Progress, SilentProgress
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import Model, model
+from fenics_gears.system.progress import Progress, SilentProgress
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import ELASTIC, ISO_6336, LAST_CYCLES, STIFFNESS_TABLE, Scene
-from fenics_gears.validity import worst_first
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.results.validity import worst_first
+from fenics_gears.simulation.warm_up import compile_kernels
 
 if TYPE_CHECKING:
     from fenics_gears.elasticity.remeshing import RemeshedStiffness
@@ -63,7 +63,7 @@ def simulate(
     stress = None
     # A scene less its elastic teeth, as the cost of effects is measured by, has no stresses; a scene file is refused that asks for both.
     if scene.output.root_stress and scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP:
-        from fenics_gears.root_stress_output import root_stress
+        from fenics_gears.simulation.root_stress import root_stress
 
         stress = root_stress(built, cycle, progress, cache)
     recorder = Recorder(built, cycle, stress=stress)
@@ -78,7 +78,7 @@ def simulate(
     result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
     if scene.inertia is None or not result.attrs["complete"]:
         return result
-    from fenics_gears import dynamic_factor
+    from fenics_gears.simulation import dynamic_factor
 
     if not dynamic_factor.wanted(scene):
         return result
@@ -90,7 +90,7 @@ def assist(scene: Scene, comm) -> None:
     """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
     built = model(scene)
     if built.resolution.condensation == EVERY_STEP and scene.tooth_elasticity is not None:
-        from fenics_gears.reference_route import remeshed
+        from fenics_gears.simulation.reference_route import remeshed
 
         remeshed(built, SilentProgress(), None, comm)
 
@@ -102,17 +102,17 @@ def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
         return (), rigid_cycle(built)
     if built.resolution.condensation == EVERY_STEP:
         # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-        from fenics_gears.reference_route import remeshed
+        from fenics_gears.simulation.reference_route import remeshed
 
         gears, cycle = remeshed(built, progress, cache, comm)
         return gears, deviating(built, cycle)
     if chosen == ISO_6336:
-        from fenics_gears.mesh_springs import iso_cycle
+        from fenics_gears.simulation.mesh_springs import iso_cycle
 
         return (), deviating(built, iso_cycle(built))
     compliances = gear_compliances(built, progress, cache)
     if chosen == STIFFNESS_TABLE:
-        from fenics_gears.mesh_springs import table_cycle
+        from fenics_gears.simulation.mesh_springs import table_cycle
 
         progress.stage("tabulate the mesh stiffness")
         compliances, cycle = table_cycle(built, compliances)

@@ -14,8 +14,8 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import pair_places, tooth_reach
 from fenics_gears.effects import effects_on
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.model import Model
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import Model
+from fenics_gears.model.resolution import EVERY_STEP
 
 Number = float | np.ndarray
 

@@ -11,7 +11,7 @@ from fenics_gears.contact.flank_forces import flank_forces
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, ToothPair
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
 from fenics_gears.results.pairs import contact_times
 
 # Offsets in a result and those of its scene are the same numbers, but for what they lose on a file.
