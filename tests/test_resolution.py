@@ -6,9 +6,9 @@ from math import pi, sqrt
 import pytest
 
 from fenics_gears.model.description import describe
-from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
+from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import model
 from fenics_gears.model.resolution import (
     COARSEST_ELEMENT,

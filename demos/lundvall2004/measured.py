@@ -12,7 +12,7 @@ from fenics_gears import load_scene, results
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.model.model import model
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
+from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 

@@ -24,7 +24,7 @@ class Pair:
 def measured(path: Path) -> Pair:
     """Both runs of a scene; the dynamic factor is the largest force of a tooth pair over that without inertia."""
     from fenics_gears import load_scene, simulate
-    from fenics_gears.dynamics.gear_inertia import lumped_gears
+    from fenics_gears.model.drivetrain import lumped_gears
     from fenics_gears.model.model import model
 
     scene = load_scene(path)

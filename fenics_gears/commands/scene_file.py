@@ -13,7 +13,7 @@ def checked_scene(path: Path):
 
     scene = load_scene(path)
     from fenics_gears.effects import check_files
-    from fenics_gears.geometry.modification import corner, removals
+    from fenics_gears.model.modification import corner, removals
     from fenics_gears.geometry.pair import gear_pair
 
     try:

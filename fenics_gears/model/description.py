@@ -98,7 +98,7 @@ def _speed_rows(built: Model) -> Rows:
 
 def _inertia_rows(built: Model) -> Rows:
     """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the line of action."""
-    from fenics_gears.dynamics.gear_inertia import lumped_gears
+    from fenics_gears.model.drivetrain import lumped_gears
 
     rows: Rows = []
     along = []

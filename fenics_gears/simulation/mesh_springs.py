@@ -14,7 +14,7 @@ from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, coast_place, drive_place, facing_points
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
+from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
 
 # A table has at most so many phases, and is linear between them.

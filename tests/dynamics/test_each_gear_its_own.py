@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from fenics_gears.model.description import describe
-from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.effects.damping import Damping, Rayleigh
 from fenics_gears.effects.inertia import GearInertia, Inertia
 from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
+from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.scene.read import scene_from_text
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, quasi_static
 
-from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.effects import effect, result_variables
 from fenics_gears.effects.bearings import Bearings, Support
 from fenics_gears.errors import SceneError

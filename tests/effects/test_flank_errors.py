@@ -14,7 +14,7 @@ from fenics_gears.contact.flank_gaps import FlankGaps, flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import without
 from fenics_gears.effects.eccentricity import Eccentricity, Offset

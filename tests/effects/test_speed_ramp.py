@@ -14,7 +14,7 @@ from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.clock import SteadyClock
-from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces

@@ -12,7 +12,7 @@ from fenics_gears.effects import result_variables, without
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.tip_relief import Relief, TipRelief
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.modification import removals
+from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate

@@ -12,7 +12,7 @@ from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Record
 from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
