@@ -214,7 +214,7 @@ def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
     bounds, module = limits.Limits(scene, "P2"), scene.gears.module
     assert bounds.allowed(0.01 * module, 1.0, 0.05, 1.0) and not bounds.allowed(0.9e-3 * module, 1.0, 0.05, 1.0)
     assert "finer than a scene may ask for" in bounds.why_not(0.9e-3 * module, 1.0, 1.0)
-    many_cycles = replace(scene, motion=Motion(200.0, 200, 200))
+    many_cycles = replace(scene, motion=Motion(200.0, 600, 600))
     assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 5e-3, 1.0)
     assert not limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0)
     assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
