@@ -20,6 +20,7 @@ from tests.stand_in import stand_in_compliance
 from threadpoolctl import threadpool_limits
 
 from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene
@@ -34,15 +35,6 @@ settings.load_profile("suite")
 DEMOS = Path(__file__).parents[1] / "demos"
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_cmdline_main(config):
-    """Two processes for the whole suite, each a file at a time; tests that are named, and `-n` of one's own, are left as they are."""
-    options = config.option
-    is_whole = config.args == config.getini("testpaths") and not (options.collectonly or options.usepdb)
-    if is_whole and getattr(options, "numprocesses", 0) is None and len(os.sched_getaffinity(0)) > 1:
-        options.numprocesses, options.dist, options.benchmark_disable = 2, "loadfile", True
-
-
 def pytest_unconfigure():
     """The suite's own cache goes with it."""
     if not IS_WORKER:
@@ -54,6 +46,12 @@ def one_thread():
     """BLAS with one thread: on the tests' small matrices several wait for one another, and much longer where other work shares the cores."""
     with threadpool_limits(limits=1):
         yield
+
+
+@pytest.fixture(scope="session")
+def suite_cache():
+    """The cache that all tests share, but those of caches."""
+    return Cache(SUITE_CACHE)
 
 
 @pytest.fixture(scope="session")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tests.effects.examples import EXAMPLES
+
 from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, effect
 from fenics_gears.effects.effect import Effect
-from tests.effects.examples import EXAMPLES
 
 PAGE = Path(__file__).parents[1] / "docs" / "effects.md"
 HEADING = """# Effects

@@ -26,13 +26,10 @@ def main(arguments: list[str] | None = None) -> int:
     """Run, draw, print; returns 0."""
     directory = output_directory("flank_errors", "Orders of the transmission error of a pair with errors of manufacture.", arguments)
     from fenics_gears import load_scene, simulate
-    from fenics_gears.output import written_aside
-    from fenics_gears.show.plots import save_figure
-    from fenics_gears.show.spectrum import order_spectrum
+    from fenics_gears.show.plots import run_figures, save_figures
 
     result = simulate(load_scene(SCENE))
-    with written_aside(directory, written := []) as aside:
-        save_figure(order_spectrum(result), aside / PICTURE)
+    written = save_figures({PICTURE: run_figures(result)[PICTURE]}, directory)
     for name, amplitude in named_lines(result).items():
         print(f"{name}: order {NAMED[name]:.4g}, {amplitude:.2f} um")
     print(written[0])
@@ -41,15 +38,13 @@ def main(arguments: list[str] | None = None) -> int:
 
 def named_lines(result) -> dict[str, float]:
     """Amplitudes (um on the wheel's base circle) of the orders that one cause is known for; `result`: of whole hunting tooth periods."""
-    import numpy as np
-
     from fenics_gears.show.run_scene import scene_of
     from fenics_gears.show.spectrum import order_lines
 
     gears, phase = scene_of(result).gears, result["mesh_phase"].values
     error = result["transmission_error"].values * result.attrs["base_radius_wheel"] * 1e3
     lines = order_lines(error, float(phase[-1] - phase[0]), (gears.pinion.teeth, gears.wheel.teeth))
-    return {name: float(lines.amplitudes[np.argmin(np.abs(lines.orders - order))]) for name, order in NAMED.items()}
+    return {name: lines.at(order) for name, order in NAMED.items()}
 
 
 if __name__ == "__main__":

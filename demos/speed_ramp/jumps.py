@@ -17,7 +17,9 @@ def main(arguments: list[str] | None = None) -> int:
     import numpy as np
 
     from demos.speed_ramp.picture import draw
-    from demos.speed_ramp.sweeps import ramps, steady
+    from demos.speed_ramp.sweeps import HERE, ramps, steady
+    from fenics_gears import load_scene
+    from fenics_gears.geometry.pair import gear_pair
     from fenics_gears.output import written_aside
     from fenics_gears.show.panels import DOTS_PER_INCH
     from fenics_gears.studies.gear_store import GearStore
@@ -25,12 +27,13 @@ def main(arguments: list[str] | None = None) -> int:
     begun, store = time.perf_counter(), GearStore()
     passed = ramps(store)
     held = {name: np.array([steady(name, frequency, store) for frequency in STEADY]) for name in passed}
+    radius = gear_pair(load_scene(HERE / "up.toml").gears).wheel.base_radius
     written: list[Path] = []
     with written_aside(directory, written) as aside:
-        draw(passed, np.array(STEADY), held).savefig(aside / "speed_ramp.png", dpi=DOTS_PER_INCH)
-    print("mesh frequency (Hz), transmission error peak to peak (urad): reached from below, from above")
+        draw(passed, np.array(STEADY), held, radius).savefig(aside / "speed_ramp.png", dpi=DOTS_PER_INCH)
+    print("mesh frequency (Hz), transmission error peak to peak on the wheel's base circle (um): reached from below, from above")
     for frequency, up, down in zip(STEADY, held["up"], held["down"]):
-        print(f"{frequency:g}  {1e6 * up:.0f}  {1e6 * down:.0f}")
+        print(f"{frequency:g}  {1e3 * radius * up:.1f}  {1e3 * radius * down:.1f}")
     print(written[0])
     print(f"{time.perf_counter() - begun:.0f} s")
     return 0

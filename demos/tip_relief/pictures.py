@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from demos.tip_relief.design import LONG, SHORT, Bench, Design
 from demos.tip_relief.findings import DRAWN, HARRIS_LOADS, Map
 from demos.tip_relief.optimum import ALLOWED, Optimum
-from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
+from fenics_gears.show.panels import DARK, GREY, PALETTE, legend, styled
 
 COLOURS = dict(zip(DRAWN, PALETTE))
 STYLES = {"true involutes": (0, (1, 1.4)), "short relief": (0, (5, 2)), "best relief": "-"}
@@ -54,7 +54,7 @@ def _draw_map(axes: Axes, found: Map, best: Optimum, scale: Normalize):
     axes.clabel(lines, fmt="%g µm", fontsize=10)
     for length, words in ((SHORT, "short"), (LONG, "long")):
         axes.axvline(length, color="white", linewidth=1.0, linestyle=":")
-        axes.text(length, found.depths[-1], f" {words}", color="white", va="top", fontsize=12, fontweight="bold")
+        axes.annotate(words, (length, found.depths[-1]), xytext=(5, -7), textcoords="offset points", color="white", va="top", fontsize=12, fontweight="bold")
     axes.plot(best.design.length, best.design.depth, "o", color=PALETTE[1], markeredgecolor="white", markersize=10)
     axes.contour(found.lengths, found.depths, found.left, levels=[best.peak_to_peak + ALLOWED], colors=PALETTE[1], linewidths=2.2)
     axes.annotate(
@@ -70,13 +70,11 @@ def _draw_map(axes: Axes, found: Map, best: Optimum, scale: Normalize):
 def _draw_curves(axes: Axes, curves: Mapping[tuple[str, str], tuple[np.ndarray, np.ndarray]]) -> None:
     for (friction, design), (phase, error) in curves.items():
         axes.plot(phase, error - error.mean(), color=COLOURS[friction], linestyle=STYLES[design], label=f"{friction}, {design}")
-    axes.set_title("Before and after, at 437 N m")
+    axes.set_title("Before and after, at 437 N m", pad=46.0)
     axes.set_xlabel("Time (mesh cycles)")
     axes.set_ylabel("Transmission error\nless its mean (µm)")
     axes.set_xlim(0.0, 1.0)
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.45 * (high - low))
-    axes.legend(loc="upper left", ncol=2, columnspacing=1.2, handlelength=1.8)
+    legend(axes, columns=2, location="lower left")
 
 
 def _draw_loads(axes: Axes, torques: np.ndarray, left: Mapping[tuple[str, str], np.ndarray]) -> None:
@@ -84,12 +82,12 @@ def _draw_loads(axes: Axes, torques: np.ndarray, left: Mapping[tuple[str, str], 
         axes.plot(torques, values, color=COLOURS[friction], linestyle=STYLES[design], label=f"{friction}, {design}")
     axes.axvline(0.5 * torques[-1], color=GREY, linewidth=1.0)
     axes.annotate("chosen for\nthis load", (0.5 * torques[-1], axes.get_ylim()[1]), xytext=(5, -2), textcoords="offset points", va="top", fontsize=11, color=DARK)
-    axes.set_title("What the same reliefs leave at other loads")
+    axes.set_title("What the same reliefs leave at other loads", pad=64.0)
     axes.set_xlabel("Torque on the wheel (N m)")
     axes.set_ylabel(LEFT)
     axes.set_xlim(0.0, torques[-1])
     axes.set_ylim(0.0, 1.1 * max(values.max() for values in left.values()))
-    axes.legend(loc="upper left", fontsize=10)
+    legend(axes, columns=2, location="lower left")
 
 
 @styled

@@ -92,7 +92,7 @@ def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
 
 def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
     from fenics_gears import results
-    from fenics_gears.show.report.run import Run
+    from fenics_gears.show.run import Run
     from fenics_gears.show.report.run_page import run_page
 
     run = Run(_read(results.load, file), file, at=options.at, stress=not options.no_stress)

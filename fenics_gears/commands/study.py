@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from fenics_gears.commands.drawing import draw_study
 from fenics_gears.commands.exit_codes import INTERRUPTED
 from fenics_gears.commands.told_progress import told_progress
 from fenics_gears.errors import ComputationError, SceneError
@@ -16,7 +17,7 @@ from fenics_gears.errors import ComputationError, SceneError
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("study", parents=[shared], help="run a parameter study, alone or under mpirun; resumes where it was stopped")
+    command = commands.add_parser("study", parents=[shared], help="run a parameter study and draw it, alone or under mpirun; resumes where it was stopped")
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the study file>)")
     command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes and share the cases among them")
@@ -33,10 +34,13 @@ def study(options: argparse.Namespace) -> int:
     outcome = run_study(options.study, options.output, told_progress(options.quiet), options.quiet)
     if outcome is None:
         return 0
+    pictures = [] if outcome.interrupted else draw_study(outcome.file)
     if not options.quiet:
         from fenics_gears.console import print_rows
 
         print_rows(outcome.study.title, summary_rows(outcome))
+        print_rows("Files", [("", str(file), "") for file in (outcome.file, *pictures)])
+        print(f"`gears report {outcome.file.parent}` makes one page of it all.")
     if last_words(outcome):
         print(last_words(outcome), file=sys.stderr)
     if outcome.interrupted:

@@ -6,7 +6,7 @@ A section that the scene does not name is ``None``: that effect is not simulated
 from __future__ import annotations
 
 from dataclasses import dataclass, make_dataclass
-from typing import Optional
+from typing import TYPE_CHECKING, Any, Optional, TypeAlias
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import Material
@@ -149,6 +149,9 @@ class _AlwaysThere:
 
 
 # Everything a run needs to know, and the text it was read from; one field for each effect, None where the scene does not name it.
-Scene = make_dataclass("Scene", [(effect.section, Optional[effect.data], None) for effect in top_level()], bases=(_AlwaysThere,), frozen=True)
-Scene.__doc__ = "Everything a run needs to know, and the text it was read from; an effect that the scene does not name is None."
-Scene.__module__ = __name__
+if TYPE_CHECKING:
+    Scene: TypeAlias = Any  # of fields that are known when the program runs
+else:
+    Scene = make_dataclass("Scene", [(effect.section, Optional[effect.data], None) for effect in top_level()], bases=(_AlwaysThere,), frozen=True)
+    Scene.__doc__ = "Everything a run needs to know, and the text it was read from; an effect that the scene does not name is None."
+    Scene.__module__ = __name__

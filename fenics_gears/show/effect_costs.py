@@ -17,7 +17,7 @@ from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_p
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
 LINE_HEIGHT = 0.36
-LABEL = {"va": "center", "fontsize": 10.5, "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.4}}
+LABEL = {"xytext": (5, 0), "textcoords": "offset points", "va": "center", "fontsize": 10.5, "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.4}}
 
 
 @styled
@@ -58,7 +58,7 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
     axes.barh(places, centres, color=PALETTE[0], label="centre coordinates", height=0.7)
     axes.barh(places, contact, left=centres, color=PALETTE[4], label="contact rows", height=0.7)
     for place, total in zip(places, centres + contact):
-        axes.text(total, place, f" {total:.0f}", **LABEL)
+        axes.annotate(f"{total:.0f}", (total, place), **LABEL)
     axes.set_xlim(0, 1.15 * (centres + contact).max())
     axes.set_title("Unknowns")
     below = (0.5, -0.45 / (LINE_HEIGHT * len(rows)))
@@ -77,8 +77,8 @@ def _bars(axes: Axes, report: Report, places: np.ndarray, name: str, factor: flo
     ends = np.array([max(row.step_times) for row in rows]) * factor if name == "step_time" else values
     for place, value, end, row in zip(places, values, ends, rows):
         changed = change(report, row, name)
-        axes.text(end, place, f" {_number(value, values.max())}" + ("" if changed is None else f"  {in_percent(changed)}"), **LABEL)
-    axes.set_xlim(0, 1.6 * max(ends.max(), 1e-300))
+        axes.annotate(_number(value, values.max()) + ("" if changed is None else f"  {in_percent(changed)}"), (end, place), **LABEL)
+    axes.set_xlim(0, 1.8 * max(ends.max(), 1e-300))
     axes.set_title(title)
 
 

@@ -1,19 +1,14 @@
-"""What all pictures share: palette, fonts, the heading, panels over mesh cycles and their axes."""
+"""What all pictures share: palette, fonts, legends and the ends of axes."""
 
 from __future__ import annotations
 
 import functools
-import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import matplotlib
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
-from fenics_gears.show.run_scene import conditions, scene_of
 
 # Okabe and Ito's palette without its yellow, which is too pale for a line: told apart with any colour vision.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -51,35 +46,6 @@ def styled(draw: Callable) -> Callable:
             return draw(*arguments, **options)
 
     return inside
-
-
-def panels(dataset: xr.Dataset, subject: str, heights: Sequence[float]) -> tuple[Figure, list[Axes]]:
-    """A figure with one panel per height (inches) above each other, all over the recorded mesh cycles, and its heading."""
-    figure = Figure(figsize=(10.0, 1.6 + sum(heights)), layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
-    axes = figure.subplots(len(heights), sharex=True, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
-    _heading(figure, dataset, subject)
-    phase = dataset["mesh_phase"].values
-    axes[-1].set_xlim(phase[0], phase[-1])
-    axes[-1].set_xlabel("Time (mesh cycles since the start)")
-    axes[-1].xaxis.set_major_locator(MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]))
-    return figure, list(axes)
-
-
-def _heading(figure: Figure, dataset: xr.Dataset, subject: str) -> None:
-    """Subject and scene, the operating conditions, and, where it applies, that the run is incomplete."""
-    title = " ".join(str(dataset.attrs.get("title", "")).split())
-    lines = [textwrap.shorten(f"{subject}: {title}" if title else subject, 92, placeholder=" …")]
-    scene = scene_of(dataset)
-    if scene is not None:
-        lines += textwrap.wrap(conditions(scene), 92, break_long_words=False)
-    complete = bool(dataset.attrs.get("complete", 1))
-    if not complete:
-        lines.append(f"INCOMPLETE RUN: stopped at mesh cycle {dataset['mesh_phase'].values[-1]:.2f}")
-    # A scene's title may hold dollar signs that are no formula.
-    figure.suptitle(
-        "\n".join(lines), x=0.012, ha="left", fontsize=14, color=DARK if complete else WARNING, parse_math=False
-    )
 
 
 def limits(values: np.ndarray, least: float) -> tuple[float, float]:

@@ -1,8 +1,9 @@
-"""The pictures of a run: drawn from its dataset and saved under names that do not change."""
+"""The pictures of a run: charts put together from its dataset and saved under names that do not change."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
 
@@ -13,14 +14,40 @@ from matplotlib.figure import Figure
 from fenics_gears.errors import ComputationError
 from fenics_gears.output import written_aside
 from fenics_gears.show import PICTURE_FILES
-from fenics_gears.show.curves import load_sharing, mesh_forces, transmission_error
-from fenics_gears.show.panels import DOTS_PER_INCH, styled
-from fenics_gears.show.pressure_map import contact_pressure
-from fenics_gears.show.spectrum import order_spectrum
+from fenics_gears.show.chart import Chart
+from fenics_gears.show.drawing import heading, picture
+from fenics_gears.show.forces import mesh_forces, pair_forces, shaft_torques
+from fenics_gears.show.motion import error_by_cycle, error_values, transmission_error, wheels_shaft
+from fenics_gears.show.orders import order_spectrum
+from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
+from fenics_gears.show.pressure import pressure_maps
+from fenics_gears.show.run import Run
+from fenics_gears.show.run_scene import conditions
 
-PICTURES: dict[str, Callable[[xr.Dataset], Figure | None]] = dict(
-    zip(PICTURE_FILES, (transmission_error, mesh_forces, load_sharing, contact_pressure, order_spectrum))
+
+def _errors(run: Run) -> list[Chart]:
+    if "transmission_error" not in run.dataset:
+        return []
+    whole = error_by_cycle(run) if run.varies(error_values(run)[0]) else []
+    return [transmission_error(run), *wheels_shaft(run), *whole]
+
+
+def _shares(run: Run) -> list[Chart]:
+    return list(pair_forces(run))[:1]
+
+
+def _orders(run: Run) -> Iterable[Chart]:
+    return filter(None, [order_spectrum(run)])
+
+
+SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
+    ("Transmission error", _errors),
+    ("Mesh forces", lambda run: [*mesh_forces(run), *shaft_torques(run)]),
+    ("Load sharing between tooth pairs", _shares),
+    ("Contact pressure on the flanks", pressure_maps),
+    ("Orders of the transmission error", _orders),
 )
+PICTURES = dict(zip(PICTURE_FILES, SUBJECTS))
 
 
 def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
@@ -29,30 +56,55 @@ def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     They appear in ``directory`` together, when all are drawn. Raises ComputationError where fewer than two steps are stored, a variable's
     units do not fit it, or the directory cannot be written.
     """
-    figures = run_figures(dataset)
-    written: list[Path] = []
-    with written_aside(Path(directory), written) as aside:
-        for name, figure in figures.items():
-            save_figure(figure, aside / name)
-    return written
+    return save_figures(run_figures(dataset), Path(directory))
 
 
 def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
-    _check_steps(dataset)
-    drawn = {name: draw(dataset) for name, draw in PICTURES.items()}
-    return {name: figure for name, figure in drawn.items() if figure is not None}
+    run = Run(dataset)
+    _check_steps(run)
+    drawn = {name: (subject, list(charts(run))) for name, (subject, charts) in PICTURES.items()}
+    colour = DARK if run.complete else WARNING
+    return {name: picture(_heading(run, subject), charts, colour) for name, (subject, charts) in drawn.items() if charts}
 
 
-def _check_steps(dataset: xr.Dataset) -> None:
-    steps = dataset.sizes.get("time", 0)
-    if steps >= 2:
+def _heading(run: Run, subject: str) -> str:
+    """Subject and scene, the operating conditions, and, where it applies, that the run is incomplete."""
+    more = [] if run.scene is None else [conditions(run.scene)]
+    if not run.complete:
+        more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")
+    return heading(subject, str(run.dataset.attrs.get("title", "")), *more)
+
+
+def _check_steps(run: Run) -> None:
+    if run.has_curves:
         return
-    stored = "no step is stored" if steps == 0 else "only one step is stored"
+    stored = "no step is stored" if run.steps == 0 else "only one step is stored"
     remedy = "Run the scene again."
-    if not dataset.attrs.get("complete", 1):
+    if not run.complete:
         remedy = "The run ended before or just as its recorded mesh cycles began. Run the scene again, or record more of its cycles."
     raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. {remedy}")
+
+
+def draw_study(file: Path) -> list[Path]:
+    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files; none where no case has a result."""
+    from fenics_gears.show.cases import Cases
+    from fenics_gears.show.study_charts import result_charts
+    from fenics_gears.studies.combine import load_combined
+
+    cases = Cases(load_combined(file), file)
+    title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
+    charts = result_charts(cases)
+    return save_figures({f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")]) for name, chart in charts.items()}, file.parent)
+
+
+def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
+    """Save figures by their file names, all or none."""
+    written: list[Path] = []
+    with written_aside(directory, written) as aside:
+        for name, figure in figures.items():
+            save_figure(figure, aside / name)
+    return written
 
 
 @styled

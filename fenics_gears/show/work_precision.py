@@ -33,10 +33,10 @@ def work_precision(report: Report) -> Figure:
 
 def _whole(axes: Axes, report: Report) -> None:
     front = report.front
-    for each in report.settings:
-        if each.name != OWN and each not in front:
-            axes.plot(each.times.total, each.charged, "o", color=GREY, markersize=5)
-    axes.plot([each.times.total for each in front], [each.charged for each in front], "-o", color=PALETTE[0], label="Pareto front of settings")
+    others = [each for each in report.settings if each.name != OWN and each not in front]
+    if others:
+        axes.plot([each.times.total for each in others], [each.charged for each in others], "o", color=GREY, markersize=5, label="settings that another one beats in both")
+    axes.plot([each.times.total for each in front], [each.charged for each in front], "-o", color=PALETTE[0], label="Pareto front: none is quicker and as accurate")
     axes.plot(report.own.times.total, report.own.charged, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
     for place, each in enumerate(report.models):
         axes.plot(each.times.total, each.charged, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")

@@ -29,7 +29,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         if worthless:
             rows.append(("cases without meaning", f"{worthless}, see the variable meaningless", ""))
     rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes)]
-    return [*rows, ("file", str(outcome.file), "")]
+    return rows
 
 
 def last_words(outcome: Outcome) -> str:

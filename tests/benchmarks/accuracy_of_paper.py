@@ -1,8 +1,8 @@
-"""What accuracy of the paper's scene costs, into docs/accuracy.md and the README: `python -m tests.benchmarks.accuracy_of_paper`.
+"""What accuracy of the paper's scene costs, into docs/accuracy.md and docs/performance.md: `python -m tests.benchmarks.accuracy_of_paper`.
 
 Runs what `gears accuracy` runs on demos/lundvall2004.toml quasi-static and at 200 Hz, with friction and without; writes each one's
 tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV; then, of all four together, a picture and
-a table into the README. Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
+a table into docs/performance.md. Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from tests.benchmarks.accuracy_overview import TITLES, overview, overview_picture, readme_section
+from tests.benchmarks.accuracy_overview import TITLES, overview, overview_picture, overview_section
 from tests.benchmarks.marked_section import write_section
 
 from fenics_gears.progress import LineProgress
@@ -22,7 +22,7 @@ from fenics_gears.studies.accuracy.report import Report, measure
 
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE, PICTURES = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md", ROOT / "docs" / "pictures"
-README = ROOT / "README.md"
+OVERVIEW = ROOT / "docs" / "performance.md"
 
 
 def scenes() -> dict[str, Scene]:
@@ -71,7 +71,7 @@ def main() -> None:
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on single settings run again for their times")
-    parser.add_argument("--write-again", action="store_true", help="the README's picture and table from what is saved, without measuring")
+    parser.add_argument("--write-again", action="store_true", help="picture and table of docs/performance.md from what is saved, without measuring")
     options = parser.parse_args()
     for name in [] if options.write_again else options.names:
         progress = LineProgress()
@@ -85,12 +85,12 @@ def main() -> None:
 
 
 def write_overview() -> None:
-    """All scenes together, from what is saved of them, into the README."""
+    """All scenes together, from what is saved of them, into docs/performance.md."""
     from fenics_gears.show.plots import save_figure
 
     found = {name: overview(PICTURES / f"accuracy_{name}.csv") for name in TITLES}
     save_figure(overview_picture(found), PICTURES / "accuracy.png")
-    write_section(README, *markers("of the paper's scene"), readme_section(found))
+    write_section(OVERVIEW, *markers("of the paper's scene"), overview_section(found))
 
 
 if __name__ == "__main__":

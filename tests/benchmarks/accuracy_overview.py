@@ -74,7 +74,7 @@ def overview(file: Path) -> Overview:
 
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
-    """The table of the README."""
+    """The table of docs/performance.md."""
     headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "what limits them"]
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
     for name, each in found.items():
@@ -102,8 +102,9 @@ def overview_picture(found: dict[str, Overview]) -> Figure:
     for panel in panels[2:]:
         panel.set_xlabel("Time of a run (s, median; meshing, condensing, marching)")
     figure.supylabel("Relative error (%), the larger of T$_E$ in L$_2$ and T$_{EPP}$", fontsize=12)
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=3, bbox_to_anchor=(0.5, 0.03), fontsize=11)
+    # Each kind of mark once, whichever panels have it.
+    marks = {label: handle for panel in panels for handle, label in zip(*panel.get_legend_handles_labels())}
+    figure.legend(marks.values(), marks, loc="lower center", ncol=4, bbox_to_anchor=(0.5, 0.03), fontsize=11)
     figure.suptitle("What accuracy of the paper's scene costs in time", x=0.01, ha="left", fontsize=15, color=DARK)
     where = next(iter(found.values())).machine
     figure.text(0.01, 0.008, f"{where['processor']}; {where['versions']}", fontsize=9.5, color=DARK, parse_math=False)
@@ -113,18 +114,19 @@ def overview_picture(found: dict[str, Overview]) -> Figure:
 def _panel(axes: Axes, found: Overview) -> None:
     others = [each for each in found.points if not (each.pays or each.model or each.name == OWN)]
     if others:
-        axes.plot([each.time for each in others], [each.error for each in others], "o", color=GREY, markersize=4)
+        axes.plot([each.time for each in others], [each.error for each in others], "o", color=GREY, markersize=5, label="other settings")
     front = found.front
-    axes.plot([each.time for each in front], [each.error for each in front], "-o", color=PALETTE[0], label="settings that pay")
+    axes.plot([each.time for each in front], [each.error for each in front], "-o", color=PALETTE[0], label="Pareto front")
     axes.plot(found.own.time, found.own.error, "*", color=PALETTE[1], markersize=16, label="the scene's own")
     for mark, each in zip(MODEL_MARKS, (each for each in found.points if each.model)):
         axes.plot(each.time, each.error, mark, color=PALETTE[2], markersize=8, label=f"model: {each.name}")
     axes.axhspan(1e-6, found.floor, color=GREY, alpha=0.15, linewidth=0, label="less than the reference's uncertainty")
     axes.set_xscale("log")
     axes.set_yscale("log")
+    # Errors of the models reach 100 %; above is room for the words.
     axes.set_ylim(1e-3, 10.0)
     for target in TARGETS:
-        axes.axhline(target, color=GREY, linestyle=":", linewidth=1.0)
+        axes.axhline(target, color=GREY, linestyle=":", linewidth=1.0, label="targets: " + ", ".join(f"{100 * each:g} %" for each in TARGETS))
     # The corner that a falling front leaves free.
     axes.text(
         0.98, 0.97, "\n".join(_words(found, target) for target in TARGETS), transform=axes.transAxes, ha="right", va="top", fontsize=10.5,
@@ -141,12 +143,12 @@ def _words(found: Overview, target: float) -> str:
     return f"{100 * target:g} %: " + ("out of reach of these settings" if target >= found.floor else "less than the reference can tell")
 
 
-def readme_section(found: dict[str, Overview]) -> str:
+def overview_section(found: dict[str, Overview]) -> str:
     """Picture and table."""
     machine = next(iter(found.values())).machine
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
-        "![What accuracy of the paper's scene costs in time](docs/pictures/accuracy.png)", "", *table_lines(found), "",
+        "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
         "Errors: the larger of those of T_E in L2 and of T_EPP, the sum of all settings' own errors or the distance from the reference where that is more. Times: medians of "
         f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip

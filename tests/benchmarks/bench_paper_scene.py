@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from fenics_gears.model import model
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation import gear_compliances, mesh_cycle

@@ -1,6 +1,6 @@
-"""What the effects of the paper's scene cost and change, into the README: `python -m tests.benchmarks.effects_of_paper`.
+"""What the effects of the paper's scene cost and change, into docs/performance.md: `python -m tests.benchmarks.effects_of_paper`.
 
-Runs `gears effects` on demos/lundvall2004.toml, writes its table between the README's two markers and its picture to
+Runs `gears effects` on demos/lundvall2004.toml, writes its table between two markers of that page and its picture to
 docs/pictures/effects.png. Times are this machine's; T_EPP and forces must not change.
 """
 
@@ -16,7 +16,7 @@ from fenics_gears.studies.effect_lattice.measured import Report, measure
 from fenics_gears.studies.effect_lattice.subsets import ALL, BARE
 
 ROOT = Path(__file__).parents[2]
-SCENE, README, PICTURE = ROOT / "demos" / "lundvall2004.toml", ROOT / "README.md", ROOT / "docs" / "pictures" / "effects.png"
+SCENE, PAGE, PICTURE = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "performance.md", ROOT / "docs" / "pictures" / "effects.png"
 BEGIN, END = "<!-- effects of the paper's scene: begin -->", "<!-- effects of the paper's scene: end -->"
 
 
@@ -44,19 +44,19 @@ def _ratio(report: Report) -> str:
 
 
 def main() -> None:
-    """Measure, write the picture and the README's section."""
+    """Measure, write the picture and the page's section."""
     from fenics_gears.show.effect_costs import effect_costs
     from fenics_gears.show.plots import save_figure
 
-    before, marker, rest = README.read_text(encoding="utf-8").partition(BEGIN)
+    before, marker, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
     _, end, after = rest.partition(END)
     if not (marker and end):
-        raise SystemExit(f"{README}: the lines {BEGIN} and {END} are missing; put them where the table shall stand")
+        raise SystemExit(f"{PAGE}: the lines {BEGIN} and {END} are missing; put them where the table shall stand")
     progress = LineProgress()
     report = measure(load_scene(SCENE), progress)
     progress.close()
     save_figure(effect_costs(report), PICTURE)
-    README.write_text(f"{before}{BEGIN}\n\n{section(report)}\n\n{END}{after}", encoding="utf-8")
+    PAGE.write_text(f"{before}{BEGIN}\n\n{section(report)}\n\n{END}{after}", encoding="utf-8")
     print(section(report))
 
 

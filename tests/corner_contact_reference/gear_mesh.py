@@ -161,7 +161,7 @@ def _triangles(doubled, touching, bore, sizes: MeshSizes) -> tuple[np.ndarray, n
             own = [gmsh.model.geo.addPoint(x, y, 0.0) for x, y in curve]
             loops.append([gmsh.model.geo.addLine(a, b) for a, b in zip(own, own[1:] + own[:1])])
             tags += own
-        surface = gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(loop) for loop in loops])
+        gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(loop) for loop in loops])
         gmsh.model.geo.synchronize()
         for loop in loops:
             for line in loop:

@@ -49,7 +49,7 @@ def test_the_picture_has_both_ways():
     """Authority: what it is drawn from; two lines, two rows of rings, over the frequencies of the ramps."""
     frequency = np.linspace(150.0, 260.0, 12)
     passed = {"up": sweeps.Sweep(frequency, 1e-3 * frequency / 200.0), "down": sweeps.Sweep(frequency[::-1], 1e-3 * np.ones(12))}
-    (axes,) = draw(passed, np.array([180.0, 200.0]), {"up": np.array([1e-3, 2e-3]), "down": np.array([3e-3, 4e-3])}).axes
+    (axes,) = draw(passed, np.array([180.0, 200.0]), {"up": np.array([1e-3, 2e-3]), "down": np.array([3e-3, 4e-3])}, 50.0).axes
     assert [list(line.get_xdata()) for line in axes.get_lines()][1] == [180.0, 200.0]
     assert len(axes.get_lines()) == 4 and axes.get_xlim() == (150.0, 260.0)
-    assert list(axes.get_lines()[2].get_ydata()) == pytest.approx([1.0] * 12)
+    assert list(axes.get_lines()[2].get_ydata()) == pytest.approx([50.0] * 12)

@@ -11,6 +11,7 @@ from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher, Record
 
+
 def frictionless(scene, **changes):
     return replace(scene, friction=None, **changes)
 

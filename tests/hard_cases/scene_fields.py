@@ -24,7 +24,7 @@ INSTEAD = {
     **{(*path, "density"): [*LUMPED] for path in (("inertia",), ("inertia", "pinion"), ("inertia", "wheel"))},
     **{("damping", name): [*RAYLEIGH, "pinion", "wheel"] for name in ("ratio", "ratios")},
 }
-SUPPORT = {name: "0.155e6 N/mm" for name in ("stiffness", "stiffness_x", "stiffness_y")}
+SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/mm")
 # Units of every kind of quantity that a scene has, by what `units` calls it.
 UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a couple": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",

@@ -96,21 +96,23 @@ def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes
         tally.tell(measured, gears)
 
 
-def test_every_step_of_any_scene_on_stand_in_teeth(measured):
+@pytest.mark.parametrize("examples", [15, pytest.param(40, marks=pytest.mark.nightly)])
+def test_every_step_of_any_scene_on_stand_in_teeth(measured, examples):
     """Authority: the contact laws and Newton's third law, from the equations; teeth without finite elements, so that many can be drawn."""
-    judged(Tally(), measured, "stand-in teeth", on_stand_ins, 40)
+    judged(Tally(), measured, "stand-in teeth", on_stand_ins, examples)
 
 
 def test_every_step_of_any_scene(measured, tmp_path):
     """Authority: as above, on finite elements of the drawn gears."""
-    judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 10)
+    judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 4)
 
 
-def test_every_step_of_any_frictionless_scene_without_load(measured):
+@pytest.mark.parametrize("examples", [12, pytest.param(30, marks=pytest.mark.nightly)])
+def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
     """Authority: as above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and teeth was taken
     for a force that nothing balances."""
     scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
-    judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, 30, scenes)
+    judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, examples, scenes)
 
 
 @pytest.mark.nightly

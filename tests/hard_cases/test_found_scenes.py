@@ -7,16 +7,10 @@ import pytest
 from tests.hard_cases.invariants import run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS, on_elements
 
-from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model import model
 from fenics_gears.scene.read import load_scene
 
 FOUND = sorted(Path(__file__).with_name("found_scenes").glob("*.toml"))
-
-
-@pytest.fixture(scope="module")
-def cache(tmp_path_factory):
-    return Cache(tmp_path_factory.mktemp("cache"))
 
 
 def checked(file, cache):
@@ -32,14 +26,14 @@ def checked(file, cache):
 
 
 @pytest.mark.parametrize("file", [file for file in FOUND if "no_load" in file.stem], ids=lambda file: file.stem)
-def test_a_scene_without_load_that_failed_once_converges(file, cache):
+def test_a_scene_without_load_that_failed_once_converges(file, suite_cache):
     """Row 16: without load there is no force; nothing may be asked of the friction at nodes that carry no more than round-off."""
-    run = checked(file, cache)
+    run = checked(file, suite_cache)
     spurious = max(np.abs(record.solution.forces).max(initial=0.0) for record in run.records)
     assert run.built.scene.load.wheel_torque == 0.0 and spurious <= 1e-8
 
 
 @pytest.mark.parametrize("file", [file for file in FOUND if "no_load" not in file.stem], ids=lambda file: file.stem)
-def test_a_scene_that_failed_once_converges(file, cache):
+def test_a_scene_that_failed_once_converges(file, suite_cache):
     """Rows 1 to 3, of contact that has a solution."""
-    checked(file, cache)
+    checked(file, suite_cache)

@@ -19,7 +19,7 @@ LIMITS = {
 
 def test_any_step_obeys_coulomb(measured):
     """Authority: Coulomb's law, from forces and coordinates."""
-    judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 300)
+    judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 120)
 
 
 @pytest.mark.nightly

@@ -10,8 +10,8 @@ from tests.frozen_gears import frozen_marcher
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.energy_account import account, contact_work
 from fenics_gears.dynamics.march import Record
-from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.effects.friction import Friction
+from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation import simulate
 

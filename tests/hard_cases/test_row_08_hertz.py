@@ -24,6 +24,7 @@ from fenics_gears.resolution import NODE_SPACING, hertz_half_width, plane_contac
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation import simulate
 
+NIGHTLY = pytest.mark.nightly
 LIMITS = {2: 0.04, 4: 0.01, 8: 0.005}
 # Loads in parts of the one whose half-width is `ratio` elements; where the contact point lies, in parts of an element.
 LOADS, SHIFTS = np.linspace(1.0, 1.25, 6) ** 2, (0.0, 0.3)
@@ -80,7 +81,7 @@ def pressed(flanks, xi, force, spacing, length):
 
 
 @pytest.mark.parametrize("ratio", LIMITS)
-@pytest.mark.parametrize("element", ["P2", "Q2"])
+@pytest.mark.parametrize("element", ["P2", pytest.param("Q2", marks=NIGHTLY)])
 def test_peak_pressure(element, ratio, errors, measured):
     """The peak of the averaged pressure, at its worst; the nodal values' own for comparison."""
     nodal, averaged, _ = errors(element, ratio).max(axis=0)
@@ -89,7 +90,7 @@ def test_peak_pressure(element, ratio, errors, measured):
     assert averaged <= LIMITS[ratio]
 
 
-@pytest.mark.parametrize("element", ["P2", "Q2"])
+@pytest.mark.parametrize("element", ["P2", pytest.param("Q2", marks=NIGHTLY)])
 def test_order_of_the_half_width(element, errors, measured):
     """Known order: at least 1, from the worst errors at b/h = 2, 4, 8."""
     worst = [errors(element, ratio)[:, 2].max() for ratio in LIMITS]
@@ -99,7 +100,7 @@ def test_order_of_the_half_width(element, errors, measured):
     assert orders.min() >= 1.0
 
 
-@pytest.mark.parametrize("element", ["P1", "Q1"])
+@pytest.mark.parametrize("element", [pytest.param("P1", marks=NIGHTLY), "Q1"])
 def test_first_order_elements(element, errors, measured):
     """What first-order elements are worth here: on record; the peak converges, with order 1 at least from b/h = 2 to 8."""
     worst = [errors(element, ratio, 1.0)[:, 1].max() for ratio in LIMITS]

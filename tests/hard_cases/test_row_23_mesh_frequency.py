@@ -101,6 +101,7 @@ def test_high_end_is_the_rigid_mean_motion(coarse, measured):
     assert order == pytest.approx(2.0, abs=0.1)
 
 
+@pytest.mark.nightly
 def test_high_end_with_friction_stays_in_contact(coarse, measured):
     """The same with friction, whose mean force the start takes as that of full slip: some of it rings, in a few per cent."""
     static = simulate(at(quasi_static(coarse), 200.0)).transmission_error.values
@@ -131,13 +132,14 @@ def _told(runs, steps, rungs):
     return f"none in {steps} steps of {runs} runs; steps that left the first rung: {climbed}"
 
 
-def test_no_step_fails_at_any_frequency_and_friction(coarse, measured):
+@pytest.mark.parametrize("count", [7, pytest.param(14, marks=pytest.mark.nightly)])
+def test_no_step_fails_at_any_frequency_and_friction(coarse, measured, count):
     """Every step converges or the run raises: the paper's pair over six decades of mesh frequency, mu from 0 to 0.6."""
-    pairs = zip(np.geomspace(0.01, 20e3, 14), 2 * (0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6))
+    pairs = zip(np.geomspace(0.01, 20e3, count), 2 * (0.0, 0.3, 0.05, 0.6, 0.1, 0.45, 0.2))
     told = [swept(coarse, [frequency], [friction], 3) for frequency, friction in pairs]
     rungs = {name: sum(found.get(name, 0) for _, _, found in told) for name in {name for _, _, found in told for name in found}}
     measured("failed steps, coarse", _told(sum(t[0] for t in told), sum(t[1] for t in told), rungs), "none")
-    assert sum(t[0] for t in told) == 14
+    assert sum(t[0] for t in told) == count
 
 
 @pytest.mark.nightly

@@ -17,7 +17,7 @@ import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.hard_cases.kept_files import ARRAYS, KEY
-from tests.studies.conftest import cache, folder, stamps, write_study  # noqa: F401
+from tests.studies.conftest import folder, stamps, write_study  # noqa: F401
 from tests.studies.test_run_study import FOUR, load
 
 import fenics_gears

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import cache, command, environment, folder, gears, write_study  # noqa: F401
+from tests.studies.conftest import command, environment, folder, write_study  # noqa: F401
 from tests.studies.test_run_study import FOUR, load
 
 from fenics_gears import results
@@ -33,25 +33,25 @@ def limited(folder, size, *arguments):
     )
 
 
-@pytest.mark.parametrize("size", [100, 20_000])
+@pytest.mark.parametrize("size", [pytest.param(100, marks=pytest.mark.nightly), 20_000])
 def test_a_full_disk_leaves_no_half_result(folder, measured, size):
     """`gears run` on a full disk: exit code 3, the reason in words, nothing under a final name; with room again it runs.
 
     The gears are in the cache: what MPI does without room for its own files is not this program's.
     """
-    assert gears(folder, "run", "pair.toml", "--output", "usual", "--quiet").returncode == 0
+    assert main(["run", "pair.toml", "--output", "usual", "--quiet"]) == 0
     ended = limited(folder, size, "run", "pair.toml", "--output", "here", "--quiet")
     names, unfinished = left_over("here")
     measured(f"disk full after {size} bytes of a file", f"exit code {ended.returncode}, {len(names) + len(unfinished)} files", "3, none")
     assert ended.returncode == 3 and "could not be written: File too large" in ended.stderr and "Traceback" not in ended.stderr
     assert names == [] and unfinished == []
-    assert gears(folder, "run", "pair.toml", "--output", "here", "--quiet").returncode == 0
+    assert main(["run", "pair.toml", "--output", "here", "--quiet"]) == 0
     assert results.load("here/run.nc").attrs["complete"] == 1
 
 
 def test_an_earlier_result_survives_a_full_disk(folder, measured):
     """The whole result of before is still there, bit for bit."""
-    assert gears(folder, "run", "pair.toml", "--output", "here", "--quiet").returncode == 0
+    assert main(["run", "pair.toml", "--output", "here", "--quiet"]) == 0
     before = {path.name: path.read_bytes() for path in Path("here").iterdir()}
     ended = limited(folder, 4096, "run", "pair.toml", "--output", "here", "--quiet")
     same = {path.name: path.read_bytes() for path in Path("here").iterdir()} == before

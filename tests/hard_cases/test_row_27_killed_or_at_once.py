@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import cache, command, environment, folder, gears, stamps, write_study  # noqa: F401
+from tests.studies.conftest import command, environment, folder, gears, stamps, write_study  # noqa: F401
 from tests.studies.test_run_study import FOUR, SIX, load, stopped_in_the_middle
 
 from fenics_gears import results
@@ -56,7 +56,7 @@ def kills(folder, measured, moments, what):
     assert ended.returncode == 0 and again
 
 
-@pytest.mark.parametrize(("number", "what"), [(2, "before its second gear is kept"), (3, "before its result has its name")])
+@pytest.mark.parametrize(("number", "what"), [pytest.param(2, "before its second gear is kept", marks=pytest.mark.nightly), (3, "before its result has its name")])
 def test_a_run_killed_between_its_files(folder, measured, number, what):
     """kill -9 with the first gear kept and the second written aside, and with the result written aside."""
     program = (
@@ -83,7 +83,8 @@ def test_a_run_killed_at_many_moments(folder, measured):
     kills(folder, measured, 60, "a run killed, by night")
 
 
-def test_writers_killed_while_they_write(tmp_path, measured):
+@pytest.mark.parametrize("pauses", [(0.0, 0.011), pytest.param((0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)])
+def test_writers_killed_while_they_write(tmp_path, measured, pauses):
     """Processes that do nothing but store one large cache entry and one result again and again, killed: readers see whole ones."""
     program = (
         "import sys, numpy, xarray\n"
@@ -98,7 +99,7 @@ def test_writers_killed_while_they_write(tmp_path, measured):
         "    results.save(xarray.Dataset({'transmission_error': ('time', values)}, attrs={'scene': ''}), 'run.nc')\n"
     )
     seen = 0
-    for pause in (0.0, 0.003, 0.007, 0.011, 0.017, 0.023):
+    for pause in pauses:
         process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path, env=environment())
         deadline = time.monotonic() + 60
         (tmp_path / "run.nc").unlink(missing_ok=True)
@@ -128,17 +129,17 @@ def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, measured):
+def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, measured, capsys):
     """kill -9: nothing lost, nothing computed twice, nothing left half-written."""
     study = write_study(folder, SIX)
     assert stopped_in_the_middle(folder, study, signal.SIGKILL).returncode == -signal.SIGKILL
     before = stamps("here")
-    again = gears(folder, "study", study, "--output", "here")
+    again = main(["study", str(study), "--output", "here"])
     after = stamps("here")
     repeated = sum(after[name] != before[name] for name in before)
     measured("study killed: cases computed again", f"{repeated} of {len(before)} done", "none")
     assert len(before) == 3 and repeated == 0
-    assert again.returncode == 0 and "3 kept, 3 to be computed" in again.stderr
+    assert again == 0 and "3 kept, 3 to be computed" in capsys.readouterr().err
     assert len(after) == 6 and left_over("here")[1] == []
     assert load("here").attrs["complete"] == 1
 
@@ -153,7 +154,7 @@ def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     ]
     said = [process.communicate(timeout=120)[1] for process in processes]
     assert [process.returncode for process in processes] == [0] * count, said
-    assert gears(folder, "run", "pair.toml", "--output", "alone", "--quiet").returncode == 0
+    assert main(["run", "pair.toml", "--output", "alone", "--quiet"]) == 0
     alone = results.load("alone/run.nc").transmission_error
     same = sum(results.load(f"out{number}/run.nc").transmission_error.equals(alone) for number in range(count))
     names, unfinished = left_over(own)

@@ -7,8 +7,8 @@ from fenics_gears.contact.node_to_node import NodeResponse, by_direction, loaded
 from fenics_gears.contact.operator import CENTRE_COORDINATES, rigid_rows
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.involute import canonical_point
 
 GRID = ContactGrid(1.5, 16)
 NO_REMOVAL = (None, None)

@@ -10,12 +10,12 @@ from fenics_gears.contact.ladder import PUBLISHED, StepProblem, cold_start, solv
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.published_newton import BETA, GAMMA, MOST_HALVINGS, Equations, iterates, merit
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.errors import SceneError
 from fenics_gears.model import model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.reference_route import remeshed
 from fenics_gears.resolution import EVERY_STEP
-from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.scene.data import Accuracy
 
 NODES, CENTRE = 7, 3

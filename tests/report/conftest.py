@@ -26,21 +26,13 @@ def scene_text(paper_scene, *, without=(), more="", cycles=2):
 
 
 @pytest.fixture(scope="session")
-def cache(tmp_path_factory):
-    """A cache of their own for all tests here."""
-    return tmp_path_factory.mktemp("cache")
-
-
-@pytest.fixture(scope="session")
-def made(paper_scene, tmp_path_factory, cache):
+def made(tmp_path_factory):
     """A function that runs a scene's text and returns the run's directory."""
 
     def make(text, name):
         directory = tmp_path_factory.mktemp(name)
         (directory / f"{name}.toml").write_text(text, encoding="utf-8")
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setenv("FENICS_GEARS_CACHE", str(cache))
-            assert main(["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet"]) == 0
+        assert main(["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet"]) == 0
         return directory / "run"
 
     return make
@@ -53,22 +45,18 @@ def run(made, paper_scene):
 
 
 @pytest.fixture(scope="session")
-def report(run, cache):
+def report(run):
     """The page of that run."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("FENICS_GEARS_CACHE", str(cache))
-        assert main(["report", str(run), "--quiet"]) == 0
+    assert main(["report", str(run), "--quiet"]) == 0
     return run / "report.html"
 
 
 @pytest.fixture(scope="session")
-def study(paper_scene, tmp_path_factory, cache):
+def study(paper_scene, tmp_path_factory):
     """The directory of a study of three frequencies, with friction and without."""
     directory = tmp_path_factory.mktemp("study")
     (directory / "pair.toml").write_text(scene_text(paper_scene), encoding="utf-8")
     sweep = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\nfriction = ["absent", "present"]\n'
     (directory / "study.toml").write_text('title = "Three speeds <i>"\nscene = "pair.toml"\n' + sweep, encoding="utf-8")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("FENICS_GEARS_CACHE", str(cache))
-        assert main(["study", str(directory / "study.toml"), "--output", str(directory / "out"), "--quiet"]) == 0
+    assert main(["study", str(directory / "study.toml"), "--output", str(directory / "out"), "--quiet"]) == 0
     return directory / "out"

@@ -67,11 +67,12 @@ def test_a_plot_that_is_drawn_later_has_the_zoom_of_the_others(browser, report):
     assert browser.value(f"{LINKED}.at(-1).layout.xaxis.range[1]") == 0.5 * (first + last)
 
 
-def test_all_plots_are_there_to_be_printed(browser, report):
-    """What the window has not come to is drawn before a page is printed, and folded parts are opened."""
+def test_all_charts_are_there_to_be_printed(browser, report):
+    """What the window has not come to is an image that is loaded and has a size; folded parts are opened."""
     browser.open(report, 1300, 900)
     browser.value("dispatchEvent(new Event('beforeprint'))")
-    browser.wait(f"{PLOTS}.every(plot => plot.querySelector('svg.main-svg .cartesianlayer path'))")
+    image = "plot.querySelector('img')?.complete && plot.querySelector('img').getBoundingClientRect().height > 150"
+    browser.wait(f"{PLOTS}.every(plot => plot.querySelector('svg.main-svg .cartesianlayer path') || ({image}))")
     assert browser.value("[...document.querySelectorAll('details')].every(each => each.open)")
     assert browser.console == []
 

@@ -11,15 +11,16 @@ from matplotlib.path import Path
 from scipy.spatial import cKDTree
 from tests.show.synthetic import made_up_run
 
+from fenics_gears.show.chart import Chart, Curve
+from fenics_gears.show.orders import spectrum
+from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
-from fenics_gears.show.report.forces import shared_curves
 from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.overview import counted, digits, summary
 from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
-from fenics_gears.show.report.plotting import Curve, plot
-from fenics_gears.show.report.run import Run
-from fenics_gears.show.report.spectra import spectra, spectrum
-from fenics_gears.show.report.thinning import thinned
+from fenics_gears.show.report.interactive import figure
+from fenics_gears.show.run import Run
+from fenics_gears.show.thinning import thinned
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
@@ -129,8 +130,8 @@ def test_numbers_of_a_tile_fit_into_it():
 def test_large_and_small_values_have_powers_of_ten_on_their_axis():
     """Their tick labels would else run into the axis' title."""
     for size, wanted in ((1e-5, "e"), (1.0, "none"), (9e5, "none"), (4e7, "e")):
-        figure = plot("", [Curve("", np.arange(2.0), size * np.arange(2.0))], "", "").figure
-        assert figure.layout.yaxis.exponentformat == wanted and figure.layout.yaxis.title.standoff
+        drawn = figure(Chart("", [Curve("", np.arange(2.0), size * np.arange(2.0))], "", ""))
+        assert drawn.layout.yaxis.exponentformat == wanted and drawn.layout.yaxis.title.standoff
 
 
 def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
@@ -139,10 +140,10 @@ def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
     for name in ("energy", "work_input", "work_output", "work_contact_changes", "energy_defect"):
         dataset[name] = dataset["normal_force"].assign_attrs(units="N mm")
     captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
-    assert "Work taken since the first step shown: contact changes, by the time stepping" in captions
+    assert "Work lost since the first settled step: contact changes, by the time stepping" in captions
     dataset["work_friction"] = dataset["energy"]
     captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
-    assert "Work taken since the first step shown" in captions
+    assert "Work lost since the first settled step" in captions
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
@@ -159,7 +160,7 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
     wheel = rows()
     assert wheel["work of the drive, the wheel's shaft"] == "100 N m"
     assert wheel["work done on the load, the pinion's shaft"] == "96 N m (96 % of the drive's work)"
-    assert wheel["taken by friction"] == "3 N m (3 % of the drive's work)"
+    assert wheel["lost to friction"] == "3 N m (3 % of the drive's work)"
     assert wheel["put in by the time stepping where contact changes"] == "-1 N m (-1 % of the drive's work)"
     for name, last in {"work_input": 100.0, "work_output": 96.0}.items():
         dataset[name] = ("time", np.linspace(0.0, 1e3 * last, dataset.sizes["time"]), {"units": "N mm"})
@@ -168,12 +169,13 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
 
 def test_the_teeth_are_drawn_on_the_line_of_action_of_the_flanks_that_carry(paper_scene, paper_pair, tmp_path):
     """Mirror at the line of centres; coast flanks go from the pinion's tip, which is furthest from T1, to its root."""
-    drive, coast = (
-        {trace.name: (np.array(trace.x, dtype=float), trace.hovertext) for trace in drawings(paper_pair, side)[1].figure.data} for side in (False, True)
-    )
-    for name in ("line of action", "path of contact", "points"):
-        np.testing.assert_allclose(coast[name][0], -drive[name][0], atol=1e-12)
-    assert drive["points"][1][0] == coast["points"][1][-1] == "start of contact"
+    drive, coast = ({curve.name: curve for curve in drawings(paper_pair, side)[1].curves if curve.beside != "bottom left"} for side in (False, True))
+    for name in ("line of action", "path of contact"):
+        np.testing.assert_allclose(coast[name].x, -drive[name].x, atol=1e-12)
+    drive, coast = ({words: x for curve in drawings(paper_pair, side)[1].curves for words, x in zip(curve.words, curve.x)} for side in (False, True))
+    assert set(drive) == {"start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact"}
+    other = {"start of contact": "end of contact", "end of contact": "start of contact"}
+    np.testing.assert_allclose([coast[other.get(name, name)] for name in drive], [-x for x in drive.values()], atol=1e-12)
     run = made_up_run(scene=paper_scene.text)
     assert not Run(run, tmp_path / "run.nc").on_coast_flanks
     run["coast_normal_force"], run["normal_force"] = run["normal_force"], 0.0 * run["normal_force"]
@@ -207,14 +209,11 @@ def densely(points):
     return (points[:-1, None] + steps * np.diff(points, axis=0)[:, None]).reshape(-1, 2)
 
 
-def test_many_pairs_share_curves_without_touching_each_other():
-    """Authority: the pairs' forces themselves: each is on exactly one curve, and what curves show together is all of it."""
-    run = made_up_run(steps=401, cycles=20.0)
-    numbers, forces = run["pair_number"].values, run["pair_normal_force"].values
-    curves = shared_curves(numbers, forces)
-    assert len(curves) == run.sizes["slot"]
+def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
+    """Authority: the result's own slots: what the curves of the pairs show together is the mesh's force in the cycles shown."""
+    run = Run(made_up_run(steps=401, cycles=20.0))
+    curves = run.of_pairs("pair_normal_force", "N")
+    assert 4 <= len(curves) <= 7 and len({number for *_, number in curves}) == len(curves)
     total = np.nansum([values for _, values, _ in curves], axis=0)
-    np.testing.assert_allclose(total, forces.sum(axis=1))
-    few = shared_curves(numbers[:45], forces[:45])
-    assert [name for name, _, _ in few] == ["pair 1", "pair 2", "pair 3", "pair 4"]
-    assert all(np.isnan(values).any() for _, values, _ in few)
+    np.testing.assert_allclose(total[run.in_window], run.dataset["normal_force"].values[run.in_window])
+    assert not total[~run.in_window][:-1].any()

@@ -1,6 +1,7 @@
 """The report on a run: which sections it has, what they say, and that it is one well-formed file that loads nothing."""
 
 import csv
+import base64
 import re
 import subprocess
 import sys
@@ -14,15 +15,16 @@ from tests.report.conftest import scene_text
 from tests.report.pages import seen
 
 from fenics_gears import results
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.cli import main
 from fenics_gears.show.report.effects import effects
-from fenics_gears.show.report.run import Run
+from fenics_gears.show.run import Run
 from fenics_gears.show.report.stress import stress
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[2]
 SECTIONS = [
-    "summary", "warnings", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
+    "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
     "versions", "scene",
 ]  # fmt: skip
 
@@ -50,12 +52,11 @@ def test_every_section_is_there_and_says_what_the_result_holds(report, run):
         assert warning[1:] in page.sections["warnings"]
     assert "elastic torsion of the input" in page.sections["effects"] and "constant speed" in page.sections["effects"]
     assert "contact ratio" in page.sections["geometry"] and "4.5 mm" in page.sections["geometry"]
-    assert "taken by friction" in page.sections["energy"] and "taken by damping" in page.sections["energy"]
+    assert "lost to friction" in page.sections["energy"] and "lost to damping" in page.sections["energy"]
     assert f"{dataset.attrs['newton_iterations_total']:,}" in page.sections["solver"] and "mode 1" in page.sections["solver"]
     assert dataset.attrs["fenics_gears_version"] in page.sections["versions"]
     assert dataset.attrs["scene"] in page.sections["scene"]
     wanted = {
-        "Transmission error",
         "Normal force of the mesh",
         "Friction force of the mesh",
         "Load sharing: normal force of each tooth pair",
@@ -63,8 +64,19 @@ def test_every_section_is_there_and_says_what_the_result_holds(report, run):
     }
     assert wanted <= set(captions(page))
     assert {"The pair", "Largest pressure of a contact node", "Largest tension in the fillets of either gear"} <= set(captions(page))
+    assert sum(each.startswith("Transmission error on the wheel's base circle") for each in captions(page)) == 1
+    assert any(each.startswith("Contact pressure") for each in captions(page))
     pictures = [attributes for tag, attributes in page.tags if tag == "img"]
-    assert [picture["alt"] for picture in pictures] == ["Pressure over flank and time", "Von Mises stress of both gears in mesh"]
+    assert [picture["alt"] for picture in pictures if "png" in picture["src"][:20]] == ["Von Mises stress of both gears in mesh"]
+
+
+def test_every_chart_is_an_image_before_any_script_runs(report):
+    """What is printed, photographed at once or opened without scripts has all charts: each as an SVG with its axes' words."""
+    page = seen(report)
+    images = {attributes["alt"]: attributes["src"] for tag, attributes in page.tags if tag == "img" and "svg" in attributes["src"][:20]}
+    assert list(images) == list(dict.fromkeys(captions(page))) and len(images) > 15
+    drawn = base64.b64decode(images["Normal force of the mesh"].partition(",")[2]).decode()
+    assert "<svg" in drawn and "Normal force (N)" in drawn and "Time (mesh cycles since the start)" in drawn
 
 
 def test_the_page_is_well_formed(report):
@@ -91,8 +103,8 @@ def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, 
     page = seen(bare / "report.html")
     said = set(captions(page))
     assert not any("riction" in each or "centres" in each or "shaft's end" in each for each in said)
-    assert "Friction takes" not in page.sections["summary"] and "Dynamic factor" not in page.sections["summary"]
-    assert "taken by" not in page.sections["energy"] and "Natural frequencies" not in page.sections["solver"]
+    assert "Friction loss" not in page.sections["summary"] and "Dynamic factor" not in page.sections["summary"]
+    assert "lost to" not in page.sections["energy"] and "Natural frequencies" not in page.sections["solver"]
     assert "was not recorded" in page.sections["root-stress"] and "no-stress" in page.sections["stress"]
     assert "does not vary" in page.sections["spectra"]
 
@@ -105,7 +117,7 @@ def test_rigid_flanks_have_no_pressure_and_no_stress(made, paper_scene):
     for name in ("pressure", "stress"):
         assert "There is none: this run's flanks are rigid" in page.sections[name]
     assert "Smallest distance of the flanks" in captions(page)
-    assert not [tag for tag, _ in page.tags if tag == "img"]
+    assert not [each for tag, each in page.tags if tag == "img" and "png" in each["src"][:20]]
 
 
 def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
@@ -123,11 +135,12 @@ def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
 @pytest.mark.parametrize("steps", [0, 1, 8])
 def test_an_incomplete_run_says_so(run, tmp_path, steps):
     """Authority: the attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is there."""
-    cut = results.load(run / "run.nc").isel(time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
+    whole = contact_times(results.load(run / "run.nc"))
+    cut = whole.isel(time=slice(0, steps), contact_time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
     page = page_of(cut, tmp_path)
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "INCOMPLETE RUN. It was interrupted." in text and list(page.sections) == SECTIONS and page.faults == []
-    assert ("Transmission error" in captions(page)) == (steps == 8)
+    assert any(each.startswith("Transmission error on") for each in captions(page)) == (steps == 8)
     assert "of what is stored" in page.sections["summary"] or steps == 0
 
 
@@ -141,7 +154,7 @@ def test_a_result_without_meaning_says_so_before_anything(run, tmp_path):
 def test_a_scene_of_another_version_still_has_its_curves(run, tmp_path):
     """A result is worth a look whatever its scene's text has become."""
     page = page_of(results.load(run / "run.nc").assign_attrs(scene="[unheard_of]\n"), tmp_path)
-    assert "Transmission error" in captions(page) and "none of this version" in page.sections["geometry"]
+    assert any(each.startswith("Transmission error on") for each in captions(page)) and "none of this version" in page.sections["geometry"]
     assert "none of this version" in page.sections["effects"]
 
 
@@ -218,20 +231,20 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
 def test_a_long_run_makes_a_small_page(run, tmp_path):
     """30,000 steps stay below 10 MB, and the highest of them is drawn."""
     dataset = (
-        results.load(run / "run.nc").drop_dims(["contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
+        results.load(run / "run.nc").drop_dims(["contact_time", "contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
     )
     steps = 30_001
     long = dataset.isel(time=np.arange(steps) % dataset.sizes["time"])
     phase = np.arange(steps) / 100.0
     force = long["normal_force"].values.copy()
     force[17_333] = 123_456.0
-    long = long.assign_coords(time=phase / 200.0, mesh_phase=("time", phase, dataset["mesh_phase"].attrs))
+    long = long.assign_coords(time=phase / 200.0, mesh_phase=("time", phase, dataset["mesh_phase"].attrs)).assign_attrs(shown_cycles=300)
     long["normal_force"] = ("time", force, dataset["normal_force"].attrs)
     page = page_of(long, tmp_path)
     assert (tmp_path / "report.html").stat().st_size < 10e6
     drawn = page.scripts[captions(page).index("Normal force of the mesh")]
     assert "123456.0" in drawn and drawn.count(",") < 20_000
-    assert "Of 30,001 steps" in page.sections["forces"]
+    assert "Of the 30,001 steps" in page.sections["forces"]
 
 
 def refusal(capsys, *arguments):

@@ -9,8 +9,9 @@ import xarray as xr
 from tests.report.pages import seen
 
 from fenics_gears.cli import main
-from fenics_gears.show.report.cases import Cases
-from fenics_gears.show.report.study_curves import over_parameter, result_plots
+from fenics_gears.show.cases import Cases
+from fenics_gears.show.study_charts import over_parameter, result_charts
+from fenics_gears.show.report.interactive import figure, height
 from fenics_gears.show.report.study_page import _summary, standing_out
 from fenics_gears.studies.combine import load_combined, save_study
 
@@ -37,9 +38,9 @@ def test_cases_and_curves_are_those_of_the_file(study):
     assert page.faults == [] and list(page.sections) == SECTIONS and "Three speeds <i>" in page.sections["study"]
     assert all(value.startswith("data:") for _, _, value in page.fetched)
     radius = xr.open_dataset(study / dataset["case_file"].values.ravel()[0], engine="h5netcdf").attrs["base_radius_wheel"]
-    figure = figures(page)["Transmission error, peak to peak over motion.mesh_frequency"]
-    for trace, friction in zip(figure["data"], ("absent", "present")):
-        assert trace["name"] == f"friction = {friction}" and trace["x"] == [100, 200, 300]
+    drawn = figures(page)["Transmission error, peak to peak over mesh frequency"]
+    for trace, friction, words in zip(drawn["data"], ("absent", "present"), ("without friction", "with friction")):
+        assert trace["name"] == words and trace["x"] == [100, 200, 300]
         expected = dataset["peak_to_peak_transmission_error"].sel(friction=friction).values * radius * 1e3
         np.testing.assert_allclose(trace["y"], expected, rtol=1e-6)
     rows = [attributes for tag, attributes in page.tags if tag == "td" and "data-value" in attributes]
@@ -48,9 +49,13 @@ def test_cases_and_curves_are_those_of_the_file(study):
     assert page.sections["failures"].strip().endswith("None.")
 
 
-def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path, cache, monkeypatch):
+def test_a_study_writes_its_pictures(study):
+    """A picture for each number that cases are compared by, under the number's name in the study's file."""
+    assert {file.stem for file in study.glob("*.png")} == {"peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force"}
+
+
+def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path):
     """A case's number leads to its report where `gears report` has made one, else to its file; from wherever the page is."""
-    monkeypatch.setenv("FENICS_GEARS_CACHE", str(cache))
     copy = tmp_path / "with a space" / "out"
     shutil.copytree(study, copy)
     files = sorted((copy / "cases").glob("*.nc"))
@@ -87,11 +92,11 @@ def test_failed_and_missing_cases_are_named(study, tmp_path):
     page = page_of(changed(study, tmp_path, fail))
     assert (
         "no <equilibrium> & no end" in page.sections["failures"]
-        and "mesh frequency = 100 Hz, friction = absent" in page.sections["failures"]
+        and "mesh frequency 100 Hz, without friction" in page.sections["failures"]
     )
     assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "missing" in page.sections["cases"] and page.faults == []
-    curves = figures(page)["Transmission error, peak to peak over motion.mesh_frequency"]["data"]
+    curves = figures(page)["Transmission error, peak to peak over mesh frequency"]["data"]
     assert curves[0]["y"][0] is None and curves[1]["y"][2] is None
 
 
@@ -140,27 +145,29 @@ def test_a_study_of_one_case_has_no_ranges(tmp_path):
 def test_many_lines_become_a_map_or_a_choice(tmp_path):
     """A legend of dozens cannot be read: two fields of numbers become a map, of more fields some combinations are drawn, and it is said."""
     few = drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0])
-    assert [trace.name for trace in few.figure.data] == ["offset = 4 N", "offset = 5 N"] and few.figure.layout.xaxis.type is None
+    assert [curve.name for curve in few.curves] == ["offset 4 N", "offset 5 N"] and not few.logarithmic
     chart = drawn(tmp_path, torque=np.geomspace(1.0, 1000.0, 20), offset=np.arange(15.0))
-    assert chart.figure.data[0].type == "heatmap" and chart.figure.layout.xaxis.type == "log" and chart.figure.data[0].z[14][19] == 34.0
+    assert chart.logarithmic == "x" and chart.field.values.shape == (15, 20) and chart.field.values[14, 19] == 34.0
+    # Cells end half-way between the values, by factors where these are factors.
+    assert chart.field.x[1] ** 2 == pytest.approx(np.prod(np.geomspace(1.0, 1000.0, 20)[:2])) and chart.field.y[1] == 0.5
     many = drawn(tmp_path, torque=[1.0, 2.0, 3.0, 4.0], offset=np.arange(3.0), width=np.arange(3.0), height=np.arange(3.0))
-    assert len(many.figure.data) == 12 and "12 of 27 combinations" in many.note
+    assert len(many.curves) == 12 and "12 of 27 combinations" in many.note
 
 
 def test_long_legends_have_room(tmp_path):
     """Each row of a legend takes room of its own, so that the curves keep theirs."""
     assert (
-        drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]).height
+        height(drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]))
         == 340
-        < drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)).height
+        < height(drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)))
     )
 
 
 def test_words_are_drawn_over_the_field_with_most_of_them(tmp_path):
     """Where no field has numbers, that with most values is the axis."""
     few = drawn(tmp_path, element=["P1", "P2"], friction=["absent", "a < b", "<b>c</b>"])
-    assert [trace.name for trace in few.figure.data] == ["element = P1 N", "element = P2 N"]
-    assert list(few.figure.data[0].x) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
+    assert [curve.name for curve in few.curves] == ["element P1 N", "element P2 N"]
+    assert list(figure(few).data[0].x) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
 
 
 def test_cases_that_stand_out_are_the_extremes(tmp_path):
@@ -201,8 +208,8 @@ def test_a_case_without_meaning_does_not_flatten_the_others(study):
     values.flat[2], said.flat[2] = 86.9, "the result has no meaning: jammed"
     jammed = dataset.assign({name: dataset[name].copy(data=values), "warnings": dataset["warnings"].copy(data=said)})
     cases = Cases(jammed, file, file)
-    drawn = result_plots(cases)[0]
-    largest = max(np.nanmax(np.array(trace.y, dtype=float)) for trace in drawn.figure.data)
+    drawn = result_charts(cases)[name]
+    largest = max(np.nanmax(np.array(curve.y, dtype=float)) for curve in drawn.curves)
     assert largest < 1e-3 * cases.measures[name][0].max() and "Case 2, whose result has no meaning" in drawn.note
     (tile,) = [each for each in _summary(cases).blocks[0].tiles if each.label == "Transmission error, peak to peak"]
     assert "without 1 case of no meaning" in tile.note

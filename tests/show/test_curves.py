@@ -7,8 +7,23 @@ from tests.show.synthetic import BARE, made_up_run
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results import by_pair
-from fenics_gears.show.curves import load_sharing, mesh_forces, transmission_error
+from fenics_gears.show.plots import run_figures
 from fenics_gears.show.units import factor, in_unit
+
+
+def transmission_error(run):
+    """That picture of a run."""
+    return run_figures(run)["transmission_error.png"]
+
+
+def mesh_forces(run):
+    """That picture of a run; None where it has none."""
+    return run_figures(run).get("mesh_forces.png")
+
+
+def load_sharing(run):
+    """That picture of a run; None where it has none."""
+    return run_figures(run).get("load_sharing.png")
 
 
 def curve(axes, which=-1):
@@ -41,7 +56,7 @@ def test_transmission_error_and_the_wheels_sideways_motion():
     run = made_up_run()
     above, below = transmission_error(run).get_axes()
     for axes, name, values in [
-        (above, "Transmission error (µrad)", run["transmission_error"].values * 1e6),
+        (above, "Transmission error (µm)", run["transmission_error"].values * 50e3),
         (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3),
     ]:
         x, y = curve(axes)
@@ -49,44 +64,77 @@ def test_transmission_error_and_the_wheels_sideways_motion():
         np.testing.assert_array_equal(x, run["mesh_phase"].values)
         np.testing.assert_allclose(y, values, rtol=1e-14, atol=0)
     assert below.get_xlabel() == "Time (mesh cycles since the start)"
-    (length,) = above.child_axes
-    assert length.get_ylabel() == "On the wheel's base circle (µm)"
+    (angle,) = above.child_axes
+    assert angle.get_ylabel() == "Angle of the wheel (µrad)"
     FigureCanvasAgg(above.figure).draw()
-    # 1 µrad on a base radius of 50 mm is 0.05 µm.
-    np.testing.assert_allclose(length.get_ylim(), 0.05 * np.array(above.get_ylim()), rtol=1e-12)
+    # 1 µm on a base radius of 50 mm is 20 µrad.
+    np.testing.assert_allclose(angle.get_ylim(), 20.0 * np.array(above.get_ylim()), rtol=1e-12)
 
 
 def test_the_peak_to_peak_is_named():
     """Authority: 400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
     (above, _) = transmission_error(made_up_run(steps=41)).get_axes()
-    assert above.get_title(loc="left") == "Peak to peak 400.0 µrad = 20.00 µm on the wheel's base circle"
+    assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
 
 
 def test_an_incomplete_run_names_the_peak_to_peak_of_what_is_stored():
-    """Authority: the stored values; the first quarter of the wave rises by its amplitude, 200 µrad."""
+    """Authority: the stored values; the first quarter of the wave rises by its amplitude, 200 µrad, 10 µm on a base radius of 50 mm."""
     run = made_up_run(steps=41, complete=0).isel(time=slice(0, 6))
     title = transmission_error(run).get_axes()[0].get_title(loc="left")
-    assert title.startswith("Peak to peak of what is stored 200.0 µrad")
+    assert title.endswith("peak to peak of what is stored 10.00 µm")
 
 
 def test_a_motion_of_rounding_errors_is_shown_as_none():
-    """Authority: contact is solved to 1e-4 um; without friction the off-line motion is exactly zero (model.md, claim 1)."""
+    """Authority: contact is solved to 1e-4 um; what is smaller is no curve."""
     run = made_up_run()
     run["centre_y"][:] = run["centre_y"].values * 1e-12
     low, high = transmission_error(run).get_axes()[1].get_ylim()
     assert high - low >= 0.1 and low < 0 < high
 
 
+def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
+    """Authority: without friction the motion off the line of action is exactly zero (model.md, claim 1): a line of nothing shows nothing."""
+    run = made_up_run()
+    run["centre_x"] = (2.0 * run["centre_y"]).assign_attrs(units="mm")
+    for friction, name, title in ((True, "centre_y", "off"), (False, "centre_x", "along")):
+        shown = run if friction else run.drop_vars("friction_force")
+        below = transmission_error(shown).get_axes()[1]
+        assert below.get_title(loc="left") == f"Displacement of the wheel's shaft {title} the line of action"
+        np.testing.assert_allclose(curve(below)[1], run[name].values[:, 1] * 1e3, rtol=1e-14)
+
+
+def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
+    """Authority: the dataset: the last four mesh cycles; below, least and largest value of each of the twelve, where they are not alike."""
+    run = made_up_run(steps=241, cycles=12.0)
+    assert [axes.get_xlim() for axes in transmission_error(run).get_axes()] == [(36.0, 40.0)] * 2
+    growing = run["transmission_error"] * (1.0 + 0.1 * (run["mesh_phase"] - 28.0))
+    run["transmission_error"] = growing.assign_attrs(units="rad")
+    last = transmission_error(run).get_axes()[-1]
+    low, high, _ = (line.get_ydata() for line in last.get_lines())
+    cycles = [growing.values[20 * each : 20 * each + 21] * 50e3 for each in range(12)]
+    np.testing.assert_allclose(low, [each.min() for each in cycles], rtol=1e-12)
+    np.testing.assert_allclose(high, [each.max() for each in cycles], rtol=1e-12)
+    assert last.get_title(loc="left") == "Transmission error over all 12 stored mesh cycles"
+
+
+def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
+    """Authority: the dataset: of 47 cycles' pairs those that carry in the last four."""
+    run = made_up_run(steps=941, cycles=47.0)
+    names = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
+    last = int(run["pair_number"].max())
+    assert names == ["all pairs", *(f"pair {number}" for number in range(last - 5, last + 1))]
+
+
 def test_mesh_forces():
     """Authority: the dataset's values; N mm become N m."""
     run = made_up_run()
-    normal, friction, couples = mesh_forces(run).get_axes()
+    normal, friction, torques = mesh_forces(run).get_axes()
     np.testing.assert_array_equal(curve(normal)[1], run["normal_force"].values)
     np.testing.assert_array_equal(curve(friction)[1], run["friction_force"].values)
     for which, gear in enumerate(("pinion", "wheel")):
-        np.testing.assert_allclose(curve(couples, which)[1], run["reaction_couple"].sel(gear=gear).values * 1e-3, rtol=1e-14)
-    assert [axes.get_ylabel() for axes in (normal, friction, couples)] == ["Normal force (N)", "Friction force (N)", "Couple (N m)"]
-    assert [text.get_text() for text in couples.get_legend().get_texts()] == ["pinion", "wheel"]
+        np.testing.assert_allclose(curve(torques, which)[1], run["reaction_couple"].sel(gear=gear).values * 1e-3, rtol=1e-14)
+    assert [axes.get_ylabel() for axes in (normal, friction, torques)] == ["Normal force (N)", "Friction force (N)", "Torque (N m)"]
+    assert [text.get_text() for text in torques.get_legend().get_texts()] == ["pinion", "wheel"]
 
 
 def test_friction_of_both_flanks_is_drawn_where_both_have_it():
@@ -99,44 +147,42 @@ def test_friction_of_both_flanks_is_drawn_where_both_have_it():
     np.testing.assert_array_equal(drawn["coast flanks"], run["coast_friction_force"].values)
 
 
-def curve_at(line, places):
-    """Values of a line at places of the axis, not a number where it has no point."""
-    own = dict(zip(line.get_xdata(), line.get_ydata()))
-    return np.array([own.get(place, np.nan) for place in places])
-
-
 def test_load_sharing():
     """Authority: each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
     run = made_up_run()
     (axes,) = load_sharing(run).get_axes()
     lines = {line.get_label(): line for line in axes.get_lines()}
     np.testing.assert_allclose(lines.pop("all pairs").get_ydata(), run["normal_force"].values, rtol=1e-14)
-    forces = by_pair(run["pair_normal_force"], absent=0.0)
-    carrying = [int(n) for n in forces["pair"].values if np.any(forces.sel(pair=n).values != 0)]
+    pairs = by_pair(run["pair_normal_force"], absent=0.0)
+    carrying = [int(n) for n in pairs["pair"].values if np.any(pairs.sel(pair=n).values != 0)]
     assert list(lines) == [f"pair {number}" for number in carrying]
     for number in carrying:
-        force, shown = forces.sel(pair=number).values, curve_at(lines[f"pair {number}"], run["mesh_phase"].values)
-        np.testing.assert_array_equal(shown[force != 0], force[force != 0])
-        assert not np.any(shown[np.isfinite(shown) & (force == 0)])
+        force, shown = pairs.sel(pair=number).values, lines[f"pair {number}"]
+        x, y = shown.get_data()
+        known = np.isfinite(y)
+        np.testing.assert_array_equal(y[known], np.interp(x[known], run["mesh_phase"].values, force))
+        np.testing.assert_array_equal(np.sort(y[known & (y != 0)]), np.sort(force[force != 0]))
     colours = [line.get_color() for line in lines.values()]
     assert all(first != second for first, second in zip(colours, colours[1:]))
-    assert axes.get_ylabel() == "Normal force (N)"
+    assert axes.get_ylabel() == "Force (N)"
 
 
 def test_pairs_that_never_carry_have_no_curve():
     """Authority: rule 9 of the house, shown as it is: what is not there is not drawn."""
     run = made_up_run()
-    run["pair_normal_force"].values[run["pair_number"].values == 1] = 0.0
+    numbers = run["pair_number"].values
+    first = numbers[numbers > 0].min()
+    run["pair_normal_force"].values[numbers == first] = 0.0
     labels = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
-    assert "pair 1" not in labels and "pair 2" in labels
+    assert f"pair {first}" not in labels and f"pair {first + 1}" in labels
 
 
 def test_absent_variables_leave_no_panel():
     """Authority: rule 9 of the house. A scene without friction and bearings has neither variable."""
     bare = made_up_run().drop_vars(BARE)
     assert len(transmission_error(bare).get_axes()) == 1
-    assert [axes.get_ylabel() for axes in mesh_forces(bare).get_axes()] == ["Normal force (N)", "Couple (N m)"]
-    assert mesh_forces(bare.drop_vars(["normal_force", "reaction_couple"])) is None
+    assert [axes.get_ylabel() for axes in mesh_forces(bare).get_axes()] == ["Normal force (N)", "Torque (N m)"]
+    assert mesh_forces(bare.drop_vars(["normal_force", "reaction_couple", "pair_normal_force"])) is None
     assert load_sharing(bare.drop_vars("pair_normal_force")) is None
 
 

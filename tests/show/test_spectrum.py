@@ -2,10 +2,13 @@
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from tests.show.synthetic import made_up_run
 
+from fenics_gears.show.chart import Chart, Curve, Flag
+from fenics_gears.show.drawing import picture
 from fenics_gears.show.plots import run_figures
-from fenics_gears.show.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, order_lines, order_spectrum, origin
+from fenics_gears.show.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, order_lines, origin
 
 TEETH, PERIOD, STEPS = (16, 24), 48, 40
 ERRORS = '\n[flank_errors.wheel.waviness]\namplitude = "1 um"\nwaves = 90\n[eccentricity.pinion]\ndistance = "10 um"\n'
@@ -56,6 +59,11 @@ def test_orders_are_told_by_what_they_come_back_with():
     assert {order: origin(order, TEETH) for order in expected} == expected
 
 
+def order_spectrum(run):
+    """That picture of a run; None where it has none."""
+    return run_figures(run).get("order_spectrum.png")
+
+
 def made_up_turns(scene, cycles=float(PERIOD)):
     """A made-up result over several turns, with run-out and waves of the wheel in its transmission error."""
     run = made_up_run(steps=int(cycles * STEPS) + 1, cycles=cycles, nodes=3, scene=scene)
@@ -68,14 +76,31 @@ def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
     run = made_up_turns(paper_scene.text + ERRORS)
     axes = order_spectrum(run).axes[0]
     words = {text.get_text() for text in axes.texts}
-    assert {"mesh", "2 × mesh", "run-out of the pinion", "ghost order: 90 waves\non the wheel"} <= words
+    assert {"mesh", "2 × mesh", "run-out of the pinion", "ghost order: 90 waves on the wheel"} <= words
     assert axes.get_yscale() == "log"
-    dots = {line.get_label(): line.get_xydata() for line in axes.lines}
+    bars = {each.get_label(): [(bar.get_x() + 0.5 * bar.get_width(), bar.get_height()) for bar in each] for each in axes.containers}
     # The base radius of the made-up result is 50 mm.
-    assert dots["mesh"] == pytest.approx(np.array([[16.0, 3e-7 * 50e3]]), rel=1e-9)
-    assert dots["turn of the pinion"] == pytest.approx(np.array([[1.0, 2e-7 * 50e3]]), rel=1e-9)
-    ghost = next(text for text in axes.texts if text.get_text().startswith("ghost"))
-    assert ghost.xy == pytest.approx((60.0, 1e-8 * 50e3), rel=1e-9)
+    assert bars["mesh"] == [pytest.approx((16.0, 3e-7 * 50e3), rel=1e-9)]
+    assert (1.0, 2e-7 * 50e3) in [pytest.approx(bar, rel=1e-9) for bar in bars["turn of either gear"] + bars["turn of the pinion"]]
+    lines = [text for text in axes.texts if not text.get_text()]
+    assert (60.0, 1e-8 * 50e3) in [pytest.approx(line.xy, rel=1e-9) for line in lines]
+
+
+@pytest.mark.parametrize("beside", [(1.0, 15.0, 16.0, 17.0), (0.66, 1.0, 2.0, 3.0), (16.0, 16.0, 16.0)])
+def test_words_of_orders_lie_neither_on_each_other_nor_on_each_others_lines(beside):
+    """Authority: the boxes of the words as they are drawn, and the lines down to the orders."""
+    flags = [Flag(order, 1.0, f"words on the order {order:g}") for order in beside]
+    figure = picture("", [Chart("", [Curve("", np.array([0.0, 72.0]), np.array([1.0, 2.0]))], "", "", x_range=(0.0, 72.0), height=500, flags=flags)])
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    texts = [text for text in figure.axes[0].texts if text.get_text()]
+    boxes = [text.get_window_extent() for text in texts]
+    for place, box in enumerate(boxes):
+        others = boxes[:place] + boxes[place + 1 :]
+        assert not any(box.overlaps(other) for other in others)
+        for order, other in zip(beside, boxes):
+            line = figure.axes[0].transData.transform((order, 1.0))[0]
+            assert other is box or not (box.x0 < line < box.x1 and other.y0 > box.y0)
 
 
 def test_a_run_of_a_turn_has_the_picture_and_a_shorter_one_has_not(paper_scene):
@@ -84,4 +109,5 @@ def test_a_run_of_a_turn_has_the_picture_and_a_shorter_one_has_not(paper_scene):
         assert ("order_spectrum.png" in run_figures(made_up_turns(paper_scene.text, cycles))) == there
     assert order_spectrum(made_up_turns("")) is None
     windowed = order_spectrum(made_up_turns(paper_scene.text, 20.0)).axes[0]
-    assert "20 mesh cycles" in windowed.get_title(loc="left") and "repeats after 48" in windowed.get_title(loc="left")
+    title = windowed.get_title(loc="left")
+    assert "20 mesh cycles" in title and "repeats after 48" in title

@@ -18,16 +18,9 @@ steps_per_mesh_cycle = 20
 """
 
 
-@pytest.fixture(scope="session")
-def cache(tmp_path_factory):
-    """A cache of their own for all tests here."""
-    return tmp_path_factory.mktemp("cache")
-
-
 @pytest.fixture
-def folder(tmp_path, cache, monkeypatch):
+def folder(tmp_path, monkeypatch):
     """A folder with the coarse scene `pair.toml`, and the present directory."""
-    monkeypatch.setenv("FENICS_GEARS_CACHE", str(cache))
     monkeypatch.chdir(tmp_path)
     text = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ")
     (tmp_path / "pair.toml").write_text(text[: text.index("[accuracy]")] + ACCURACY, encoding="utf-8")

@@ -103,7 +103,7 @@ def points_of(axis):
     found = []
     for value in axis.values:
         point = dict.fromkeys((f"{stage}_{what}" for stage in ("mesh", "condense", "operators", "solving") for what in ("peak_bytes", "array_bytes", "rounds")), 5.0)
-        point |= {name: 1.0 for name in ("flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns")}
+        point |= dict.fromkeys(("flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns"), 1.0)
         point |= {column(quantity): 3.0 * value**theory.exponent for quantity, theory in axis.theory.items()}
         found.append(point | {axis.counted: value})
     return found

@@ -5,7 +5,6 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-import pytest
 from tests.studies.conftest import command, environment, stamps, write_study
 
 from fenics_gears import results

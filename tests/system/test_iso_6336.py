@@ -16,7 +16,6 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Material
 from fenics_gears.simulation import simulate
 
-
 BORE = 0.7
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
+from tests.coarse import coarse_scene, frictionless, quasi_static
 
 from fenics_gears.contact.stiffness_table import LOADS
 from fenics_gears.effects import OVER_CONTACT_NODES

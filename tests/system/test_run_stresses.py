@@ -9,9 +9,9 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 
 from fenics_gears import results
 from fenics_gears.contact.compliance_product import directions
+from fenics_gears.contact.flank_forces import sector_of, unmirrored
 from fenics_gears.contact.operator import rigid_rows
 from fenics_gears.contact.tooth_pair import COAST
-from fenics_gears.contact.flank_forces import sector_of, unmirrored
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import ComputationError, SceneError

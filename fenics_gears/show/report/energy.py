@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.show.chart import over_time
+from fenics_gears.show.forces import least
 from fenics_gears.show.panels import DARK, PALETTE
-from fenics_gears.show.report.forces import least
 from fenics_gears.show.report.page import Facts, Section, Words
-from fenics_gears.show.report.plotting import over_time
-from fenics_gears.show.report.run import TOO_FEW, Run
+from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import factor, in_unit
 
 PARTS = {"energy_teeth": "teeth", "energy_shafts": "shafts", "energy_bearings": "bearings", "energy_kinetic": "motion (kinetic)"}
@@ -20,10 +20,11 @@ UNIT = "N m"
 
 
 def energy(run: Run) -> Section:
-    """The account over the stored cycles as numbers and curves."""
+    """The account over the settled cycles as numbers and curves."""
+    run = run.settled
     if "energy" not in run.dataset or not run.has_curves:
         return Section("energy", HEADING, [Words(TOO_FEW if "energy" in run.dataset else "The result has no energies.", warns=True)])
-    return Section("energy", HEADING, [Facts(_rows(run), "Over the stored mesh cycles (1 N m = 1 J)"), *_curves(run)])
+    return Section("energy", HEADING, [Facts(_rows(run), "Over the settled mesh cycles (1 N m = 1 J)"), *_curves(run)])
 
 
 def _rows(run: Run) -> list[tuple[str, str, str]]:
@@ -44,21 +45,21 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     sides = ("the wheel's shaft", "the pinion's shaft") if work.wheel_drives else ("the pinion's shaft", "the wheel's shaft")
     rows = [(f"work of the drive, {sides[0]}", f"{work.drive * to_unit:.6g}", UNIT)]
     rows.append(row(f"work done on the load, {sides[1]}", work.load * to_unit))
-    rows += [row(f"taken by {words}", last[name]) for name, words in TAKEN.items() if name in last]
+    rows += [row(f"lost to {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
     rows.append(
         (
             "not explained by any of these",
             f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}",
-            f"{UNIT} at most, at any stored step",
+            f"{UNIT} at most, at any of their steps",
         )
     )
     return rows
 
 
 def _since_first(work) -> np.ndarray:
-    """Work (time,), N m, since the first step that is shown."""
+    """Work (time,), N m, since the first step."""
     values = in_unit(work, UNIT)
     return values - values[:1]
 
@@ -74,7 +75,7 @@ def _curves(run: Run) -> list:
     # A plot of one curve has no legend.
     alone = f": {taken[0][0]}" if len(taken) == 1 else ""
     return [
-        over_time(dataset, "Energy held", "Energy (N m)", held, least=spans[0]),
-        over_time(dataset, f"Work taken since the first step shown{alone}", "Work (N m)", taken, least=spans[1]),
-        over_time(dataset, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
+        over_time(run, "Energy held", "Energy (N m)", held, least=spans[0]),
+        over_time(run, f"Work lost since the first settled step{alone}", "Work (N m)", taken, least=spans[1]),
+        over_time(run, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
     ]

@@ -7,7 +7,7 @@ from math import degrees
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.show.report.page import Beside, Facts, Section, Table, Words
 from fenics_gears.show.report.pair_drawing import drawings
-from fenics_gears.show.report.run import NO_SCENE, Run
+from fenics_gears.show.run import NO_SCENE, Run
 
 GEARS = ("pinion", "wheel")
 

@@ -16,7 +16,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
   }));
 }
 
-// Curves: drawn when they come near the window, all of them before the page is printed.
+// Charts are images until they come near the window; then they are drawn anew, to be zoomed. What is printed needs none of this.
 (async () => {
   const packed = document.getElementById("library"), plots = [...document.querySelectorAll(".curves")];
   if (!packed) return;
@@ -29,7 +29,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
     packed.remove();
   } catch (error) {
     const trouble = document.getElementById("trouble");
-    trouble.textContent = "Curves could not be drawn; they need a browser of 2023 or later. (" + error + ")";
+    trouble.textContent = "Charts stay still images: to zoom them needs a browser of 2023 or later. (" + error + ")";
     trouble.hidden = false;
     return;
   }
@@ -40,6 +40,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
     drawn.add(plot);
     const figure = JSON.parse(plot.querySelector("script").textContent), name = plot.getAttribute("aria-label").replace(/[^\w]+/g, "_");
     plot.replaceChildren();
+    plot.style.height = plot.style.minHeight;
     const range = shared[plot.dataset.linked];
     if (range) Object.assign(figure.layout.xaxis, { range, autorange: false });
     Plotly.newPlot(plot, figure.data, figure.layout, {
@@ -59,7 +60,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
     shared[group] = free ? null : range;
     following = true;
     const others = [...drawn].filter(each => each !== plot && each.dataset.linked === group);
-    Promise.all(others.map(each => Plotly.relayout(each, free ? { "xaxis.autorange": true } : { "xaxis.range": [...range] })))
+    Promise.all(others.map(each => Plotly.relayout(each, free ? { "xaxis.autorange": true, "yaxis.autorange": true } : { "xaxis.range": [...range] })))
       .finally(() => { following = false; });
   };
 
@@ -70,8 +71,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
   plots.forEach(plot => near.observe(plot));
   window.addEventListener("beforeprint", () => {
     document.querySelectorAll("details").forEach(each => { each.open = true; });
-    plots.forEach(draw);
-    plots.forEach(plot => Plotly.Plots.resize(plot));
+    drawn.forEach(plot => Plotly.Plots.resize(plot));
   });
   document.documentElement.dataset.ready = "yes";
 })();

@@ -1,10 +1,12 @@
-"""What a report's page consists of: sections of words, tables, curves and pictures. How it looks is the template's business."""
+"""What a report's page consists of: sections of words, tables, charts and pictures. How it looks is the template's business."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
+
+from fenics_gears.show.chart import Chart
 
 
 @dataclass(frozen=True)
@@ -76,21 +78,6 @@ class Facts:
 
 
 @dataclass(frozen=True)
-class Plot:
-    """Curves that can be zoomed: a plotly figure, with a caption above and a note below.
-
-    `linked`: the plots of a page with the same word here are zoomed together along their first axis.
-    """
-
-    caption: str
-    figure: Any
-    note: str = ""
-    height: int = 300
-    linked: str = ""
-    kind: ClassVar[str] = "plot"
-
-
-@dataclass(frozen=True)
 class Picture:
     """A PNG picture (bytes), and what it shows in words."""
 
@@ -125,7 +112,7 @@ class Beside:
     kind: ClassVar[str] = "beside"
 
 
-Block = Words | Tiles | Table | Facts | Plot | Picture | Listing | Fold | Beside
+Block = Words | Tiles | Table | Facts | Chart | Picture | Listing | Fold | Beside
 
 
 @dataclass(frozen=True)

@@ -11,27 +11,31 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.run_stresses import standing
+from fenics_gears.show.chart import MARKERS, Chart, Curve
 from fenics_gears.show.panels import DARK, GREY, PALETTE
-from fenics_gears.show.report.page import Plot
-from fenics_gears.show.report.plotting import layout, numbers
 
 FILLET_POINTS, INVOLUTE_POINTS, CIRCLE_POINTS = 9, 14, 181
 FILLS = ("#DCE9F3", "#F3E6DA")
 MIRROR = np.array([-1.0, 1.0])
 
 
-def drawings(pair: GearPair, coast: bool = False) -> list[Plot]:
+def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
     """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point with its drive or coast flanks."""
     phase = (pair.pitch_point - pair.path_start) / pair.base_pitch
     teeth = [gear_outline(pair, gear, phase, coast) for gear in (0, 1)]
-    whole = _figure(pair, teeth, coast, labels=False)
-    close = _figure(pair, teeth, coast, labels=True)
-    _look_at(whole, *_whole(pair), height=620)
-    _look_at(close, *_teeth(pair, coast), height=560)
     drawn = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres."
     note = f"{drawn} Drag to zoom, double click to come back."
     caption = "Teeth along the path of contact" + (" of the coast flanks, which carry" if coast else "")
-    return [Plot("The pair", whole, note, 620), Plot(caption, close, _points_in_words(pair, coast), 560)]
+    return [
+        _drawing("The pair", note, 620, _curves(pair, teeth, coast, labels=False), *_whole(pair)),
+        _drawing(caption, _points_in_words(pair, coast), 560, _curves(pair, teeth, coast, labels=True), *_teeth(pair, coast)),
+    ]
+
+
+def _drawing(caption: str, note: str, height: int, curves: list[Curve], middle: np.ndarray, half: float) -> Chart:
+    """A square view around a point (mm), or more of it to the sides."""
+    (left, bottom), (right, top) = middle - half, middle + half
+    return Chart(caption, curves, "x (mm)", "y (mm)", note, height, x_range=(left, right), y_range=(bottom, top), equal=True)
 
 
 def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -> np.ndarray:
@@ -67,44 +71,29 @@ def _upright(pair: GearPair, points: np.ndarray, coast: bool) -> np.ndarray:
     return upright * MIRROR if coast else upright
 
 
-def _figure(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool):
-    import plotly.graph_objects as go
+def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) -> list[Curve]:
+    gears, curves = (("pinion", pair.pinion), ("wheel", pair.wheel)), []
 
-    gears, traces = (("pinion", pair.pinion), ("wheel", pair.wheel)), []
-
-    def line(name: str, points: np.ndarray, **style) -> None:
-        options = {"hoverinfo": "skip"} | style.pop("trace", {})
-        traces.append(go.Scatter(x=numbers(points[:, 0]), y=numbers(points[:, 1]), name=name, mode="lines", line=style, **options))
+    def line(name: str, points: np.ndarray, colour: str, width: float, **style) -> None:
+        curves.append(Curve(name, points[:, 0], points[:, 1], colour, width=width, **style))
 
     for (name, gear), points, fill, centre in zip(gears, teeth, FILLS, _centres(pair)):
-        line(name, points, color=DARK, width=1.2, trace={"fill": "toself", "fillcolor": fill})
-        line(
-            "bore",
-            centre + _circle(gear.bore_radius),
-            color=DARK,
-            width=1.2,
-            trace={"fill": "toself", "fillcolor": "white", "showlegend": False},
-        )
+        line(name, points, DARK, 1.2, fill=fill)
+        line("bore", centre + _circle(gear.bore_radius), DARK, 1.2, fill="white", listed=False)
     circles = {"base circles": ("base_radius", "dash", GREY), "reference circles": ("reference_radius", "dot", GREY)}
     for name, (radius, dash, colour) in circles.items():
         parts = [centre + _circle(getattr(gear, radius)) for (_, gear), centre in zip(gears, _centres(pair))]
-        line(name, np.vstack([parts[0], [[np.nan, np.nan]], parts[1]]), color=colour, dash=dash, width=1)
-    line("line of action", _on_line(pair, [0.0, pair.line_of_action_length], coast), color=PALETTE[1], width=1.2)
-    line("path of contact", _on_line(pair, [pair.path_start, pair.path_end], coast), color=PALETTE[1], width=4)
+        line(name, np.vstack([parts[0], [[np.nan, np.nan]], parts[1]]), colour, 1.0, dash=dash)
+    line("line of action", _on_line(pair, [0.0, pair.line_of_action_length], coast), PALETTE[1], 1.2)
+    line("path of contact", _on_line(pair, [pair.path_start, pair.path_end], coast), PALETTE[1], 4.0)
     places = {name: place for name, place in _points(pair, coast).items() if labels or name == "pitch point"}
-    at = _on_line(pair, list(places.values()), coast)
-    marks = {
-        "mode": "markers+text",
-        "text": list(places) if labels else None,
-        "textposition": [*["top left" if coast else "top right"] * (len(places) - 1), "bottom right" if coast else "bottom left"],
-        "hoverinfo": "text",
-        "hovertext": list(places),
-    }
-    traces.append(go.Scatter(
-        x=numbers(at[:, 0]), y=numbers(at[:, 1]), name="points", showlegend=False, textfont={"size": 12, "color": DARK},
-        marker={"size": 9, "color": "white", "line": {"color": DARK, "width": 1.6}}, **marks,
-    ))  # fmt: skip
-    return go.Figure(traces, layout("x (mm)", "y (mm)", legend=True))
+    at, names = _on_line(pair, list(places.values()), coast), list(places)
+    # The pitch point lies close to its neighbours, and the path's end has room below alone.
+    below = np.array([name in ("pitch point", names[-1]) for name in names])
+    for own, side in ((~below, "top left" if coast else "top right"), (below, "bottom right" if coast else "bottom left")):
+        if own.any():
+            line("points", at[own], DARK, 1.6, mode=MARKERS, listed=False, words=np.array(names)[own].tolist(), beside=side)
+    return curves
 
 
 def _centres(pair: GearPair) -> tuple[np.ndarray, np.ndarray]:
@@ -149,9 +138,3 @@ def _teeth(pair: GearPair, coast: bool) -> tuple[np.ndarray, float]:
     middle = _on_line(pair, [0.5 * (pair.path_start + pair.path_end)], coast)[0]
     depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 3.0 * pair.pinion.module
     return middle, 0.5 * depth
-
-
-def _look_at(figure, middle: np.ndarray, half: float, height: int) -> None:
-    figure.update_xaxes(range=[middle[0] - half, middle[0] + half], showgrid=False, zeroline=False)
-    figure.update_yaxes(range=[middle[1] - half, middle[1] + half], showgrid=False, zeroline=False, scaleanchor="x", scaleratio=1)
-    figure.update_layout(hovermode="closest", height=height)

@@ -9,6 +9,9 @@ from functools import cache
 from importlib import resources
 
 from fenics_gears.console import number_text
+from fenics_gears.show.chart import Chart
+from fenics_gears.show.drawing import still
+from fenics_gears.show.report.interactive import figure, height
 from fenics_gears.show.report.page import Beside, Block, Fold, Page
 
 TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
@@ -20,8 +23,8 @@ def rendered(page: Page) -> str:
     from markupsafe import Markup
 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"figure": _figure, "base64": _base64, "number": number_text, "code": _with_code}
-    drawn = any(_has_plot(block) for section in page.sections for block in section.blocks)
+    environment.filters |= {"figure": _figure, "still": _still, "height": height, "base64": _base64, "number": number_text, "code": _with_code}
+    drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
         page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)), library=Markup(plotly_library()) if drawn else "",
     )  # fmt: skip
@@ -36,19 +39,24 @@ def plotly_library() -> str:
     return base64.b64encode(gzip.compress(get_plotlyjs().encode(), mtime=0)).decode()
 
 
-def _has_plot(block: Block) -> bool:
-    return any(map(_has_plot, block.blocks)) if isinstance(block, Fold | Beside) else block.kind == "plot"
+def _has_chart(block: Block) -> bool:
+    return any(map(_has_chart, block.blocks)) if isinstance(block, Fold | Beside) else block.kind == "chart"
 
 
 def _own_file(name: str) -> str:
     return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
-def _figure(figure):
-    """A figure as JSON that may stand in a script element."""
+def _figure(chart: Chart):
+    """A chart as JSON of a plotly figure that may stand in a script element."""
     from jinja2.utils import htmlsafe_json_dumps
 
-    return htmlsafe_json_dumps(figure, dumps=lambda each, **_: each.to_json())
+    return htmlsafe_json_dumps(figure(chart), dumps=lambda each, **_: each.to_json())
+
+
+def _still(chart: Chart) -> str:
+    """The same chart as an image, for paper, for browsers without scripts and for whoever photographs the page at once."""
+    return _base64(still(chart))
 
 
 def _with_code(text: str):

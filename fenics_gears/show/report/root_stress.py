@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time
+from fenics_gears.show.forces import least
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.forces import least, shared_curves
-from fenics_gears.show.report.page import Block, Facts, Plot, Section, Words
-from fenics_gears.show.report.plotting import Curve, over_time, plot
-from fenics_gears.show.report.run import TOO_FEW, Run
+from fenics_gears.show.report.page import Block, Facts, Section, Words
+from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import factor, in_unit
 
 HEADING = "Root stress"
@@ -37,17 +37,17 @@ def _factors(run: Run) -> list[Block]:
     return [Facts(rows)] if rows else []
 
 
-def _over_time(run: Run) -> list[Plot]:
+def _over_time(run: Run) -> list[Chart]:
     largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "slot")
     values, gears = in_unit(largest, "MPa"), [str(gear) for gear in run.dataset["gear"].values]
     envelope = [(gear, _largest(values[:, place]), PALETTE[place]) for place, gear in enumerate(gears)]
     together = np.concatenate([each for _, each, _ in envelope])
-    plots = [over_time(run.dataset, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
+    plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
     for place, gear in enumerate(gears):
-        curves = shared_curves(run.dataset["pair_number"].values, values[:, place])
+        curves = [(words, each, PALETTE[number % len(PALETTE)]) for words, each, number in run.of_pairs("root_stress_maximum", "MPa", gear=gear)]
         plots.append(
             over_time(
-                run.dataset, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)
+                run, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)
             )
         )
     section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "slot")
@@ -59,7 +59,7 @@ def _over_time(run: Run) -> list[Plot]:
     ]  # fmt: skip
     if curves:
         note = "The largest of the loaded teeth, where the fillet's tangent stands at 30° to the tooth's centreline; tension positive."
-        plots.append(over_time(run.dataset, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least(together), note=note))
+        plots.append(over_time(run, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least(together), note=note))
     return plots
 
 
@@ -69,7 +69,7 @@ def _largest(values: np.ndarray) -> np.ndarray:
     return np.where(known, np.where(np.isfinite(values), values, -np.inf).max(axis=1), np.nan)
 
 
-def _along_fillets(run: Run) -> list[Plot]:
+def _along_fillets(run: Run) -> list[Chart]:
     """Stress along the fillet of the tooth that has the largest tension, at the time it has it."""
     plots = []
     if "root_stress" not in run.dataset:
@@ -84,7 +84,7 @@ def _along_fillets(run: Run) -> list[Plot]:
         along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point")[time, slot], "MPa")
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
         curves = [
-            Curve(f"{name} side", angle[side == name], along[side == name], colour, mode="lines+markers")
+            Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES)
             for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)
         ]
         phase = float(own["mesh_phase"].values[time])
@@ -92,5 +92,5 @@ def _along_fillets(run: Run) -> list[Plot]:
             f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
         )
         note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
-        plots.append(plot(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
+        plots.append(Chart(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
     return plots

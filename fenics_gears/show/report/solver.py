@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fenics_gears.description import describe
 from fenics_gears.errors import GearsError
+from fenics_gears.show.chart import over_time
 from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.report.page import Beside, Block, Facts, Section, Table, Words
-from fenics_gears.show.report.plotting import over_time
-from fenics_gears.show.report.run import Run
+from fenics_gears.show.run import Run
 from fenics_gears.summary import solver_rows, stage_rows
 
 # What `gears check` says of a scene that is not said elsewhere on the page.
@@ -32,7 +32,7 @@ def solver(run: Run) -> Section:
         counts = {"newton_iterations": ("Newton iterations of each step", "Iterations"), "closed_nodes": ("Closed contact nodes", "Nodes")}
         for (name, (caption, y_title)), colour in zip(counts.items(), (PALETTE[0], PALETTE[2])):
             blocks.append(
-                over_time(run.dataset, caption, y_title, [(y_title, run.dataset[name].values.astype(float), colour)], least=2.0, height=240)
+                over_time(run, caption, y_title, [(y_title, run.dataset[name].values.astype(float), colour)], least=2.0, height=240)
             )
     return Section("solver", "Model and solver", blocks)
 

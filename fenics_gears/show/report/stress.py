@@ -11,7 +11,7 @@ from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.results.stored_forces import stored_index
 from fenics_gears.show.report.page import Picture, Section, Words
-from fenics_gears.show.report.run import NO_SCENE, Run
+from fenics_gears.show.run import NO_SCENE, Run
 
 HEADING = "Stress in the gears"
 

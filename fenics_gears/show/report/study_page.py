@@ -9,13 +9,13 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.cases import LISTED_CASES, STATES, Cases
+from fenics_gears.show.cases import LISTED_CASES, STATES, Cases
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
 from fenics_gears.show.report.overview import counted, digits
 from fenics_gears.show.report.page import Block, Cell, Facts, Fold, Page, Section, Table, Tile, Tiles, Words
-from fenics_gears.show.report.plotting import Curve, plot
-from fenics_gears.show.report.study_curves import effort_plots, result_plots
+from fenics_gears.show.study_charts import effort_charts, result_charts
 from fenics_gears.summary import summary_rows
 
 # A browser sorts and lays out this many rows at once.
@@ -35,7 +35,7 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
         scene_section(str(attributes.get("scene", "")), "Base scene"),
     ]  # fmt: skip
     title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
-    swept = ", ".join(f"{field.path} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields)
+    swept = ", ".join(f"{field.called} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields)
     return Page("Gear pair: report on a study", title, f"{counted(cases.count, 'case')} over {swept}", sections, made_by(), _alarm(cases))
 
 
@@ -100,7 +100,7 @@ def _warnings(cases: Cases) -> Section:
 
 
 def _results(cases: Cases) -> Section:
-    return Section("results", "Results over the parameters", result_plots(cases) or [Words("No case has a result yet.", warns=True)])
+    return Section("results", "Results over the parameters", list(result_charts(cases).values()) or [Words("No case has a result yet.", warns=True)])
 
 
 def _standing_out(cases: Cases) -> Section:
@@ -118,7 +118,7 @@ def _standing_out(cases: Cases) -> Section:
         file, link = cases.texts("case_file")[case], cases.link(case)
         rows = Facts([(label.replace("WARNING", "warning"), value, each) for label, value, each in summary_rows(run)])
         folds.append(Fold(f"Case {case}: {cases.words(case)} ({' and '.join(why)})", [rows, Table(("File",), [(Cell(file, link=link),)])]))
-    drawn = plot(
+    drawn = Chart(
         "Transmission error", curves, "Time (mesh cycles since the first recorded one)", f"Transmission error ({unit})", height=360
     )
     said = Table(("Case", "Values", "Has the"), [(str(case), cases.words(case), ", ".join(why)) for case, why, _ in chosen], numbers=9)
@@ -169,7 +169,7 @@ def _table(cases: Cases) -> Section:
     blocks: list[Block] = [
         Words(
             "A click on a heading sorts by it. T_EPP: transmission error, peak to peak. Case numbers lead to the case's report where there "
-            "is one, else to its file, beside this page."
+            "is one, else to its file, in the study's directory: sent alone, this page has all numbers, and these links lead nowhere."
         )
     ]
     if cases.count > MOST_ROWS:
@@ -189,4 +189,4 @@ def _effort(cases: Cases) -> Section:
         ("Newton iterations of all cases", f"{np.nansum(iterations):,.0f}", ""),
         ("steps per mesh cycle", f"{known.min():.0f}" + (f" to {known.max():.0f}" if np.ptp(known) else ""), ""),
     ]  # fmt: skip
-    return Section("effort", "Solver and effort", [Facts(rows), *effort_plots(cases)])
+    return Section("effort", "Solver and effort", [Facts(rows), *effort_charts(cases)])

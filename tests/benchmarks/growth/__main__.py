@@ -15,19 +15,20 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fenics_gears.show.plots import save_figure
-from fenics_gears.studies.effect_lattice.machine import machine
 from tests.benchmarks.growth.axes import AXES, Axis
 from tests.benchmarks.growth.picture import growth_picture
 from tests.benchmarks.growth.report import section, write_csv
 from tests.benchmarks.marked_section import write_section
+
+from fenics_gears.show.plots import save_figure
+from fenics_gears.studies.effect_lattice.machine import machine
 
 ROOT = Path(__file__).parents[3]
 PAGE, NUMBERS, PICTURE = (ROOT / "docs" / name for name in ("growth.md", "pictures/growth.csv", "pictures/growth.png"))
 COUNTED = (
     "flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns", "condensed_unknowns", "most_contact_rows", "newton_iterations", "closed_nodes",
 )  # fmt: skip
-ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 
 def points_of(axis: Axis) -> list[dict[str, float]]:

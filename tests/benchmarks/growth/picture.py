@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
+from tests.benchmarks.growth.axes import AXES, Axis
+from tests.benchmarks.growth.report import MEBI, WORDS, Points, column, exponents, known
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from tests.benchmarks.growth.axes import AXES, Axis
-from tests.benchmarks.growth.report import MEBI, Points, WORDS, column, exponents, known
 
 COLUMNS = 3
 COLOURS = dict(zip(("mesh", "assemble", "schur", "ring", "operators", "solving"), PALETTE))

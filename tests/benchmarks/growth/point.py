@@ -14,6 +14,9 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
+from tests.benchmarks.growth.axes import axis_named, paper
+from tests.benchmarks.growth.memory import array_bytes, forget_peak, peak, resident
+
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.elasticity import condensation, gear_compliance, ring
 from fenics_gears.elasticity.elements import element_named
@@ -23,8 +26,6 @@ from fenics_gears.model import Model, model
 from fenics_gears.progress import SilentProgress
 from fenics_gears.simulation import gear_compliances, mesh_cycle
 from fenics_gears.warm_up import compile_kernels
-from tests.benchmarks.growth.axes import axis_named, paper
-from tests.benchmarks.growth.memory import array_bytes, forget_peak, peak, resident
 
 ROUNDS, MOST_SECONDS = 5, 4.0
 # With more dofs on a cut than this the Fourier transform over the sectors takes minutes.

@@ -4,32 +4,33 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears.show import chart
+from fenics_gears.show.chart import LINES, MARKED_LINES, Chart, Curve
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.cases import Cases, Field
-from fenics_gears.show.report.page import Plot
-from fenics_gears.show.report.plotting import Curve, escaped, layout, numbers, plot
+from fenics_gears.show.cases import Cases, Field
 
 # What one plot's legend holds; dashes tell apart what has the same colour.
 MOST_LINES = 2 * len(PALETTE)
 DASHES = ("solid", "dash")
 MARKED_POINTS = 200
 LOGARITHMIC_SPAN = 8.0
-# Pixels; a legend of long names takes more rows than the one that a plot has room for.
-HEIGHT, LEGEND_ROW, LETTERS_A_ROW = 340, 19, 120
+HEIGHT = 340
+# From low to high, in order of lightness (viridis).
+COLOURS = ("#440154", "#414487", "#2A788E", "#22A884", "#7AD151", "#FDE725")
 
 
-def result_plots(cases: Cases) -> list[Plot]:
-    """A plot for each of the numbers that cases are compared by."""
-    return [_result_plot(cases, values, unit, name) for values, unit, name in cases.measures.values() if np.isfinite(values).any()]
+def result_charts(cases: Cases) -> dict[str, Chart]:
+    """A chart for each of the numbers that cases are compared by, by the number's name."""
+    return {key: _result_chart(cases, values, unit, name) for key, (values, unit, name) in cases.measures.items() if np.isfinite(values).any()}
 
 
-def _result_plot(cases: Cases, values: np.ndarray, unit: str, name: str) -> Plot:
-    """A plot without the cases beside which all others would be flat."""
+def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Chart:
+    """A chart without the cases beside which all others would be flat."""
     far_off = cases.far_off(values)
     return over_parameter(cases, np.where(far_off, np.nan, values), unit, name, cases.far_off_in_words(far_off))
 
 
-def effort_plots(cases: Cases) -> list[Plot]:
+def effort_charts(cases: Cases) -> list[Chart]:
     """What the cases took."""
     of = {"wall_time": ("s", "Wall time of a case"), "newton_iterations": ("", "Newton iterations of a case")}
     return [
@@ -39,7 +40,7 @@ def effort_plots(cases: Cases) -> list[Plot]:
     ]
 
 
-def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note: str = "") -> Plot:
+def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note: str = "") -> Chart:
     """Values (n,) of all cases over the study's parameters; a note of the caller stands before the plot's own."""
     axis = main_field(cases)
     others = [field for field in cases.fields if field is not axis and not _zipped(cases)]
@@ -52,26 +53,17 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
         note = f"{note} {len(kept)} of {len(lines)} combinations are drawn; the table of cases has all.".strip()
         lines = [lines[place] for place in kept]
     if axis.numeric and not np.isfinite(axis.values).all():
-        note = f"{note} Cases without {axis.name.replace('_', ' ')} have no place on this axis; the table has them.".strip()
+        note = f"{note} Cases without {axis.called} have no place on this axis; the table has them.".strip()
     if _zipped(cases) and len(cases.fields) > 1:
-        together = ", ".join(field.path for field in cases.fields if field is not axis)
-        note = f"{note} {together} varies along with it.".strip()
-    mode = "lines+markers" if max(map(len, (places for _, places in lines)), default=0) <= MARKED_POINTS else "lines"
+        together = ", ".join(field.called for field in cases.fields if field is not axis)
+        note = f"{note} {together} changes along with it.".strip()
+    mode = MARKED_LINES if max(map(len, (places for _, places in lines)), default=0) <= MARKED_POINTS else LINES
     curves = [
         Curve(words, axis.values[places], values[places], PALETTE[turn % len(PALETTE)], DASHES[turn // len(PALETTE)], mode=mode)
         for turn, (words, places) in enumerate(lines)
     ]
-    drawn = plot(
-        f"{name} over {axis.path}",
-        curves,
-        axis.title,
-        y_title,
-        note=note,
-        height=HEIGHT + LEGEND_ROW * _further_rows([words for words, _ in lines]),
-    )
-    if logarithmic(axis):
-        drawn.figure.update_xaxes(type="log")
-    return drawn
+    divided = "x" if logarithmic(axis) else ""
+    return Chart(f"{name} over {axis.called}", curves, axis.title, y_title, note, HEIGHT, logarithmic=divided)
 
 
 def main_field(cases: Cases) -> Field:
@@ -91,14 +83,6 @@ def logarithmic(field: Field) -> bool:
     return np.ptp(factors) / factors.mean() < np.ptp(steps) / steps.mean()
 
 
-def _further_rows(names: list[str]) -> int:
-    """Rows of a legend beyond its first; plotly sets names in columns as wide as the longest."""
-    if len(names) < 2:
-        return 0
-    columns = max(1, LETTERS_A_ROW // (max(map(len, names)) + 8))
-    return -(-len(names) // columns) - 1
-
-
 def _zipped(cases: Cases) -> bool:
     return cases.dataset["failed"].dims == ("case",)
 
@@ -115,20 +99,22 @@ def _lines(cases: Cases, axis: Field, others: list[Field]) -> list[tuple[str, np
     ]
 
 
-def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str, note: str) -> Plot:
+def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str, note: str) -> Chart:
     """The values in colour over two fields."""
-    import plotly.graph_objects as go
-
-    x, column = np.unique(axis.values, return_inverse=True)
-    y, row = np.unique(other.values, return_inverse=True)
+    (x, column), (y, row) = (np.unique(field.values, return_inverse=True) for field in (axis, other))
     grid = np.full((len(y), len(x)), np.nan)
     grid[row, column] = values
-    colours = {"colorscale": "Viridis", "colorbar": {"title": {"text": escaped(title), "side": "right"}, "thickness": 14}}
-    figure = go.Figure(
-        go.Heatmap(x=numbers(x), y=numbers(y), z=[numbers(each) for each in grid], hoverongaps=False, **colours),
-        layout(axis.title, other.title, legend=False),
-    )
-    figure.update_layout(hovermode="closest")
-    for field, update in ((axis, figure.update_xaxes), (other, figure.update_yaxes)):
-        update(showgrid=False, type="log" if logarithmic(field) else "linear")
-    return Plot(f"{name} over {axis.path} and {other.path}", figure, f"{note} Blank where a case has no result.".strip(), 420)
+    edges, divided = [], ""
+    for letter, field, places in (("x", axis, x), ("y", other, y)):
+        divided += letter if logarithmic(field) else ""
+        edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))
+    drawn = chart.Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), COLOURS)
+    ends = [(float(each[0]), float(each[-1])) for each in edges]
+    words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
+    return Chart(f"{name} over {axis.called} and {other.called}", [], axis.title, other.title, words, 420, x_range=ends[0], y_range=ends[1], logarithmic=divided, field=drawn)
+
+
+def _edges(places: np.ndarray) -> np.ndarray:
+    """Half-way between places (n,), and as far beyond the first and the last."""
+    half = 0.5 * np.diff(places) if len(places) > 1 else np.array([0.5])
+    return np.concatenate([[places[0] - half[0]], places[:-1] + half if len(places) > 1 else [], [places[-1] + half[-1]]])

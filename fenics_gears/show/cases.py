@@ -16,7 +16,9 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.show.units import factor
 from fenics_gears.validity import NO_MEANING
 
-ABSENT = "absent"
+PRESENT, ABSENT = "present", "absent"
+# Sections whose name says nothing that their fields' names do not.
+PLAIN_SECTIONS = ("motion", "load", "gears", "accuracy", "output")
 # Times the largest of the other cases: beside such a value theirs are a line along the axis.
 FAR_OFF = 10.0
 LISTED_CASES = 12
@@ -38,10 +40,15 @@ class Field:
         return self.values.dtype.kind in "fiu"
 
     @property
+    def called(self) -> str:
+        """Its path in words: "mesh frequency" of `motion.mesh_frequency`, "tip relief depth" of `tip_relief.depth`."""
+        section, _, rest = self.path.partition(".")
+        return (rest if rest and section in PLAIN_SECTIONS else self.path).replace(".", " ").replace("_", " ")
+
+    @property
     def title(self) -> str:
-        """Its name with its unit, for an axis or a column."""
-        name = self.name.replace("_", " ")
-        return f"{name} ({self.unit})" if self.unit else name
+        """That with its unit, for an axis or a column."""
+        return f"{self.called} ({self.unit})" if self.unit else self.called
 
     def words(self, case: int) -> str:
         """The value in a case."""
@@ -51,18 +58,20 @@ class Field:
         return f"{value:.6g}" if np.isfinite(value) else ABSENT
 
     def setting(self, case: int) -> str:
-        """Name and value in a case: "friction = present"."""
-        unit = f" {self.unit}" if self.unit and self.words(case) != ABSENT else ""
-        return f"{self.name.replace('_', ' ')} = {self.words(case)}{unit}"
+        """Its value in a case in words: "with friction", "mesh frequency 200 Hz"."""
+        words = self.words(case)
+        if words in (PRESENT, ABSENT):
+            return f"{'with' if words == PRESENT else 'without'} {self.called}"
+        return f"{self.called} {words} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
 class Cases:
-    """All cases of a study's dataset, and where it was read from and its page goes to."""
+    """All cases of a study's dataset, where it was read from, and where a page on it goes to."""
 
     dataset: xr.Dataset
     file: Path
-    output: Path
+    output: Path | None = None
 
     @property
     def count(self) -> int:
@@ -78,7 +87,7 @@ class Cases:
                 continue
             spread = coordinate.broadcast_like(shape).transpose(*shape.dims)
             unit = str(coordinate.attrs.get("units", ""))
-            found.append(Field(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit, spread.values.ravel()))
+            found.append(Field(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit.replace("um", "µm"), spread.values.ravel()))
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
         return sorted(found, key=lambda field: order.get(field.name, 0))
 

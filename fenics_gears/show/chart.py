@@ -1,0 +1,140 @@
+"""What a chart shows: curves, bars, bands and a coloured field over two axes, with units, words and colours; how it is drawn is not said here.
+
+Two modules draw it: ``show.drawing`` by matplotlib, for files and paper, and ``show.report.interactive`` by plotly, to be zoomed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from fenics_gears.show.panels import DARK, PALETTE, limits
+
+TIME, MESH_CYCLES = "time", "Time (mesh cycles since the start)"
+LINES, MARKERS, MARKED_LINES, BARS, BAND, WORDS = "lines", "markers", "lines+markers", "bars", "band", "words"
+# Width of a letter of a flag's words, in parts of the chart's width, on a page of usual width.
+LETTER = 0.0105
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Values (n,) over places (n,) of the first axis, numbers or, for places, words; a band has values (2, n), its lower and upper edge.
+
+    width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: beside each place, on the side `beside`.
+    """
+
+    name: str
+    x: np.ndarray
+    y: np.ndarray
+    colour: str = PALETTE[0]
+    dash: str = "solid"
+    width: float = 1.6
+    mode: str = LINES
+    fill: str = ""
+    listed: bool = True
+    words: Sequence[str] = ()
+    beside: str = "top right"
+
+
+@dataclass(frozen=True)
+class Field:
+    """Values (m, n), not a number where there are none, in cells between edges (n + 1,) of the first and (m + 1,) of the second axis.
+
+    limit: where the colours end. colours: from low to high.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    values: np.ndarray
+    title: str
+    limit: float
+    colours: Sequence[str]
+
+
+@dataclass(frozen=True)
+class Second:
+    """A second scale on the right: ``offset + factor * value``."""
+
+    title: str
+    factor: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Flag:
+    """Words on a place of the chart, above all curves, with a line down to it."""
+
+    x: float
+    y: float
+    words: str
+    colour: str = DARK
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Curves over one axis. `note`: a sentence below; `least`: the smallest span that the second axis shows; `linked`: charts of a page with
+    the same word here are zoomed together; `logarithmic`: the axes ("x", "y", "xy") so divided; `equal`: a length is as long on either axis.
+    """
+
+    caption: str
+    curves: Sequence[Curve]
+    x_title: str
+    y_title: str
+    note: str = ""
+    height: int = 300
+    linked: str = ""
+    least: float = 0.0
+    x_range: tuple[float, float] | None = None
+    y_range: tuple[float, float] | None = None
+    logarithmic: str = ""
+    equal: bool = False
+    field: Field | None = None
+    second: Second | None = None
+    flags: Sequence[Flag] = ()
+    kind: ClassVar[str] = "chart"
+
+    @property
+    def has_legend(self) -> bool:
+        """Whether names are to be listed: those of more than one curve, or of what lies on a field."""
+        return sum(curve.listed for curve in self.curves) > (self.field is None)
+
+    @property
+    def limits(self) -> tuple[float, float] | None:
+        """Ends of the second axis around what is shown; None where that is left to who draws."""
+        if self.y_range is not None or "y" in self.logarithmic or self.field is not None:
+            return self.y_range
+        shown = [self._shown(curve) for curve in self.curves]
+        finite = np.concatenate([each[np.isfinite(each)] for each in shown]) if shown else np.zeros(0)
+        if not finite.size:
+            return None
+        if any(curve.mode == BARS for curve in self.curves):
+            return 0.0, 1.06 * float(finite.max()) or 1.0
+        return limits(finite, self.least or (0.0 if np.ptp(finite) else 1.0))
+
+    def _shown(self, curve: Curve) -> np.ndarray:
+        values = np.asarray(curve.y, dtype=float)
+        if self.x_range is not None and np.asarray(curve.x).dtype.kind in "fiu":
+            values = values[..., (curve.x >= self.x_range[0] - 1e-9) & (curve.x <= self.x_range[1] + 1e-9)]
+        return values.ravel()
+
+    @property
+    def flag_rows(self) -> list[int]:
+        """The row above the curves in which each flag's words stand right of its line: no words over others or over another's line."""
+        first, last = self.x_range
+        rows = [0] * len(self.flags)
+        order = sorted(range(len(self.flags)), key=lambda each: self.flags[each].x)
+        for turn in reversed(range(len(order))):
+            flag = self.flags[order[turn]]
+            end = flag.x + (len(flag.words) + 2) * LETTER * (last - first)
+            beside = [rows[other] for other in order[turn + 1 :] if self.flags[other].x < end]
+            rows[order[turn]] = 1 + max(beside, default=-1)
+        return rows
+
+
+def over_time(run, caption: str, y_title: str, curves: Sequence[tuple[str, np.ndarray, str]], **options) -> Chart:
+    """Curves of name, values (time,) and colour over the mesh cycles of a run; charts of this kind are zoomed together."""
+    drawn = [Curve(name, run.phase, values, colour) for name, values, colour in curves]
+    return Chart(caption, drawn, MESH_CYCLES, y_title, linked=TIME, x_range=run.window, **options)

@@ -1,0 +1,95 @@
+"""Charts of how the gears move: transmission error, its course over the whole run, shafts, and what the scene lets vary."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.show.chart import BAND, Chart, Curve, Second, over_time
+from fenics_gears.show.forces import of_gears
+from fenics_gears.show.panels import DARK, PALETTE
+from fenics_gears.show.run import Run
+from fenics_gears.show.units import factor
+
+# Smallest spans shown. Contact is solved to 1e-4 um and to 1e-6 of the transmitted force; what is smaller is no curve.
+LEAST_LENGTH, LEAST_SHARE, LEAST_ANGLE = 0.1, 0.02, 1e-3  # um, of the largest value, urad
+ERROR = "Transmission error"
+
+
+def motion_charts(run: Run) -> list[Chart]:
+    """All motions that the result has."""
+    return [transmission_error(run), *error_by_cycle(run), *_shafts(run), *_varying(run)]
+
+
+def error_values(run: Run) -> tuple[np.ndarray, str]:
+    """Transmission error (time,) and its unit: micrometres on the wheel's base circle, microradians where that is not known."""
+    if np.isfinite(run.micrometres):
+        return run.values("transmission_error", "rad") * run.micrometres, "µm"
+    return run.values("transmission_error", "µrad"), "µrad"
+
+
+def transmission_error(run: Run) -> Chart:
+    """The transmission error over the mesh cycles."""
+    values, unit = error_values(run)
+    note, second, place = "", None, ""
+    if unit == "µm":
+        turned = factor("rad", "µrad") / run.micrometres
+        note = f"Length on the wheel's base circle; 1 µm is {turned:.4g} µrad of the wheel. Positive where the wheel lags."
+        second, place = Second("Angle of the wheel (µrad)", turned), " on the wheel's base circle"
+    least = LEAST_SHARE * float(np.abs(values).max())
+    caption, curves = f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}", [("transmission error", values, PALETTE[0])]
+    return over_time(run, caption, f"{ERROR} ({unit})", curves, least=least, note=note, second=second, height=380)
+
+
+def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
+    attributes = run.dataset.attrs
+    if not run.complete or "peak_to_peak_transmission_error" not in attributes:
+        return f"peak to peak of what is stored {np.ptp(values):#.4g} {unit}"
+    value = attributes["peak_to_peak_transmission_error"] * (run.micrometres if unit == "µm" else factor("rad", "µrad"))
+    cycles = attributes.get("settled_cycles", 0.0)
+    over = f" ({cycles:.4g} settled cycles)" if cycles > np.ptp(run.window) * (1 + 1e-9) else ""
+    return f"peak to peak {value:#.4g} {unit}{over}"
+
+
+def error_by_cycle(run: Run) -> list[Chart]:
+    """Least and largest transmission error of every mesh cycle of the whole record, where cycles are not all shown."""
+    if run.shows_all or len(run.whole_cycles) < 2:
+        return []
+    values, unit = error_values(run)
+    middle, title = run.cycle_axis
+    edges = np.array([(values[each].min(), values[each].max()) for each in run.whole_cycles]).T
+    mean = np.array([values[each].mean() for each in run.whole_cycles])
+    curves = [Curve("from least to largest of a mesh cycle", middle, edges, PALETTE[0], width=1.0, mode=BAND), Curve("mean of a mesh cycle", middle, mean, DARK)]
+    return [Chart(f"{ERROR} over all {len(middle)} stored mesh cycles", curves, title, f"{ERROR} ({unit})", least=LEAST_SHARE * float(np.abs(values).max()), height=280)]
+
+
+def wheels_shaft(run: Run) -> list[Chart]:
+    """Displacement of the wheel's shaft: off the line of action where friction acts, else along it, for then it has no other."""
+    name, words = ("centre_y", "off") if "friction_force" in run.dataset else ("centre_x", "along")
+    if name not in run.dataset:
+        return []
+    values = run.values(name, "µm")[:, run.dataset["gear"].values.tolist().index("wheel")]
+    caption = f"Displacement of the wheel's shaft {words} the line of action"
+    return [over_time(run, caption, "Displacement (µm)", [("wheel", values, PALETTE[1])], least=LEAST_LENGTH, height=240)]
+
+
+def _shafts(run: Run) -> list[Chart]:
+    along = {"centre_x": "along the line of action", "centre_y": "off the line of action"}
+    if "friction_force" not in run.dataset:
+        del along["centre_y"]
+    charts = [of_gears(run, name, "µm", f"Displacement of the gears' centres {words}", "Displacement", LEAST_LENGTH) for name, words in along.items() if name in run.dataset]
+    if "rotation" in run.dataset:
+        charts.append(of_gears(run, "rotation", "µrad", "Rotation of the hubs from their nominal motion", "Rotation", LEAST_ANGLE))
+    return charts
+
+
+def _varying(run: Run) -> list[Chart]:
+    """The output shaft's end; load and speed, where they vary."""
+    kinds = {
+        "shaft_end_rotation": ("µrad", "Rotation of the output shaft's end", "Rotation", LEAST_ANGLE),
+        "wheel_couple": ("N m", "Torque on the wheel's shaft", "Torque", 1e-6),
+        "mesh_frequency": ("Hz", "Mesh frequency", "Mesh frequency", 0.0),
+    }
+    return [
+        over_time(run, caption, f"{what} ({unit})", [(what.lower(), run.values(name, unit), PALETTE[3])], least=least)
+        for name, (unit, caption, what, least) in kinds.items() if name in run.dataset
+    ]  # fmt: skip

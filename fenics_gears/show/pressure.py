@@ -1,0 +1,112 @@
+"""Charts of the contact pressure: its peak over time and the map over flank and time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second
+from fenics_gears.show.forces import least
+from fenics_gears.show.panels import DARK, PALETTE
+from fenics_gears.show.run import Run
+from fenics_gears.show.units import factor
+
+# Which side of the teeth: how the result's variables of that side begin, and what it is called.
+SIDES = {"": "drive flanks", "coast_": "coast flanks"}
+# A tip that enters or leaves presses with its edge: a few cells far above all others, which would leave these one colour.
+COMMON_SHARE, CLIPPED = 98.0, 1.2  # per cent of the cells that the colours span; times that, from which they end there
+ROWS, MOST_COLUMNS = 260, 640
+# From light to dark in lightness, so that zero lies close to the paper and grey print keeps the order.
+COLOURS = ("#FDE9B8", "#F6A04D", "#D9483B", "#8A1A63", "#2A0A4A")
+_DEGREES = factor("rad", "deg")
+
+
+def has_pressure(run: Run) -> bool:
+    """Whether the result has contact fields."""
+    return "contact_pressure" in run.dataset and "contact_roll_angle" in run.dataset and run.dataset.sizes["contact_time"] > 1
+
+
+def largest_pressures(run: Run) -> Chart:
+    """Largest pressure of a contact node at every step."""
+    found = [(words, *run.largest_pressure(side), colour) for (side, words), colour in zip(SIDES.items(), PALETTE) if f"{side}contact_pressure" in run.dataset]
+    together = np.concatenate([values for _, _, values, _ in found])
+    curves = [Curve(words, phase, values, colour) for words, phase, values, colour in found]
+    return Chart("Largest pressure of a contact node", curves, MESH_CYCLES, "Pressure (MPa)", linked=TIME, x_range=run.window, least=least(together))
+
+
+def pressure_maps(run: Run) -> list[Chart]:
+    """Pressure over mesh cycles and the pinion's roll angle, for each side of the teeth that carries; of the drive flanks where none does."""
+    if not has_pressure(run):
+        return []
+    cells = {side: run.fields(side) for side in SIDES if f"{side}contact_pressure" in run.dataset}
+    loaded = [side for side, (pressure, *_) in cells.items() if (pressure > 0.0).any()] or [""]
+    return [_map(run, side, *cells[side], named=len(cells) > 1) for side in loaded]
+
+
+def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, named: bool) -> Chart:
+    field = pressure_field(pressure, place, phase)
+    highest = float(np.nanmax(field.values, initial=0.0))
+    caption = f"Contact pressure on the {SIDES[side]}" if named else "Contact pressure"
+    if highest > field.limit * (1 + 1e-9):
+        step = np.unravel_index(np.argmax(pressure), pressure.shape)[0]
+        caption += f", beyond the colours up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
+    curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
+    if run.pair is not None:
+        pair = run.pair
+        roll = float(pair.pinion_roll_angle(pair.pitch_point)) * _DEGREES
+        curves.append(Curve("pitch point", np.array(window), np.array([roll, roll]), DARK, "dash", 1.0))
+        ratio, length = pair.pinion.base_radius / pair.wheel.base_radius, pair.line_of_action_length / pair.wheel.base_radius
+        second = Second("Roll angle on the wheel's flank (deg)", -ratio, length * _DEGREES)
+    heights = (float(field.y[0]), float(field.y[-1]))
+    return Chart(
+        caption, [*curves, *_names(pressure, place, phase, number, window)], MESH_CYCLES, "Roll angle on the pinion's flank (deg)",
+        x_range=window, y_range=heights, field=field, second=second, height=480, linked=TIME,
+    )  # fmt: skip
+
+
+def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -> Field:
+    """The largest pressure (MPa) in each cell of a raster over steps and flank, from pressure and roll angle (step, pair, node) and the
+    steps' mesh cycles (step,): each node under pressure reaches half-way to its neighbours and to the steps before and after."""
+    low, high = node_edges(place)
+    known = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
+    finite = place[np.isfinite(place)]
+    rows = np.linspace(finite.min() - 0.5, finite.max() + 0.5, ROWS + 1) if finite.size else np.linspace(0.0, 1.0, ROWS + 1)
+    group = -(-len(phase) // MOST_COLUMNS)
+    middle = 0.5 * (phase[1:] + phase[:-1])
+    columns = np.append(np.append(phase[0], middle)[::group], phase[-1])
+    values = np.full((ROWS, len(columns) - 1), -np.inf)
+    first = np.searchsorted(rows, low[known]) - 1
+    count = np.maximum(np.searchsorted(rows, high[known]) - 1 - first, 1)
+    each = np.repeat(np.arange(len(first)), count)
+    row = first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+    step = np.nonzero(known)[0][each] // group
+    np.maximum.at(values, (np.clip(row, 0, ROWS - 1), step), pressure[known][each])
+    found = pressure[known]
+    highest = float(found.max(initial=0.0)) or 1.0
+    common = float(np.percentile(found, COMMON_SHARE)) if found.size else highest
+    limit = common if highest > CLIPPED * common else highest
+    return Field(columns, rows, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)
+
+
+def node_edges(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper edge of each node's cell, both of the shape of ``place``; a node without a neighbour mirrors the other edge."""
+    missing = np.full(place.shape[:-1] + (1,), np.nan)
+    half = 0.5 * np.diff(place, axis=-1)
+    back, forth = np.concatenate([missing, half], axis=-1), np.concatenate([half, missing], axis=-1)
+    back, forth = np.where(np.isnan(back), forth, back), np.where(np.isnan(forth), back, forth)
+    edges = np.stack([place - back, place + forth])
+    return edges.min(axis=0), edges.max(axis=0)
+
+
+def _names(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, window: tuple[float, float]) -> list[Curve]:
+    """The number of each pair above its band's end, where the band is long enough to leave it room."""
+    top = np.where(pressure > 0.0, place, -np.inf).max(axis=2)
+    words, x, y = [], [], []
+    for pair in np.unique(number[np.isfinite(top)]):
+        steps, rows = np.nonzero((number == pair) & np.isfinite(top))
+        middle = 0.5 * (phase[steps[0]] + phase[steps[-1]])
+        if phase[steps[-1]] - phase[steps[0]] >= 0.2 * (window[1] - window[0]):
+            nearest = int(np.argmin(np.abs(phase[steps] - middle)))
+            words.append(f"pair {pair}")
+            x.append(phase[steps[nearest]])
+            y.append(top[steps[nearest], rows[nearest]])
+    return [Curve("pairs", np.array(x), np.array(y), DARK, mode=WORDS, listed=False, words=words, beside="top left")] if words else []

@@ -1,0 +1,73 @@
+"""The sections of the report that are charts: motion, spectra, forces, contact pressure."""
+
+from __future__ import annotations
+
+from fenics_gears.show.forces import force_charts
+from fenics_gears.show.motion import motion_charts
+from fenics_gears.show.orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
+from fenics_gears.show.pressure import has_pressure, largest_pressures, pressure_maps
+from fenics_gears.show.report.page import Block, Section, Table, Words
+from fenics_gears.show.run import TOO_FEW, Run
+from fenics_gears.show.spectrum import OrderLines
+from fenics_gears.show.thinning import MOST_POINTS
+
+LISTED_ORDERS = 10
+
+
+def motion(run: Run) -> Section:
+    """Curves of all motions that the result has; first, which of its cycles are seen."""
+    return _section("motion", "Transmission error and motion", run, motion_charts)
+
+
+def forces(run: Run) -> Section:
+    """Curves of all forces that the result has."""
+    return _section("forces", "Forces", run, force_charts)
+
+
+def pressure(run: Run) -> Section:
+    """Largest pressure at every step, and the map of the mesh cycles shown."""
+    if not has_pressure(run):
+        none = "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the flank."
+        if run.scene is not None and run.scene.resolves_contact:
+            none = "There is none: the run has stored no contact fields (`[output] contact_fields`)."
+        return Section("pressure", "Contact pressure", [Words(none)])
+    return _section("pressure", "Contact pressure", run, lambda run: [largest_pressures(run), *pressure_maps(run)])
+
+
+def _section(name: str, heading: str, run: Run, charts) -> Section:
+    if not run.has_curves:
+        return Section(name, heading, [Words(TOO_FEW, warns=True)])
+    first, last = run.window
+    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of the stored {run.phase[0]:g} to {last:g}; on screen, a double click shows all but of single tooth pairs."
+    fewer = f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
+    words = "" if run.shows_all else part + (f" {fewer}" if run.steps > MOST_POINTS else "")
+    return Section(name, heading, [*([Words(words)] if words else []), *charts(run)])
+
+
+def spectra(run: Run) -> Section:
+    """Amplitudes over orders, their table, and how they change from cycle to cycle in long records."""
+    heading = "Spectra by mesh order"
+    run = run.settled
+    if not run.has_curves or run.cycles < 1.0 - 1e-9:
+        short = "Less than one mesh cycle is stored; its harmonics are not to be told from one another."
+        return Section("spectra", heading, [Words(short, warns=not run.complete)])
+    signals = signals_of(run)
+    found = {name: spectrum(run, values) for name, (values, _) in signals.items()}
+    followed = orders_by_cycle(run, signals)
+    blocks: list[Block] = []
+    if run.scene is not None and run.scene.speed_ramp is not None:
+        where = "See the orders cycle by cycle." if followed else "Records of 8 mesh cycles and more have the orders cycle by cycle."
+        blocks.append(Words(f"The mesh frequency changes through the record: orders stay in place, resonances pass through them. {where}"))
+    blocks += [mesh_order_chart(run, name, unit, found[name]) for name, (_, unit) in signals.items()]
+    if FORCE not in signals:
+        blocks.append(Words("The force of the mesh does not vary: nothing but a constant torque acts on it."))
+    by_turns = order_spectrum(run)
+    blocks += [by_turns] if by_turns is not None else []
+    return Section("spectra", heading, [*blocks, _table(signals, {name: each.lines for name, each in found.items()}), *followed])
+
+
+def _table(signals: dict, lines: dict[str, OrderLines]) -> Table:
+    headings = ["Mesh order", *(f"{name} ({unit})" for name, (_, unit) in signals.items())]
+    highest = int(min(LISTED_ORDERS, max(each.orders[-1] for each in lines.values())))
+    rows = [[str(order), *(f"{each.at(order):.4g}" for each in lines.values())] for order in range(1, highest + 1)]
+    return Table(headings, rows, "Amplitudes of the mesh orders")

@@ -1,0 +1,159 @@
+"""Charts drawn by plotly, to be zoomed in a browser: light ground, units on both axes, colours that any eye tells apart."""
+
+from __future__ import annotations
+
+import html
+
+import numpy as np
+
+from fenics_gears.show.chart import BAND, BARS, WORDS, Chart, Curve
+from fenics_gears.show.panels import DARK, GREY
+from fenics_gears.show.thinning import MOST_POINTS, thinned
+
+FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif"
+GRID = "#E9ECEF"
+# More digits than a screen shows; curves such as the transmission error vary by a hundredth of their mean.
+DIGITS = 7
+# Pixels, and letters in a row of a legend on a usual page.
+LEGEND_ROW, LETTERS_A_ROW, FLAG_ROW = 19, 120, 17
+
+
+def legend_rows(chart: Chart) -> int:
+    """Rows of a legend; plotly sets names in columns as wide as the longest."""
+    names = [curve.name for curve in chart.curves if curve.listed]
+    columns = max(1, LETTERS_A_ROW // (max(map(len, names), default=0) + 8))
+    return -(-len(names) // columns) if chart.has_legend else 0
+
+
+def height(chart: Chart) -> int:
+    """Pixels of a chart with all its legend."""
+    return chart.height + LEGEND_ROW * max(0, legend_rows(chart) - 1)
+
+
+def figure(chart: Chart):
+    """A chart as a plotly figure."""
+    import plotly.graph_objects as go
+
+    traces = [trace for curve in chart.curves for trace in _traces(go, curve, chart)]
+    if chart.field is not None:
+        field = chart.field
+        scale = [[place / (len(field.colours) - 1), colour] for place, colour in enumerate(field.colours)]
+        lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
+        bar = {"title": {"text": escaped(field.title), "side": "right"}, "thickness": 14}
+        traces.insert(0, go.Heatmap(
+            x=numbers(field.x), y=numbers(field.y), z=[numbers(row, 4) for row in field.values], colorscale=scale, zmin=lowest, zmax=field.limit,
+            colorbar=bar, hoverongaps=False, name="",
+        ))  # fmt: skip
+    drawn = go.Figure(traces, _layout(chart))
+    if chart.flags:
+        _flags(drawn, chart)
+    return drawn
+
+
+def _layout(chart: Chart) -> dict:
+    axis = {
+        "gridcolor": GRID, "linecolor": GREY, "showline": True, "ticks": "outside", "tickcolor": GREY, "ticklen": 4,
+        "zerolinecolor": "#C4C9CE", "zerolinewidth": 1, "exponentformat": "none", "separatethousands": True,
+    }  # fmt: skip
+    x = axis | {"title": {"text": escaped(chart.x_title), "font": {"size": 13.5}, "standoff": 8}, "hoverformat": ".5~g"}
+    y = axis | {"title": {"text": escaped(chart.y_title), "font": {"size": 13.5}, "standoff": 6}, "hoverformat": ",.5~g"}
+    if chart.x_range is not None:
+        x["range"] = list(chart.x_range)
+    bars = any(curve.mode == BARS for curve in chart.curves)
+    if bars:
+        x["showgrid"] = False
+    if chart.field is not None or chart.equal:
+        x |= {"showgrid": False, "zeroline": False}
+        y |= {"showgrid": False, "zeroline": False}
+    if chart.limits is not None:
+        y["range"] = np.log10(chart.limits).tolist() if "y" in chart.logarithmic else list(chart.limits)
+        if not 1e-3 <= max(map(abs, chart.limits)) < 1e6:
+            y["exponentformat"] = "e"
+    elif bars:
+        y["rangemode"] = "tozero"
+    for name, each in (("x", x), ("y", y)):
+        if name in chart.logarithmic:
+            each["type"] = "log"
+    if chart.equal:
+        y |= {"scaleanchor": "x", "scaleratio": 1}
+    extra = {"barmode": "overlay", "updatemenus": [_scales(chart)]} if bars else {}
+    return {
+        "template": "none",
+        "font": {"family": FONT, "size": 13, "color": DARK},
+        # One left margin for all charts, so that the time axes of charts below each other match; above, room for plotly's buttons and the
+        # legend below them.
+        "margin": {"l": 80, "r": 16, "t": max(48 if bars else 26, 21 + LEGEND_ROW * legend_rows(chart)), "b": 46},
+        "showlegend": chart.has_legend,
+        "legend": {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom", "font": {"size": 12.5}},
+        "hovermode": "closest" if chart.field is not None or chart.equal else "x",
+        "paper_bgcolor": "white", "plot_bgcolor": "white", "xaxis": x, "yaxis": y,
+    } | extra  # fmt: skip
+
+
+def _scales(chart: Chart) -> dict:
+    """Buttons for a linear and a logarithmic scale."""
+    choices = {"linear": "linear", "logarithmic": "log"}
+    buttons = [
+        {"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()
+    ]
+    return {
+        "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03, "yanchor": "bottom",
+        "active": int("y" in chart.logarithmic), "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12}, "bgcolor": "white", "bordercolor": "#C4C9CE",
+    }  # fmt: skip
+
+
+def _flags(drawn, chart: Chart) -> None:
+    """Words in rows above the curves, each right of the line that leads down to its place; the curves end below them."""
+    rows = chart.flag_rows
+    inside = height(chart) - drawn.layout.margin.t - drawn.layout.margin.b
+    drawn.update_yaxes(domain=[0.0, 1.0 - FLAG_ROW * (max(rows) + 1) / inside])
+    for flag, row in zip(chart.flags, rows):
+        top = 1.0 - FLAG_ROW * (max(rows) - row + 1) / inside
+        place = {"xref": "x", "yref": "paper"}
+        drawn.add_shape(type="line", x0=flag.x, x1=flag.x, y0=drawn.layout.yaxis.domain[1] - 0.06, y1=top, line={"color": flag.colour, "width": 0.8}, **place)
+        drawn.add_annotation(
+            x=flag.x, y=top, text=escaped(flag.words), showarrow=False, xanchor="left", yanchor="bottom", font={"color": flag.colour, "size": 12}, **place
+        )
+
+
+def escaped(text: str) -> str:
+    """Text that plotly shows as it is; some tags it would take for its own."""
+    return html.escape(text, quote=False)
+
+
+def numbers(values: np.ndarray, digits: int = DIGITS) -> list:
+    """Values (n,) as a list of numbers with as many digits as are seen, None where there is none; words stay words."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        return [escaped(str(each)) for each in array]
+    return [float(f"{each:.{digits}g}") if np.isfinite(each) else None for each in array.astype(float).tolist()]
+
+
+def _traces(go, curve: Curve, chart: Chart) -> list:
+    common = {"name": escaped(curve.name), "showlegend": curve.listed and chart.has_legend}
+    line = {"color": curve.colour, "width": curve.width, "dash": curve.dash}
+    if curve.mode == BARS:
+        return [go.Bar(x=numbers(curve.x), y=numbers(curve.y), marker={"color": curve.colour, "line": {"width": 0}}, width=curve.width, **common)]
+    if curve.mode == BAND:
+        x, (low, high) = numbers(curve.x), map(numbers, curve.y)
+        return [
+            go.Scatter(x=x, y=low, mode="lines", line=line, name=common["name"], showlegend=False),
+            go.Scatter(x=x, y=high, mode="lines", line=line, fill="tonexty", **common),
+        ]
+    places = _places(curve, chart)
+    x, y = (numbers(np.asarray(values)[places]) for values in (curve.x, curve.y))
+    if curve.words:
+        hover = {"text": list(map(escaped, curve.words)), "textposition": curve.beside, "textfont": {"size": 12, "color": DARK}, "hoverinfo": "text"}
+        mark = {"size": 9, "color": "white", "line": {"color": curve.colour, "width": 1.6}}
+        return [go.Scatter(x=x, y=y, mode="text" if curve.mode == WORDS else "markers+text", marker=mark, **hover, **common)]
+    filled = {"fill": "toself", "fillcolor": curve.fill, "hoverinfo": "skip"} if curve.fill else {"hoverinfo": "skip"} if chart.equal else {}
+    return [go.Scatter(x=x, y=y, mode=curve.mode, line=line, marker={"color": curve.colour, "size": 7}, connectgaps=False, **filled, **common)]
+
+
+def _places(curve: Curve, chart: Chart) -> np.ndarray:
+    """Points of a curve that are drawn: of a long one those of the range that is shown first, and few of the rest."""
+    y = np.asarray(curve.y, dtype=float)
+    if chart.x_range is None or len(y) <= MOST_POINTS:
+        return thinned(y)
+    shown = np.flatnonzero((curve.x >= chart.x_range[0]) & (curve.x <= chart.x_range[1]))
+    return np.union1d(thinned(y), shown) if len(shown) <= MOST_POINTS else thinned(y)

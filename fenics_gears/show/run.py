@@ -1,0 +1,176 @@
+"""A stored run as charts, pictures and the report see it: which of its cycles are shown, the curves of tooth pairs, the contact fields.
+
+How the result's file arranges them (docs/result.md) is known here and nowhere else in ``show``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.pairs import lives
+from fenics_gears.results.settled import of_settled
+from fenics_gears.scene.data import Scene
+from fenics_gears.show.run_scene import gear_pair_of, scene_of
+from fenics_gears.show.units import factor, in_unit
+
+NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
+TOO_FEW = "Fewer than two steps are stored; a curve needs two."
+# More mesh cycles than this side by side are hairlines; longer records show their last ones, and all of them cycle by cycle.
+MOST_CYCLES = 4.0
+# Cycles whose least and largest values differ by less than this part of the largest span are alike.
+ALIKE = 0.01
+
+
+@dataclass(frozen=True)
+class Run:
+    """A result, the file it was read from, and the settings of its report.
+
+    at: mesh cycles after the first stored step at which the stress picture is drawn, None for where the largest force is; stress: whether
+    it is drawn at all.
+    """
+
+    dataset: xr.Dataset
+    file: Path | None = None
+    at: float | None = None
+    stress: bool = True
+
+    @cached_property
+    def scene(self) -> Scene | None:
+        """The scene that was run; None where its text is no scene of this version."""
+        return scene_of(self.dataset)
+
+    @cached_property
+    def pair(self) -> GearPair | None:
+        """The gear pair; None as for the scene."""
+        return gear_pair_of(self.dataset)
+
+    @property
+    def steps(self) -> int:
+        """Stored steps."""
+        return self.dataset.sizes.get("time", 0)
+
+    @property
+    def has_curves(self) -> bool:
+        """Whether there is more than a point of a curve."""
+        return self.steps >= 2
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run came to its end."""
+        return bool(self.dataset.attrs.get("complete", 1))
+
+    @cached_property
+    def phase(self) -> np.ndarray:
+        """Mesh cycles since the start (time,)."""
+        return self.dataset["mesh_phase"].values
+
+    @property
+    def cycles(self) -> float:
+        """Mesh cycles from the first to the last stored step."""
+        return float(self.phase[-1] - self.phase[0])
+
+    @cached_property
+    def settled(self) -> Run:
+        """The run without what its start has set off, as all its numbers are."""
+        return replace(self, dataset=of_settled(self.dataset))
+
+    @cached_property
+    def window(self) -> tuple[float, float]:
+        """The mesh cycles that charts show before they are zoomed: the last ones, as many as can be told apart."""
+        cycles = min(float(self.dataset.attrs.get("shown_cycles", MOST_CYCLES)), MOST_CYCLES)
+        return max(float(self.phase[0]), float(self.phase[-1]) - cycles), float(self.phase[-1])
+
+    @property
+    def in_window(self) -> np.ndarray:
+        """Which stored steps (time,) these are."""
+        return self.phase >= self.window[0] - 1e-9
+
+    @property
+    def shows_all(self) -> bool:
+        """Whether that is all that is stored."""
+        return bool(self.in_window.all())
+
+    @property
+    def on_coast_flanks(self) -> bool:
+        """Whether the coast flanks carry more than the drive flanks, over the stored steps."""
+        carried = [float(self.dataset[name].sum()) if name in self.dataset else 0.0 for name in ("coast_normal_force", "normal_force")]
+        return carried[0] > carried[1]
+
+    @property
+    def micrometres(self) -> float:
+        """What a transmission error in rad is multiplied with to be micrometres on the wheel's base circle."""
+        radius = self.dataset.attrs.get("base_radius_wheel")
+        return float(radius) * factor("mm", "µm") if radius else float("nan")
+
+    def values(self, name: str, unit: str) -> np.ndarray:
+        """A variable (time,), or (time, gear), in a unit."""
+        variable = self.dataset[name]
+        return in_unit(variable.transpose("time", ...), unit)
+
+    @cached_property
+    def whole_cycles(self) -> list[slice]:
+        """The steps of each stored mesh cycle, both ends included; none where cycles are not of equally many steps."""
+        count = int(self.cycles * (1 + 1e-9))
+        steps = (self.steps - 1) / self.cycles if self.cycles else 0.0
+        if abs(steps - round(steps)) > 1e-6 or steps < 2:
+            return []
+        return [slice(round(steps) * each, round(steps) * (each + 1) + 1) for each in range(count)]
+
+    @property
+    def cycle_axis(self) -> tuple[np.ndarray, str]:
+        """Middle (n,) of each stored mesh cycle and the axis' words: its mesh frequency where that changes."""
+        ramp = "mesh_frequency" in self.dataset
+        axis = self.values("mesh_frequency", "Hz") if ramp else self.phase
+        title = "Mesh frequency (Hz)" if ramp else "Middle of the mesh cycle (mesh cycles since the start)"
+        return np.array([axis[each].mean() for each in self.whole_cycles]), title
+
+    def varies(self, values: np.ndarray) -> bool:
+        """Whether the settled mesh cycles of values (time,) differ."""
+        first = float(self.settled.phase[0])
+        ends = np.array([(values[each].min(), values[each].max()) for each in self.whole_cycles if self.phase[each][0] >= first - 1e-9])
+        return len(ends) > 1 and bool(np.ptp(ends, axis=0).max() > ALIKE * np.ptp(ends))
+
+    def of_pairs(self, name: str, unit: str, **place) -> list[tuple[str, np.ndarray, int]]:
+        """Curves of a variable of the tooth pairs that carry in the cycles shown: words for it, values (time,), not a number where the
+        pair has none, and its number."""
+        part = np.flatnonzero(self.in_window)
+        values = in_unit(self.dataset[name].sel(place).transpose("time", "slot"), unit)
+        curves = []
+        for life in lives(self.dataset["pair_number"].values[part]):
+            own = np.full(self.steps, np.nan)
+            steps = part[life.steps]
+            own[steps] = values[steps, life.slot]
+            there = np.isfinite(own) & (own != 0.0)
+            if there.any():
+                curves.append((f"pair {life.number}", np.where(_with_ends(there), own, np.nan), life.number))
+        return curves
+
+    def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), the steps' mesh cycles
+        (step,) and the pairs' numbers (step, slot), in the last cycles whose fields are stored; side: how the result's variables of that
+        side begin."""
+        phase = self.dataset["contact_mesh_phase"].values
+        part = self.dataset.isel(contact_time=phase >= phase[-1] - MOST_CYCLES - 1e-9)
+        order = ("contact_time", "slot", "contact_node")
+        pressure = in_unit(part[f"{side}contact_pressure"].transpose(*order), "MPa")
+        place = in_unit(part[f"{side}contact_roll_angle"].transpose(*order), "deg")
+        return pressure, place, part["contact_mesh_phase"].values, part["contact_pair_number"].values
+
+    def largest_pressure(self, side: str) -> tuple[np.ndarray, np.ndarray]:
+        """Mesh cycles (step,) of the steps with contact fields and the largest pressure (step,), MPa, of a node in each."""
+        variable = self.dataset[f"{side}contact_pressure"]
+        return self.dataset["contact_mesh_phase"].values, in_unit(variable.max(["slot", "contact_node"], keep_attrs=True), "MPa")
+
+
+def _with_ends(there: np.ndarray) -> np.ndarray:
+    """Where there are values (time,), and beside these, so that curves begin and end at zero."""
+    near = there.copy()
+    near[1:] |= there[:-1]
+    near[:-1] |= there[1:]
+    return near
