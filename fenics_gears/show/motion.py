@@ -46,7 +46,7 @@ def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
         return f"peak to peak of what is stored {np.ptp(values):#.4g} {unit}"
     value = attributes["peak_to_peak_transmission_error"] * (run.micrometres if unit == "µm" else factor("rad", "µrad"))
     cycles = attributes.get("settled_cycles", 0.0)
-    over = f" ({cycles:.4g} settled cycles)" if cycles > np.ptp(run.window) * (1 + 1e-9) else ""
+    over = f" over {cycles:.4g} cycles" if cycles > np.ptp(run.window) * (1 + 1e-9) else ""
     return f"peak to peak {value:#.4g} {unit}{over}"
 
 
