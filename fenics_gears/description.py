@@ -9,9 +9,8 @@ import numpy as np
 
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
-from fenics_gears.effects import EFFECTS, Effect, result_variables
+from fenics_gears.effects import EFFECTS, Effect, effects_on, result_variables
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.effects import effects_on
 from fenics_gears.memory import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model import Model, model
 from fenics_gears.resolution import EVERY_STEP

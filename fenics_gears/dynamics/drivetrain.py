@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES
-from fenics_gears.geometry.pair import GearPair
 from fenics_gears.effects.inertia import Inertia
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Scene
 
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}

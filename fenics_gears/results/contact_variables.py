@@ -13,7 +13,6 @@ from fenics_gears.dynamics.march import Record, smallest_opening
 from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.scene.data import Scene
 
-
 COAST_NODE_VARIABLES = ("contact_pressure", "contact_traction", "contact_roll_angle")
 
 

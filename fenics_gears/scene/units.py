@@ -141,7 +141,7 @@ def names_by_kind() -> dict[str, list[str]]:
     return found
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _unit(written: str) -> tuple[float, str]:
     """The factor from the unit to N, mm, s, rad, and its kind."""
     if not written:
