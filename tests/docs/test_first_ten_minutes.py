@@ -12,6 +12,8 @@ from fenics_gears.results.summary import summary_rows
 
 README = ROOT / "README.md"
 DEMO = ROOT / "demos" / "lundvall2004.toml"
+# By day tests/docs/test_examples.py runs the same commands and what the README does with their results.
+pytestmark = pytest.mark.nightly
 
 
 @pytest.fixture(scope="module")
