@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.simulation.simulate import prepared, simulate
+from fenics_gears.system.progress import SilentProgress
 
 
 def solved_in_other_order(scene, seed: int):

@@ -20,10 +20,10 @@ from tests.studies.conftest import environment, mpirun
 
 import fenics_gears
 from fenics_gears import results
-from fenics_gears.system import progress
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.validity import NO_MEANING
+from fenics_gears.system import progress
 
 CHECKOUT = Path(__file__).parents[1]
 DEMO = CHECKOUT / "demos" / "lundvall2004.toml"

@@ -5,10 +5,9 @@ from math import pi, sqrt
 
 import pytest
 
-from fenics_gears.model.description import describe
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.model.drivetrain import mesh_stiffness
+from fenics_gears.model.description import describe
+from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
 from fenics_gears.model.model import model
 from fenics_gears.model.resolution import (
     COARSEST_ELEMENT,

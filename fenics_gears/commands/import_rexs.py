@@ -53,8 +53,8 @@ def _check_output(output: Path) -> None:
 
 def _check_scene(imported, file: Path, output: Path) -> None:
     """What the file says makes a scene and gears that mesh. Raises SceneError, which also says what had to be assumed."""
-    from fenics_gears.model.modification import removals
     from fenics_gears.geometry.pair import gear_pair
+    from fenics_gears.model.modification import removals
     from fenics_gears.scene.read import scene_from_text
 
     source = f"{file} as a scene"

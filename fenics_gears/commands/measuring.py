@@ -32,8 +32,8 @@ def measured(measure: Callable, quiet: bool):
 
 def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
     """Write `name`.csv by `write_csv(report, file)` and `name`.png, the figure `draw(report)`; return the files."""
-    from fenics_gears.system.output import written_aside
     from fenics_gears.show.plots import save_figure
+    from fenics_gears.system.output import written_aside
 
     written: list[Path] = []
     with written_aside(directory, written) as aside:

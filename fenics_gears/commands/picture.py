@@ -48,8 +48,8 @@ def picture(options: argparse.Namespace) -> int:
 
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    from fenics_gears.system.output import written_aside
     from fenics_gears.simulation.run_stresses import RunStresses
+    from fenics_gears.system.output import written_aside
 
     written: list[Path] = []
     with RunStresses(dataset, scene) as runs:
@@ -68,8 +68,8 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
 
 
 def _series(runs, dataset, collection: Path, progress) -> Path:
-    from fenics_gears.system.output import written_aside
     from fenics_gears.show.stress_series import save_series
+    from fenics_gears.system.output import written_aside
 
     progress.stage("recover stresses")
     with written_aside(collection.parent, []) as aside:

@@ -12,9 +12,9 @@ from fenics_gears.commands.exit_codes import INTERRUPTED, NO_MEANING
 from fenics_gears.commands.scene_file import add_output_argument, add_scene_argument, checked_scene_and_directory
 from fenics_gears.commands.told_progress import told_progress
 from fenics_gears.errors import ComputationError
+from fenics_gears.show import PICTURE_FILES
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.job import communicator
-from fenics_gears.show import PICTURE_FILES
 
 RUN_FILE = "run.nc"
 
@@ -94,8 +94,8 @@ def _kept(dataset, file: Path) -> str:
 
 
 def _print_summary(title: str, dataset, files: Sequence[Path], stages: Sequence[tuple[str, float]]) -> None:
-    from fenics_gears.system.console import print_rows
     from fenics_gears.results.summary import summary_rows
+    from fenics_gears.system.console import print_rows
 
     print_rows(title, summary_rows(dataset, stages))
     print_rows("Files", [("", str(file), "") for file in files])

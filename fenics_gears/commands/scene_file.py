@@ -13,8 +13,8 @@ def checked_scene(path: Path):
 
     scene = load_scene(path)
     from fenics_gears.effects import check_files
-    from fenics_gears.model.modification import corner, removals
     from fenics_gears.geometry.pair import gear_pair
+    from fenics_gears.model.modification import corner, removals
 
     try:
         pair = gear_pair(scene.gears)

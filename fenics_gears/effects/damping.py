@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
-from fenics_gears.dynamics.drivetrain_data import Damping, MODAL, RAYLEIGH, Rayleigh
+from fenics_gears.dynamics.drivetrain_data import MODAL, RAYLEIGH, Damping, Rayleigh
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import Section, number, numbers, quantity
 from fenics_gears.inputs.problem import Problem

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import lcm
 from typing import Optional
 
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.effects.effect import Effect
+from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import Tree, table, too_large_for_the_module

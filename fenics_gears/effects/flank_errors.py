@@ -8,14 +8,14 @@ in the order in which they mesh, from the tooth of either gear that meshes first
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import lcm
 from pathlib import Path
 from typing import Any, Optional
 
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
 from fenics_gears.inputs.fields import Section, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import LARGEST_ERROR, Tree, quantity_in, table, teeth_in, too_large_for_the_module

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
-from fenics_gears.dynamics.drivetrain_data import GearInertia, Inertia, LUMPED
+from fenics_gears.dynamics.drivetrain_data import LUMPED, GearInertia, Inertia
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem

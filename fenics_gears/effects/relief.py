@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Literal, Optional
 
 from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.dynamics.drivetrain_data import Shaft, Shafts

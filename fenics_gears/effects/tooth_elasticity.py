@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
-from fenics_gears.geometry.gear_data import Material
 from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
+from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.fields import Section, number, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table

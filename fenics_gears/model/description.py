@@ -7,12 +7,12 @@ from math import inf, lcm
 
 import numpy as np
 
-from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.sliding import sliding_speed
+from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.model.model import Model, model
 from fenics_gears.scene.data import Scene
 

@@ -13,14 +13,13 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
-from fenics_gears.model.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
-from fenics_gears.model.drivetrain import mesh_stiffness
+from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
+from fenics_gears.model.modification import corner, removals
 from fenics_gears.model.resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from fenics_gears.model.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene

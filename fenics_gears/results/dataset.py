@@ -17,6 +17,7 @@ from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, effects_on, result_variables
 from fenics_gears.model.model import Model
+from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
@@ -24,8 +25,8 @@ from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate,
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled, settled
-from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.validity import warnings_of, warnings_of_energy
+from fenics_gears.scene.data import Scene
 
 GEARS = ("pinion", "wheel")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, exp, inf, isfinite, log, pi, sqrt
-
 from typing import TYPE_CHECKING
 
 import xarray as xr

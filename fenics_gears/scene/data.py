@@ -16,7 +16,8 @@ from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.geometry.eccentricity_data import Eccentricity
 from fenics_gears.geometry.flank_error_data import FlankErrors
-from fenics_gears.geometry.gear_data import GearData as GearData, GearPairData, Material
+from fenics_gears.geometry.gear_data import GearData as GearData
+from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.geometry.relief_data import RootRelief, TipRelief
 
 

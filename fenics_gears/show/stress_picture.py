@@ -18,11 +18,11 @@ from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.simulation.run_stresses import GearsInMesh
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, on_line, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run_scene import conditions, scene_of
 from fenics_gears.show.stress_grid import outline, shown_points, surface
+from fenics_gears.simulation.run_stresses import GearsInMesh
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
 COLOURS = LinearSegmentedColormap.from_list("stress", [

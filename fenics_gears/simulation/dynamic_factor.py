@@ -12,9 +12,9 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.model import model
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.recorder import Recorder

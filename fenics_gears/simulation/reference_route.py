@@ -11,8 +11,8 @@ from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model
-from fenics_gears.system.progress import Progress
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.system.progress import Progress
 
 
 def remeshed(

@@ -16,12 +16,12 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.model import Model, model
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.model.resolution import ONCE
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.simulate import gear_compliances, mesh_cycle
+from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
+from fenics_gears.system.progress import SilentProgress
 
 
 @dataclass(frozen=True)

@@ -17,13 +17,13 @@ from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model, model
-from fenics_gears.system.progress import Progress, SilentProgress
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.scene.data import ELASTIC, ISO_6336, LAST_CYCLES, STIFFNESS_TABLE, Scene
 from fenics_gears.results.validity import worst_first
+from fenics_gears.scene.data import ELASTIC, ISO_6336, LAST_CYCLES, STIFFNESS_TABLE, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.progress import Progress, SilentProgress
 
 if TYPE_CHECKING:
     from fenics_gears.elasticity.remeshing import RemeshedStiffness

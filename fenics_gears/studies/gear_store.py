@@ -10,10 +10,10 @@ from fenics_gears.effects import EFFECTS
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
-from fenics_gears.system.progress import Progress
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import ISO_6336
 from fenics_gears.simulation.simulate import Compliances, gear_compliance, mesh_cycle, prepared, tooth_reach
+from fenics_gears.system.progress import Progress
 
 GEARS = ("pinion", "wheel")
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}

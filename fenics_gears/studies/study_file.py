@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
-from fenics_gears.model.model import model
-from fenics_gears.scene.data import Scene
 from fenics_gears.inputs.lines import line_numbers
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.written import WrittenFloat, as_written
+from fenics_gears.model.model import model
+from fenics_gears.scene.data import Scene
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.scene.rules import broken_rules
-from fenics_gears.inputs.written import WrittenFloat, as_written
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
 from fenics_gears.studies.study import Case, Study, scene_key

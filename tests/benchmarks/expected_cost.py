@@ -64,8 +64,8 @@ def _without(text: str, *sections: str) -> str:
 def measure(name: str) -> dict[str, float]:
     """Run an example in this process; seconds of condensing and marching, bytes, and what was expected."""
     time.perf_counter = time.process_time
-    from fenics_gears.model.cost import expected_cost
     from fenics_gears.elasticity.cache import Cache
+    from fenics_gears.model.cost import expected_cost
     from fenics_gears.model.model import model
     from fenics_gears.scene.read import scene_from_text
     from fenics_gears.simulation.simulate import simulate

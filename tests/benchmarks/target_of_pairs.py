@@ -20,17 +20,17 @@ from tests.benchmarks.target_reference import Reference, reference
 
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import load_scene
-from fenics_gears.studies.accuracy.setting import Setting, half_width
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
 from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
-from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
-from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.system.progress import SilentProgress
 
 ROOT = Path(__file__).resolve().parents[2]
 TARGETS = (0.05, 0.01, 0.002)

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.coarse import COARSE
 
 from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
@@ -12,9 +13,8 @@ from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.mesh_stiffness import NOTHING_TOUCHES, mesh_stiffness
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.simulation.mesh_springs import iso_cycle
 from fenics_gears.model.model import model
-from tests.coarse import COARSE
+from fenics_gears.simulation.mesh_springs import iso_cycle
 
 ROTATION_OF_THE_WHEEL = 5
 LOAD = 7e3

@@ -16,14 +16,14 @@ from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import cracked_gear_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model
-from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
+from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.refinement import checked_model
-from fenics_gears.studies.study_file import load_study
 from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.studies.study_file import load_study
 
 TEETH = "tooth_elasticity"
 COARSE = {"element": "P1", "flank_element_size": 0.4, "body_element_size": 3.0}

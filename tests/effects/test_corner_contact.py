@@ -8,8 +8,8 @@ from tests.coarse import COARSE, teeth_alone
 
 from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.model.modification import corner
 from fenics_gears.model.model import model
+from fenics_gears.model.modification import corner
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate

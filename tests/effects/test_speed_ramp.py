@@ -14,7 +14,6 @@ from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.clock import SteadyClock
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
@@ -24,12 +23,13 @@ from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import prepared, simulate
+from fenics_gears.system.progress import SilentProgress
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400, 40)

@@ -15,8 +15,8 @@ from tests.stand_in import stand_in_compliance
 from fenics_gears.contact.errors import MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.simulation.simulate import gear_compliances, tooth_reach
+from fenics_gears.system.progress import SilentProgress
 
 # Row, words, limit and unit of each residual of `invariants.step_residuals`.
 LAWS = {

@@ -12,13 +12,13 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.results import dataset, shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.forces import pair_forces
 from fenics_gears.show.run import Run
 from fenics_gears.simulation.simulate import gear_compliances, mesh_cycle, prepared, simulate
+from fenics_gears.system.progress import SilentProgress
 
 FINE = replace(COARSE, steps_per_mesh_cycle=200)
 

@@ -8,9 +8,9 @@ from tests.hard_cases.invariants import run_of, worst_of
 
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
-from fenics_gears.simulation.simulate import gear_compliances, simulate
 from fenics_gears.results.summary import summary_rows
+from fenics_gears.simulation.simulate import gear_compliances, simulate
+from fenics_gears.system.progress import SilentProgress
 
 WORDS = ("self-locking", "more than one solution")
 ABSENT = [(), ("bearings",), ("shafts", "bearings")]

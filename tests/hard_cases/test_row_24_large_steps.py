@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, quasi_static
 
-from fenics_gears.model.description import describe
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
 from fenics_gears.dynamics.guidance import resolved_frequency, steps_to_resolve
+from fenics_gears.model.description import describe
 from fenics_gears.model.model import model
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.simulate import simulate

@@ -13,10 +13,10 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
-from fenics_gears.simulation.reference_route import remeshed
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import Accuracy
+from fenics_gears.simulation.reference_route import remeshed
+from fenics_gears.system.progress import SilentProgress
 
 NODES, CENTRE = 7, 3
 SEEDS = [pytest.param(seed, marks=pytest.mark.nightly if seed > 3 else ()) for seed in range(25)]

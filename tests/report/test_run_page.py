@@ -1,7 +1,7 @@
 """The report on a run: which sections it has, what they say, and that it is one well-formed file that loads nothing."""
 
-import csv
 import base64
+import csv
 import re
 import subprocess
 import sys
@@ -15,11 +15,11 @@ from tests.report.conftest import scene_text
 from tests.report.pages import seen
 
 from fenics_gears import results
-from fenics_gears.results.pairs import contact_times
 from fenics_gears.commands.cli import main
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.report.effects import effects
-from fenics_gears.show.run import Run
 from fenics_gears.show.report.stress import stress
+from fenics_gears.show.run import Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[2]

@@ -16,12 +16,12 @@ from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.pairs import contact_times, lives
 from fenics_gears.results.recorder import AT_ONCE, Recorder
 from fenics_gears.scene.data import Motion, Output
 from fenics_gears.simulation.simulate import prepared, simulate
+from fenics_gears.system.progress import SilentProgress
 
 FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_roll_angle")
 

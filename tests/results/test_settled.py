@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, quasi_static
 
-from fenics_gears.model.description import describe
 from fenics_gears.effects import common_period
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.model.description import describe
 from fenics_gears.model.model import model
 from fenics_gears.results.settled import settled
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.results.summary import summary_rows
 
 # z = 23 and 47, no common factor: every tooth has met every other after 1081 mesh cycles.
 PAIR = """

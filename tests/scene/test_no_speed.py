@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.stand_in import stand_in_compliance
 
 from fenics_gears.model.description import describe
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import mesh_cycle, simulate
-from tests.stand_in import stand_in_compliance
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 

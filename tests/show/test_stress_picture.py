@@ -10,10 +10,10 @@ from matplotlib.image import imread
 from tests.coarse import coarse_scene
 
 from fenics_gears import results
-from fenics_gears.system import environment
 from fenics_gears.commands.cli import main
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.stress_picture import _place_of_name, _time
+from fenics_gears.system import environment
 
 environment.prepare()
 
@@ -97,10 +97,10 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
 
 def test_no_tooth_is_missing(run):
     """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
-    from fenics_gears.simulation.run_stresses import RunStresses
     from fenics_gears.show.drawn_scale import outer_loop
     from fenics_gears.show.run_scene import scene_of
     from fenics_gears.show.stress_grid import shown_points
+    from fenics_gears.simulation.run_stresses import RunStresses
 
     dataset = results.load(run / "run.nc")
     with RunStresses(dataset, scene_of(dataset)) as stresses:

@@ -10,12 +10,12 @@ from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATI
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
-from fenics_gears.simulation.reference_route import remeshed
 from fenics_gears.scene.data import GearData, Motion
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.reference_route import remeshed
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import cycle_key, gear_key
+from fenics_gears.system.progress import SilentProgress
 
 
 @pytest.fixture

@@ -12,14 +12,14 @@ from fenics_gears.contact.stiffness_table import LOADS
 from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.simulation.mesh_springs import table_cycle
 from fenics_gears.model.model import model
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.mesh_springs import table_cycle
 from fenics_gears.simulation.simulate import deviating, gear_compliances, mesh_cycle, simulate
+from fenics_gears.studies.gear_store import GearStore, cycle_key
 from fenics_gears.studies.study import Case
 from fenics_gears.studies.work import gear_tasks, in_order_of_sharing
-from fenics_gears.studies.gear_store import GearStore, cycle_key
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
 

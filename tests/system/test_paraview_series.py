@@ -11,10 +11,10 @@ import pytest
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.stress_animation import frame_steps
 from fenics_gears.show.stress_grid import in_tooth_order
+from fenics_gears.simulation.run_stresses import RunStresses
 
 pyvista = pytest.importorskip("pyvista")
 

@@ -22,13 +22,13 @@ from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
-from fenics_gears.simulation.dynamic_factor import quasi_static as without_inertia
 from fenics_gears.results.settled import of_settled
-from fenics_gears.simulation.stored_forces import stored_forces
-from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.scene.data import Load, Motion, Output
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.dynamic_factor import quasi_static as without_inertia
+from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.stored_forces import stored_forces
 
 FACTORS = ("dynamic_factor_by_force", "dynamic_factor_by_stress")
 

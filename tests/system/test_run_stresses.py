@@ -15,13 +15,13 @@ from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.simulation.stored_forces import stored_forces, stored_index
-from fenics_gears.simulation.run_stresses import RunStresses, hub_motion, standing
 from fenics_gears.scene.data import Load
 from fenics_gears.show.drawn_scale import automatic_scale, overlap
 from fenics_gears.show.loaded_contact import loaded_contact
 from fenics_gears.show.stress_grid import in_tooth_order, save_vtu, upright
+from fenics_gears.simulation.run_stresses import RunStresses, hub_motion, standing
 from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.stored_forces import stored_forces, stored_index
 
 
 @pytest.fixture(scope="module", params=["friction and inertia", "driven from the wheel on coast flanks"])

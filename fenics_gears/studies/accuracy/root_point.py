@@ -14,9 +14,9 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import model
-from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 from fenics_gears.scene.data import Material, Scene
 from fenics_gears.simulation.simulate import tooth_reach
+from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 
 PINION = 0
 

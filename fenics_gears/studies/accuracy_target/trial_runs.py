@@ -12,6 +12,7 @@ from dataclasses import replace
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.model import model
 from fenics_gears.model.resolution import NODE_SPACING
+from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.studies.accuracy.convergence import ErrorCurve, error_curve
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
@@ -20,7 +21,6 @@ from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, without_settings
 from fenics_gears.studies.accuracy_target.limits import Limits, Size, TargetNotReached
 from fenics_gears.studies.work import Ticking
-from fenics_gears.results.validity import WINDOW_REACHED
 
 ELEMENT = "P2"
 FLANK = "flank elements and contact nodes"

@@ -14,16 +14,16 @@ from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import ComputationError, GearsError, SceneError
 from fenics_gears.model.model import Model, model
-from fenics_gears.system.progress import Progress, SilentProgress
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.simulate import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.machine import machine
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
 from fenics_gears.studies.gear_store import GEARS, gear_key
-from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS = 5
 TIMED_STEPS = 1000

@@ -23,9 +23,9 @@ from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.model.model import Model, model
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.simulation.simulate import gear_compliances, mesh_cycle
 from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.progress import SilentProgress
 
 ROUNDS, MOST_SECONDS = 5, 4.0
 # With more dofs on a cut than this the Fourier transform over the sectors takes minutes.

@@ -10,23 +10,22 @@ import pytest
 from tests.coarse import teeth_alone
 
 from fenics_gears.commands.cli import main
-from fenics_gears.model.cost import expected_cost
-from fenics_gears.errors import SceneError
-from fenics_gears.model.model import model
-from fenics_gears.system.progress import SilentProgress
-from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.effects.friction import Friction
+from fenics_gears.errors import SceneError
+from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.model import model
+from fenics_gears.model.resolution import NODE_SPACING
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target import choose as choosing
-from fenics_gears.studies.accuracy_target import limits
-from fenics_gears.studies.accuracy_target import trial_runs
+from fenics_gears.studies.accuracy_target import limits, trial_runs
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
-from fenics_gears.results.summary import summary_rows
+from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
 TEXT_TARGET = '\n[accuracy]\ntarget = "10 %"\n'
