@@ -153,7 +153,7 @@ class Model:
 # Of a result; less where a scene does not say how much is to be stored.
 MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 
-def model(scene: Scene) -> Model:
+def model_of(scene: Scene) -> Model:
     """Everything about a scene that needs no computing to speak of.
 
     Raises GeometryError for impossible gears, SceneError for a result too large to be held, or for files that do not fit the scene.
@@ -161,15 +161,15 @@ def model(scene: Scene) -> Model:
     pair = gear_pair(scene.gears)
     check_files(scene, pair)
     shafts = drivetrain(scene, pair)
-    built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
+    model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
     cycles = scene.motion.recorded_cycles if scene.output.contact_fields and scene.resolves_contact else 0
-    whole = replace(built, contact_cycles=cycles)
+    whole = replace(model, contact_cycles=cycles)
     if cycles and scene.motion.fewer_where_too_large and whole.stored_bytes > MOST_UNASKED_BYTES:
-        of_one = (whole.stored_bytes - built.stored_bytes) / cycles
-        fitting = int((MOST_UNASKED_BYTES - built.stored_bytes) / of_one)
-        whole = replace(built, contact_cycles=max(fitting, min(LAST_CYCLES, scene.motion.mesh_cycles)))
+        of_one = (whole.stored_bytes - model.stored_bytes) / cycles
+        fitting = int((MOST_UNASKED_BYTES - model.stored_bytes) / of_one)
+        whole = replace(model, contact_cycles=max(fitting, min(LAST_CYCLES, scene.motion.mesh_cycles)))
     if whole.stored_bytes > MOST_STORED_BYTES:
-        raise SceneError(_too_large(built, whole))
+        raise SceneError(_too_large(model, whole))
     return whole
 
 

@@ -16,27 +16,27 @@ from fenics_gears.system.progress import Progress
 
 
 def remeshed(
-    built: Model, progress: Progress, cache: Cache | None, comm=None
+    model: Model, progress: Progress, cache: Cache | None, comm=None
 ) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], RemeshedCycle]:
     """Stiffness of pinion and wheel at every position, and the contact equations of a mesh cycle on them.
 
     comm: MPI communicator over which the positions are shared out; every rank calls this, only rank 0 can use the result.
     None: this process does all, and needs no MPI. Raises SceneError where the scene has coast flanks.
     """
-    if built.scene.coast_flanks is not None:
+    if model.scene.coast_flanks is not None:
         raise SceneError(
-            f'{built.scene.name}: condensation = "{EVERY_STEP}" meshes nodes for the drive flanks only. '
+            f'{model.scene.name}: condensation = "{EVERY_STEP}" meshes nodes for the drive flanks only. '
             f'Leave [coast_flanks] out, or choose condensation = "{ONCE}".'
         )
-    resolution = built.resolution
+    resolution = model.resolution
     cycle = RemeshedCycle(
-        built.pair,
-        built.removal,
+        model.pair,
+        model.removal,
         resolution.contact_grid,
         element_named(resolution.element).order,
         resolution.steps_per_mesh_cycle,
-        built.drivetrain.indices,
-        tangential=built.scene.friction is not None,
+        model.drivetrain.indices,
+        tangential=model.scene.friction is not None,
     )
     teeth = [cycle.teeth(index) for index in range(cycle.steps)]
     gears = []
@@ -44,8 +44,8 @@ def remeshed(
         progress.stage(f"remesh {name}")
         gears.append(
             remeshed_stiffness(
-                getattr(built.pair, name),
-                built.scene.gears.material_of(name),
+                getattr(model.pair, name),
+                model.scene.gears.material_of(name),
                 [both[number] for both in teeth],
                 element=resolution.element,
                 flank_element_size=resolution.flank_element_size,

@@ -16,7 +16,7 @@ from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
-from fenics_gears.model.model import Model, model
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
@@ -54,10 +54,10 @@ def simulate(
         from fenics_gears.studies.accuracy_target.run import simulate_to_target
 
         return simulate_to_target(scene, progress=progress, cache=cache, preparation=preparation, comm=comm)
-    built = model(scene)
+    model = model_of(scene)
     preparation = preparation or functools.partial(prepared, comm=comm)
     cache = cache if cache is not None else user_cache()
-    gears, cycle = preparation(built, progress, cache)
+    gears, cycle = preparation(model, progress, cache)
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
     stress = None
@@ -65,13 +65,13 @@ def simulate(
     if scene.output.root_stress and scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP:
         from fenics_gears.simulation.root_stress import root_stress
 
-        stress = root_stress(built, cycle, progress, cache)
-    recorder = Recorder(built, cycle, stress=stress)
+        stress = root_stress(model, cycle, progress, cache)
+    recorder = Recorder(model, cycle, stress=stress)
     friction = scene.friction.coefficient if scene.friction else 0.0
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace, built.clock, built.loads)
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.pace, model.clock, model.loads)
     progress.stage("march")
     try:
-        march = marcher.run(built.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
+        march = marcher.run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
     except ContactNotConverged as failure:
         failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
         raise
@@ -88,68 +88,68 @@ def simulate(
 
 def assist(scene: Scene, comm) -> None:
     """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
-    built = model(scene)
-    if built.resolution.condensation == EVERY_STEP and scene.tooth_elasticity is not None:
+    model = model_of(scene)
+    if model.resolution.condensation == EVERY_STEP and scene.tooth_elasticity is not None:
         from fenics_gears.simulation.reference_route import remeshed
 
-        remeshed(built, SilentProgress(), None, comm)
+        remeshed(model, SilentProgress(), None, comm)
 
 
-def prepared(built: Model, progress: Progress, cache: Cache | None, comm=None):
+def prepared(model: Model, progress: Progress, cache: Cache | None, comm=None):
     """The gears' elasticity and the contact operators on it, by the model and the condensation that the scene asks for."""
-    chosen = built.scene.accuracy.model
-    if built.scene.tooth_elasticity is None:
-        return (), rigid_cycle(built)
-    if built.resolution.condensation == EVERY_STEP:
+    chosen = model.scene.accuracy.model
+    if model.scene.tooth_elasticity is None:
+        return (), rigid_cycle(model)
+    if model.resolution.condensation == EVERY_STEP:
         # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
         from fenics_gears.simulation.reference_route import remeshed
 
-        gears, cycle = remeshed(built, progress, cache, comm)
-        return gears, deviating(built, cycle)
+        gears, cycle = remeshed(model, progress, cache, comm)
+        return gears, deviating(model, cycle)
     if chosen == ISO_6336:
         from fenics_gears.simulation.mesh_springs import iso_cycle
 
-        return (), deviating(built, iso_cycle(built))
-    compliances = gear_compliances(built, progress, cache)
+        return (), deviating(model, iso_cycle(model))
+    compliances = gear_compliances(model, progress, cache)
     if chosen == STIFFNESS_TABLE:
         from fenics_gears.simulation.mesh_springs import table_cycle
 
         progress.stage("tabulate the mesh stiffness")
-        compliances, cycle = table_cycle(built, compliances)
-        return compliances, deviating(built, cycle)
-    return compliances, mesh_cycle(built, compliances)
+        compliances, cycle = table_cycle(model, compliances)
+        return compliances, deviating(model, cycle)
+    return compliances, mesh_cycle(model, compliances)
 
 
-def gear_compliances(built: Model, progress: Progress, cache: Cache | None) -> Compliances:
+def gear_compliances(model: Model, progress: Progress, cache: Cache | None) -> Compliances:
     """Flank compliance of pinion and wheel, reaching as many teeth as can be loaded together."""
-    compliances, reach = [], tooth_reach(built)
+    compliances, reach = [], tooth_reach(model)
     for name in ("pinion", "wheel"):
         progress.stage(f"condense {name}")
-        compliances.append(gear_compliance(built, name, reach, cache))
+        compliances.append(gear_compliance(model, name, reach, cache))
     return compliances[0], compliances[1]
 
 
-def tooth_reach(built: Model) -> Reach:
+def tooth_reach(model: Model) -> Reach:
     """How far apart teeth are that can be loaded together."""
-    resolution = built.resolution
+    resolution = model.resolution
     return reach_of_contact(
-        built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None, built.corner
+        model.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.scene.coast_flanks is not None, model.corner
     )
 
 
-def gear_compliance(built: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
+def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
     """Flank compliance of the "pinion" or the "wheel" over the teeth within reach, from the cache where it is there."""
-    for effect in effects_on(built.scene):
-        own = effect.elasticity and effect.elasticity(getattr(built.scene, effect.section), built, name, reach, cache)
+    for effect in effects_on(model.scene):
+        own = effect.elasticity and effect.elasticity(getattr(model.scene, effect.section), model, name, reach, cache)
         if own is not None:
             return own
     # Imported here: rigid flanks have none.
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
-    resolution = built.resolution
+    resolution = model.resolution
     return flank_compliance(
-        getattr(built.pair, name),
-        built.scene.gears.material_of(name),
+        getattr(model.pair, name),
+        model.scene.gears.material_of(name),
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         reach=reach,
@@ -159,17 +159,17 @@ def gear_compliance(built: Model, name: str, reach: Reach, cache: Cache | None) 
     )
 
 
-def mesh_cycle(built: Model, compliances: Compliances) -> Cycle:
+def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
     cycle = _cycle_of(compliances)(
-        Flanks(built.pair, compliances, built.removal),
-        built.resolution.contact_grid,
-        built.resolution.steps_per_mesh_cycle,
-        built.drivetrain.indices,
-        tangential=built.scene.friction is not None,
-        corner=built.corner,
+        Flanks(model.pair, compliances, model.removal),
+        model.resolution.contact_grid,
+        model.resolution.steps_per_mesh_cycle,
+        model.drivetrain.indices,
+        tangential=model.scene.friction is not None,
+        corner=model.corner,
     )
-    return deviating(built, cycle)
+    return deviating(model, cycle)
 
 
 def _cycle_of(compliances: Compliances):
@@ -181,48 +181,48 @@ def _cycle_of(compliances: Compliances):
     return WholeBodyCycle
 
 
-def rigid_cycle(built: Model) -> Cycle:
+def rigid_cycle(model: Model) -> Cycle:
     """The contact of one mesh cycle between flanks that do not give way."""
-    if built.scene.friction is None:
+    if model.scene.friction is None:
         from fenics_gears.contact.rigid_cycle import RigidCycle as kind
     else:
         from fenics_gears.contact.rigid_friction import RigidFrictionCycle as kind
 
-    resolution = built.resolution
-    coast = built.scene.coast_flanks is not None
+    resolution = model.resolution
+    coast = model.scene.coast_flanks is not None
     cycle = kind(
-        built.pair, built.removal, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.drivetrain.indices, coast
+        model.pair, model.removal, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.drivetrain.indices, coast
     )
-    return deviating(built, cycle)
+    return deviating(model, cycle)
 
 
-def deviating(built: Model, cycle: Cycle) -> Cycle:
+def deviating(model: Model, cycle: Cycle) -> Cycle:
     """The cycle with what the scene's effects add to its gaps from step to step."""
-    scene = built.scene
+    scene = model.scene
     effects = [effect for effect in effects_on(scene) if effect.gaps is not None]
     if not effects:
         return cycle
     from fenics_gears.contact.deviating_cycle import DeviatingCycle
 
-    return DeviatingCycle(cycle, [effect.gaps(getattr(scene, effect.section), built) for effect in effects])
+    return DeviatingCycle(cycle, [effect.gaps(getattr(scene, effect.section), model) for effect in effects])
 
 
 def _result(recorder: Recorder, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
-    result, built, cycle = dataset(recorder, march), recorder.built, recorder.cycle
-    resolution = built.resolution
+    result, model, cycle = dataset(recorder, march), recorder.model, recorder.cycle
+    resolution = model.resolution
     stopped = {} if complete else {"stopped": "interrupted" if march.interrupted else "failed"}
     return result.assign_attrs(
         stopped,
         complete=int(complete),
-        warnings="\n".join(worst_first([*built.warnings, *result.attrs["warnings"].splitlines()])),
-        base_radius_wheel=built.pair.wheel.base_radius,
+        warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
+        base_radius_wheel=model.pair.wheel.base_radius,
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         contact_length=resolution.contact_grid.length,
         contact_nodes=(cycle.grid if cycle.resolves_flanks else resolution.contact_grid).nodes,
         steps_per_mesh_cycle=resolution.steps_per_mesh_cycle,
         condensation=resolution.condensation,
-        model=built.scene.accuracy.model or ELASTIC,
+        model=model.scene.accuracy.model or ELASTIC,
         time_mesh=sum(gear.timings["time_mesh"] for gear in gears),
         time_condense=sum(gear.timings["time_condense"] for gear in gears),
         time_compile=compiled + sum(gear.timings["time_compile"] for gear in gears),

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.model.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.convergence import richardson, together
@@ -51,7 +51,7 @@ class Reference:
 def reference(scene: Scene, window: float, told=print) -> Reference:
     """The reference of a scene whose `[accuracy]` is empty; `window` (mm): that of pressures."""
     unit, gears = half_width(scene), shared_gears(4)
-    length = model(scene).resolution.contact_grid.length
+    length = model_of(scene).resolution.contact_grid.length
 
     def setting(values) -> Setting:
         return Setting("P2", unit / values["flank"], NODE_SPACING * unit / values["flank"], length, values["body"], values["steps"])

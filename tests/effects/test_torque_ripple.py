@@ -222,9 +222,9 @@ def test_work_done_on_the_load_is_that_of_the_couple(paper_scene):
 def test_without_the_section_its_module_is_not_imported():
     """House rule 9: a run without the section does not load what computes it."""
     program = (
-        "import sys; from dataclasses import replace; from fenics_gears import load_scene; from fenics_gears.model.model import model\n"
-        f"built = model(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r}))\n"
-        "assert built.loads == () and built.clock.duration(0, 1) > 0\n"
+        "import sys; from dataclasses import replace; from fenics_gears import load_scene; from fenics_gears.model.model import model_of\n"
+        f"model = model_of(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r}))\n"
+        "assert model.loads == () and model.clock.duration(0, 1) > 0\n"
         "import fenics_gears.simulation.simulate, fenics_gears.results\n"
         "assert 'fenics_gears.dynamics.torque_ripple' not in sys.modules and 'fenics_gears.dynamics.speed_ramp' not in sys.modules\n"
     )

@@ -33,11 +33,11 @@ def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
 
 def test_frictionless_scene_has_nothing_tangential(paper_scene, measured):
     """From the task: no unknowns, no arrays, no result variables, no off-line-of-action motion at all."""
-    from fenics_gears.model.model import model
+    from fenics_gears.model.model import model_of
     from fenics_gears.system.progress import SilentProgress
 
     scene = frictionless(coarse_scene(paper_scene))
-    _, cycle = prepared(model(scene), SilentProgress(), None)
+    _, cycle = prepared(model_of(scene), SilentProgress(), None)
     operators = [cycle.position(step).operator for step in range(cycle.steps)]
     result = simulate(scene)
     surplus = max(len(operator.compliance) - operator.nodes for operator in operators)

@@ -29,7 +29,7 @@ class InvoluteArms(Cycle):
         return replace(position, operator=replace(operator, rigid=np.ascontiguousarray(rigid), normal_arms=arms))
 
 
-def with_involute_arms(built, progress, cache):
+def with_involute_arms(model, progress, cache):
     """A `preparation` for `simulate`."""
-    gears, cycle = remeshed(built, progress, cache)
-    return gears, InvoluteArms(cycle, built.drivetrain.indices)
+    gears, cycle = remeshed(model, progress, cache)
+    return gears, InvoluteArms(cycle, model.drivetrain.indices)

@@ -50,10 +50,10 @@ def run(text):
     return simulate(scene_from_text(text), preparation=on_stand_ins)
 
 
-def on_stand_ins(built, progress, cache):
+def on_stand_ins(model, progress, cache):
     """Contact operators on teeth without finite elements."""
-    gears = [replace(stand_in_compliance(gear), timings=dict.fromkeys(TIMES, 0.0)) for gear in (built.pair.pinion, built.pair.wheel)]
-    return gears, mesh_cycle(built, gears)
+    gears = [replace(stand_in_compliance(gear), timings=dict.fromkeys(TIMES, 0.0)) for gear in (model.pair.pinion, model.pair.wheel)]
+    return gears, mesh_cycle(model, gears)
 
 
 def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():

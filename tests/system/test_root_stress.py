@@ -51,10 +51,10 @@ def test_rows_give_what_the_full_recovery_gives(run):
     scene, result = run
     with RunStresses(result, scene) as stresses:
         for index in (0, 7, 21, 40):
-            stored = stored_forces(result, stresses.built, stresses.cycle, index)
+            stored = stored_forces(result, stresses.model, stresses.cycle, index)
             step = round(float(result["mesh_phase"].values[index]) * stresses.cycle.steps)
             for gear, recovery in enumerate(stresses.recoveries):
-                moved = recovery.recovered(stored.on_flanks(stresses.built, gear)).displacement
+                moved = recovery.recovered(stored.on_flanks(stresses.model, gear)).displacement
                 rows = fillet_rows(fillet_curve(recovery.gear.of_module_one), recovery.interior, recovery.nodal_stress)
                 for tooth in {pair.place.index for pair in stored.pairs}:
                     pair = int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]

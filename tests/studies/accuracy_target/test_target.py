@@ -13,7 +13,7 @@ from fenics_gears.commands.cli import main
 from fenics_gears.effects.friction import Friction
 from fenics_gears.errors import SceneError
 from fenics_gears.model.cost import expected_cost
-from fenics_gears.model.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
@@ -135,9 +135,9 @@ def test_the_cost_of_any_sizes_is_that_of_the_scene_with_them(scene):
     ratios = []
     for sizes in (fine, {**fine, "flank": 0.08}, {**fine, "step": 0.005}):
         setting = Setting("P2", sizes["flank"], NODE_SPACING * sizes["flank"], 3.0, 1.0, round(1.0 / sizes["step"]))
-        built = model(setting.of(scene))
-        expected = expected_cost(built)
-        assert bounds.stored_bytes(sizes["flank"], sizes["step"], 3.0) == pytest.approx(built.stored_bytes, rel=0.1)
+        model = model_of(setting.of(scene))
+        expected = expected_cost(model)
+        assert bounds.stored_bytes(sizes["flank"], sizes["step"], 3.0) == pytest.approx(model.stored_bytes, rel=0.1)
         ratios.append(bounds.cost(**sizes, length=3.0) / (expected.condensing + expected.marching))
     assert ratios == pytest.approx([1.0] * 3, rel=0.2)
     plain = dict(**fine, length=3.0)
