@@ -6,7 +6,7 @@ __version__ = "0.1.0"
 __all__ = ["__version__", "load_scene", "simulate"]
 
 # Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.
-_HOMES = {"load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.simulation.simulate"}
+_HOMES = {"load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.studies.simulate"}
 
 
 def __getattr__(name: str):

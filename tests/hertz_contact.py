@@ -24,7 +24,7 @@ from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_an
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.simulate import gear_compliance
+from fenics_gears.simulation.elastic_route import gear_compliance
 
 # The smaller load, in parts of the larger: half its half-width.
 SMALLER = 0.25

@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
 
         assist(scene, comm)
         return 0
-    from fenics_gears.simulation.simulate import simulate
+    from fenics_gears.studies.simulate import simulate
 
     with Interruption(told_progress(options.quiet)) as interruption:
         try:

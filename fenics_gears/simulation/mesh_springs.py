@@ -7,21 +7,36 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle, Springs
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, coast_place, drive_place, facing_points
-from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
+from fenics_gears.system.progress import Progress
 
 # A table has at most so many phases, and is linear between them.
 MOST_PHASES = 200
 # Where a scene has no load a table's loads are parts of that which bends a pair by this part of the module.
 DEFLECTION_WITHOUT_LOAD = 1e-3
-Compliances = tuple[FlankCompliance, FlankCompliance]
+
+
+def table_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[Compliances, Cycle]:
+    """Flank compliance of both gears, and the springs that a table of their full contact gives."""
+    compliances = gear_compliances(model, progress, cache)
+    progress.stage("tabulate the mesh stiffness")
+    compliances, cycle = table_cycle(model, compliances)
+    return compliances, deviating(model, cycle)
+
+
+def iso_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[tuple, Cycle]:
+    """No compliance, and the springs of ISO 6336-1."""
+    return (), deviating(model, iso_cycle(model))
 
 
 def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS) -> tuple[Compliances, SpringCycle]:

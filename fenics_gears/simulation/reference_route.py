@@ -5,6 +5,7 @@ Slow; the published method, and the yardstick of the fast route, with which it s
 
 from __future__ import annotations
 
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.remeshed_cycle import RemeshedCycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import element_named
@@ -12,12 +13,13 @@ from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffn
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.simulation.deviations import deviating
 from fenics_gears.system.progress import Progress
 
 
-def remeshed(
+def reference_route(
     model: Model, progress: Progress, cache: Cache | None, comm=None
-) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], RemeshedCycle]:
+) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], Cycle]:
     """Stiffness of pinion and wheel at every position, and the contact equations of a mesh cycle on them.
 
     comm: MPI communicator over which the positions are shared out; every rank calls this, only rank 0 can use the result.
@@ -56,4 +58,4 @@ def remeshed(
             )
         )
     cycle.stiffness = list(zip(*(gear.positions for gear in gears)))
-    return tuple(gears), cycle
+    return tuple(gears), deviating(model, cycle)

@@ -7,7 +7,7 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.model.model import Model
 from fenics_gears.results.root_stress_variables import RootStress
-from fenics_gears.simulation.simulate import tooth_reach
+from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.system.progress import Progress
 
 

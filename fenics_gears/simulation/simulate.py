@@ -3,33 +3,20 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
-from fenics_gears.contact.mesh_cycle import tooth_reach as reach_of_contact
-from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.dynamics.march import March, Marcher
-from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
-from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.validity import worst_first
-from fenics_gears.scene.data import ELASTIC, ISO_6336, LAST_CYCLES, STIFFNESS_TABLE, Scene
+from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
+from fenics_gears.simulation.routes import Preparation, prepared, route_of
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.progress import Progress, SilentProgress
-
-if TYPE_CHECKING:
-    from fenics_gears.elasticity.remeshing import RemeshedStiffness
-
-Compliances = tuple[FlankCompliance, FlankCompliance]
-Preparation = Callable[[Model, Progress, Cache | None], "tuple[Compliances | tuple[RemeshedStiffness, RemeshedStiffness], Cycle]"]
 
 
 def simulate(
@@ -40,47 +27,54 @@ def simulate(
     preparation: Preparation | None = None,
     comm=None,
 ) -> xr.Dataset:
-    """Run a scene and return its result (docs/result.md).
+    """Run a scene whose settings are decided and return its result (docs/result.md); `studies.simulate` chooses them by a target first.
 
     `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
     of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.
-    `[accuracy] target`: settings are chosen first, by runs of their own, and the result tells its estimated error.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
     computation; ComputationError when a stage fails, with what was done before as its attribute `partial`.
     """
-    progress = progress if progress is not None else SilentProgress()
-    if scene.accuracy.target is not None:
-        # Imported here: settings are chosen by simulating scenes that have them.
-        from fenics_gears.studies.accuracy_target.run import simulate_to_target
-
-        return simulate_to_target(scene, progress=progress, cache=cache, preparation=preparation, comm=comm)
+    progress, cache = progress or SilentProgress(), cache or user_cache()
     model = model_of(scene)
-    preparation = preparation or functools.partial(prepared, comm=comm)
-    cache = cache if cache is not None else user_cache()
-    gears, cycle = preparation(model, progress, cache)
+    gears, cycle = (preparation or functools.partial(prepared, comm=comm))(model, progress, cache)
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
-    stress = None
-    # A scene less its elastic teeth, as the cost of effects is measured by, has no stresses; a scene file is refused that asks for both.
-    if scene.output.root_stress and scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP:
-        from fenics_gears.simulation.root_stress import root_stress
+    recorder = Recorder(model, cycle, stress=_root_stress(model, cycle, progress, cache))
+    march = _marched(recorder, gears, compiled, progress)
+    result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
+    return _with_dynamic_factors(recorder, result, progress)
 
-        stress = root_stress(model, cycle, progress, cache)
-    recorder = Recorder(model, cycle, stress=stress)
+
+def _root_stress(model: Model, cycle, progress: Progress, cache: Cache):
+    """What root stresses are recorded by, where they are asked for; a scene less its elastic teeth, as costs of effects are measured by, has none."""
+    if not (model.scene.output.root_stress and route_of(model).stresses):
+        return None
+    from fenics_gears.simulation.root_stress import root_stress
+
+    return root_stress(model, cycle, progress, cache)
+
+
+def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> March:
+    """The march through time, recorded as it goes; a failure carries the result so far."""
+    model, cycle = recorder.model, recorder.cycle
+    scene = model.scene
     friction = scene.friction.coefficient if scene.friction else 0.0
     marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.pace, model.clock, model.loads)
     progress.stage("march")
     try:
-        march = marcher.run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
+        return marcher.run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
     except ContactNotConverged as failure:
         failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
         raise
-    result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
-    if scene.inertia is None or not result.attrs["complete"]:
+
+
+def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Progress) -> xr.Dataset:
+    """The result with its dynamic factors, of a complete run with inertia; they take a quasi-static run beside it."""
+    if recorder.model.scene.inertia is None or not result.attrs["complete"]:
         return result
     from fenics_gears.simulation import dynamic_factor
 
-    if not dynamic_factor.wanted(scene):
+    if not dynamic_factor.wanted(recorder.model.scene):
         return result
     progress.stage("quasi-static run")
     return result.assign_attrs(dynamic_factor.dynamic_factors(recorder, result))
@@ -89,122 +83,9 @@ def simulate(
 def assist(scene: Scene, comm) -> None:
     """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
     model = model_of(scene)
-    if model.resolution.condensation == EVERY_STEP and scene.tooth_elasticity is not None:
-        from fenics_gears.simulation.reference_route import remeshed
-
-        remeshed(model, SilentProgress(), None, comm)
-
-
-def prepared(model: Model, progress: Progress, cache: Cache | None, comm=None):
-    """The gears' elasticity and the contact operators on it, by the model and the condensation that the scene asks for."""
-    chosen = model.scene.accuracy.model
-    if model.scene.tooth_elasticity is None:
-        return (), rigid_cycle(model)
-    if model.resolution.condensation == EVERY_STEP:
-        # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-        from fenics_gears.simulation.reference_route import remeshed
-
-        gears, cycle = remeshed(model, progress, cache, comm)
-        return gears, deviating(model, cycle)
-    if chosen == ISO_6336:
-        from fenics_gears.simulation.mesh_springs import iso_cycle
-
-        return (), deviating(model, iso_cycle(model))
-    compliances = gear_compliances(model, progress, cache)
-    if chosen == STIFFNESS_TABLE:
-        from fenics_gears.simulation.mesh_springs import table_cycle
-
-        progress.stage("tabulate the mesh stiffness")
-        compliances, cycle = table_cycle(model, compliances)
-        return compliances, deviating(model, cycle)
-    return compliances, mesh_cycle(model, compliances)
-
-
-def gear_compliances(model: Model, progress: Progress, cache: Cache | None) -> Compliances:
-    """Flank compliance of pinion and wheel, reaching as many teeth as can be loaded together."""
-    compliances, reach = [], tooth_reach(model)
-    for name in ("pinion", "wheel"):
-        progress.stage(f"condense {name}")
-        compliances.append(gear_compliance(model, name, reach, cache))
-    return compliances[0], compliances[1]
-
-
-def tooth_reach(model: Model) -> Reach:
-    """How far apart teeth are that can be loaded together."""
-    resolution = model.resolution
-    return reach_of_contact(
-        model.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.scene.coast_flanks is not None, model.corner
-    )
-
-
-def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
-    """Flank compliance of the "pinion" or the "wheel" over the teeth within reach, from the cache where it is there."""
-    for effect in effects_on(model.scene):
-        own = effect.elasticity and effect.elasticity(getattr(model.scene, effect.section), model, name, reach, cache)
-        if own is not None:
-            return own
-    # Imported here: rigid flanks have none.
-    from fenics_gears.elasticity.gear_compliance import flank_compliance
-
-    resolution = model.resolution
-    return flank_compliance(
-        getattr(model.pair, name),
-        model.scene.gears.material_of(name),
-        element=resolution.element,
-        flank_element_size=resolution.flank_element_size,
-        reach=reach,
-        body_element_size=resolution.body_element_size,
-        elastic_teeth=resolution.elastic_teeth,
-        cache=cache,
-    )
-
-
-def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
-    """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
-    cycle = _cycle_of(compliances)(
-        Flanks(model.pair, compliances, model.removal),
-        model.resolution.contact_grid,
-        model.resolution.steps_per_mesh_cycle,
-        model.drivetrain.indices,
-        tangential=model.scene.friction is not None,
-        corner=model.corner,
-    )
-    return deviating(model, cycle)
-
-
-def _cycle_of(compliances: Compliances):
-    """One mesh cycle for all where all teeth are alike."""
-    if all(each.alike for each in compliances):
-        return MeshCycle
-    from fenics_gears.contact.whole_body_cycle import WholeBodyCycle
-
-    return WholeBodyCycle
-
-
-def rigid_cycle(model: Model) -> Cycle:
-    """The contact of one mesh cycle between flanks that do not give way."""
-    if model.scene.friction is None:
-        from fenics_gears.contact.rigid_cycle import RigidCycle as kind
-    else:
-        from fenics_gears.contact.rigid_friction import RigidFrictionCycle as kind
-
-    resolution = model.resolution
-    coast = model.scene.coast_flanks is not None
-    cycle = kind(
-        model.pair, model.removal, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.drivetrain.indices, coast
-    )
-    return deviating(model, cycle)
-
-
-def deviating(model: Model, cycle: Cycle) -> Cycle:
-    """The cycle with what the scene's effects add to its gaps from step to step."""
-    scene = model.scene
-    effects = [effect for effect in effects_on(scene) if effect.gaps is not None]
-    if not effects:
-        return cycle
-    from fenics_gears.contact.deviating_cycle import DeviatingCycle
-
-    return DeviatingCycle(cycle, [effect.gaps(getattr(scene, effect.section), model) for effect in effects])
+    route = route_of(model)
+    if route.shared_by_ranks:
+        route(model, SilentProgress(), None, comm)
 
 
 def _result(recorder: Recorder, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:

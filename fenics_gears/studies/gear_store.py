@@ -12,7 +12,8 @@ from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import ISO_6336
-from fenics_gears.simulation.simulate import Compliances, gear_compliance, mesh_cycle, prepared, tooth_reach
+from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle, tooth_reach
+from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import Progress
 
 GEARS = ("pinion", "wheel")

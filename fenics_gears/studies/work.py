@@ -14,10 +14,11 @@ from fenics_gears.errors import GearsError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.simulate import simulate, tooth_reach
+from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, has_gears, own_gear_store
 from fenics_gears.studies.record import Record
+from fenics_gears.studies.simulate import simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.system.progress import SilentProgress
 

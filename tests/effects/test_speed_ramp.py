@@ -28,7 +28,8 @@ from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")

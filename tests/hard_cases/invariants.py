@@ -14,7 +14,8 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import Model
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.simulation.simulate import Compliances, mesh_cycle, rigid_cycle
+from fenics_gears.simulation.elastic_route import Compliances, mesh_cycle
+from fenics_gears.simulation.rigid_route import rigid_cycle
 
 
 @dataclass(frozen=True)

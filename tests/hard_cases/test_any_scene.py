@@ -15,7 +15,7 @@ from tests.stand_in import stand_in_compliance
 from fenics_gears.contact.errors import MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import gear_compliances, tooth_reach
+from fenics_gears.simulation.elastic_route import gear_compliances, tooth_reach
 from fenics_gears.system.progress import SilentProgress
 
 # Row, words, limit and unit of each residual of `invariants.step_residuals`.

@@ -17,7 +17,8 @@ from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 PHASES = np.linspace(0.013, 0.987, 25)

@@ -59,7 +59,7 @@ def test_order_of_mesh_nodes_and_cells(name, measured):
 def test_pinion_and_wheel_alike_respond_alike(paper_scene, measured):
     """Exact identity: of two equal gears either is the pinion; both have the same compliance, bit for bit."""
     from fenics_gears.model.model import model_of
-    from fenics_gears.simulation.simulate import gear_compliances
+    from fenics_gears.simulation.elastic_route import gear_compliances
     from fenics_gears.system.progress import SilentProgress
 
     scene = coarse_scene(paper_scene)

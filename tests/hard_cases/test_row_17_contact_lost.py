@@ -17,7 +17,9 @@ from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.forces import pair_forces
 from fenics_gears.show.run import Run
-from fenics_gears.simulation.simulate import gear_compliances, mesh_cycle, prepared, simulate
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 FINE = replace(COARSE, steps_per_mesh_cycle=200)

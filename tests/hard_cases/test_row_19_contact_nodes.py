@@ -13,7 +13,8 @@ from fenics_gears.contact.rank import dependent_rows
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 ROTATION_2 = [5]

@@ -11,7 +11,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import involute_arms, rigid_rows
-from fenics_gears.simulation.reference_route import remeshed
+from fenics_gears.simulation.reference_route import reference_route
 
 
 class InvoluteArms(Cycle):
@@ -31,5 +31,5 @@ class InvoluteArms(Cycle):
 
 def with_involute_arms(model, progress, cache):
     """A `preparation` for `simulate`."""
-    gears, cycle = remeshed(model, progress, cache)
+    gears, cycle = reference_route(model, progress, cache)
     return gears, InvoluteArms(cycle, model.drivetrain.indices)

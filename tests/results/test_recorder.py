@@ -20,7 +20,8 @@ from fenics_gears.results.energy_variables import energy_variables, work_variabl
 from fenics_gears.results.pairs import contact_times, lives
 from fenics_gears.results.recorder import AT_ONCE, Recorder
 from fenics_gears.scene.data import Motion, Output
-from fenics_gears.simulation.simulate import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_roll_angle")

@@ -12,7 +12,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import GearData, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.reference_route import remeshed
+from fenics_gears.simulation.reference_route import reference_route
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import cycle_key, gear_key
 from fenics_gears.system.progress import SilentProgress
@@ -117,7 +117,7 @@ def test_remeshed_bodies_take_the_size_too(paper_scene):
 
     def stiffness(size):
         model = model_of(replace(scene, accuracy=replace(accuracy, body_element_size=size)))
-        return remeshed(model, SilentProgress(), None)[0][0].positions[0]
+        return reference_route(model, SilentProgress(), None)[0][0].positions[0]
 
     default, fine = stiffness(None), stiffness(1.0)
     assert default.shape == fine.shape

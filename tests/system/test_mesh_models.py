@@ -15,8 +15,10 @@ from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
 from fenics_gears.simulation.mesh_springs import table_cycle
-from fenics_gears.simulation.simulate import deviating, gear_compliances, mesh_cycle, simulate
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import GearStore, cycle_key
 from fenics_gears.studies.study import Case
 from fenics_gears.studies.work import gear_tasks, in_order_of_sharing

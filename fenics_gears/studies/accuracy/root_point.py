@@ -15,7 +15,7 @@ from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Material, Scene
-from fenics_gears.simulation.simulate import tooth_reach
+from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 
 PINION = 0

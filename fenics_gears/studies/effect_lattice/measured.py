@@ -17,7 +17,9 @@ from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.simulate import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
+from fenics_gears.simulation.elastic_route import gear_compliance, mesh_cycle, tooth_reach
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.machine import machine

@@ -23,7 +23,7 @@ from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.simulation.simulate import gear_compliances, mesh_cycle
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.progress import SilentProgress
 
