@@ -5,15 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import inf, lcm
 
+import numpy as np
+
 from fenics_gears.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
 from fenics_gears.geometry.characteristics import characteristics
+from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.model import Model, model
 from fenics_gears.scene.data import Scene
 
 Rows = list[tuple[str, object, str]]
+
+MILLIMETRE = 1e-3  # m
 
 
 @dataclass(frozen=True)
@@ -72,6 +77,22 @@ def _model_rows(built: Model) -> Rows:
         ("equations in time", _method(built), ""),
         *([] if built.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
         ("nominal force along the line of action", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
+        *(_speed_rows(built) if built.scene.motion.speed_given else []),
+    ]
+
+
+def _speed_rows(built: Model) -> Rows:
+    """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the run."""
+    pair, highest = built.pair, built.scene.mesh_frequencies[1]
+    turns = highest / pair.pinion.teeth
+    ends = np.array([pair.path_start, pair.path_end])
+    sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
+    pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
+    when = "" if built.scene.speed_ramp is None else ", at the ramp's highest speed"
+    return [
+        ("nominal speeds", f"{60.0 * turns:.6g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.6g} rpm wheel", when.lstrip(", ")),
+        ("pitch line velocity", float(pitch), "m/s" + when),
+        ("sliding speed", f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end", when.lstrip(", ")),
     ]
 
 

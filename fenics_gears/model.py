@@ -16,10 +16,10 @@ from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from fenics_gears.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene

@@ -76,12 +76,14 @@ def simulate(
         failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
         raise
     result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
-    if stress is None or scene.inertia is None or not result.attrs["complete"]:
+    if scene.inertia is None or not result.attrs["complete"]:
         return result
-    from fenics_gears.root_stress_output import dynamic_factors
+    from fenics_gears import dynamic_factor
 
+    if not dynamic_factor.wanted(scene):
+        return result
     progress.stage("quasi-static run")
-    return result.assign_attrs(dynamic_factors(recorder, result))
+    return result.assign_attrs(dynamic_factor.dynamic_factors(recorder, result))
 
 
 def assist(scene: Scene, comm) -> None:

@@ -9,10 +9,14 @@ from fenics_gears.contact.ladder import LADDER, PUBLISHED
 from fenics_gears.progress import seconds_in_words
 from fenics_gears.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
-from fenics_gears.results.settled import of_settled
+from fenics_gears.results.key_numbers import HARMONIC_NAMES
 from fenics_gears.validity import FEWER_THAN_THE_PERIOD, NO_MEANING
 
 MICROMETRES = 1e3
+KILO = 1e3
+# Lengths (um) that are round-off of positions.
+ROUND_OFF = 1e-6
+Row = tuple[str, str, str]
 
 # The stages of a run whose wall time the result carries, and what they are called.
 STAGES = {
@@ -24,7 +28,7 @@ STAGES = {
 }
 
 
-def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[tuple[str, str, str]]:
+def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]:
     """Rows of label, value, unit: what came out, how the steps were solved, times, warnings; first of all those without which no number is right.
 
     stages: names and seconds as the progress has said them; those of the result where there are none.
@@ -35,26 +39,93 @@ def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[tupl
     return [*(("WARNING", warning, "") for warning in first), *rows, *(("WARNING", warning, "") for warning in said if warning not in first)]
 
 
-def _said(stages: Sequence[tuple[str, float]]) -> list[tuple[str, str, str]]:
+def _said(stages: Sequence[tuple[str, float]]) -> list[Row]:
     """Wall time of the stages in the words of the progress."""
     return [(name, seconds_in_words(seconds), "") for name, seconds in stages]
 
 
-def result_rows(dataset) -> list[tuple[str, str, str]]:
-    """What came out: transmission error as angle and length at the wheel's base circle, friction's share, root stress."""
+def result_rows(dataset) -> list[Row]:
+    """What came out, the most wanted first; a row is there where the run has its numbers."""
+    attributes = dataset.attrs
+    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _pressure, _root_stress)
+    rows = [row for part in parts for row in part(attributes)]
+    return rows + _power(attributes) + _sliding(dataset) + _contact_loss(dataset) + _estimated_error(attributes)
+
+
+def _transmission_error(attributes) -> list[Row]:
+    """As length along the line of action, which is that at the wheel's base circle, and as angle of the wheel."""
     rows = []
-    for name, label in (("mean_transmission_error", "transmission error, mean"), ("peak_to_peak_transmission_error", "transmission error, peak to peak")):
-        angle = dataset.attrs.get(name, math.nan)
-        if math.isfinite(angle):
-            rows.append((label, f"{angle:.5g} rad = {angle * dataset.attrs['base_radius_wheel'] * MICROMETRES:.4g} um", ""))
-        else:
-            rows.append((label, "not determined", ""))
-    if "friction_loss" in dataset.attrs:
-        rows.append(("friction takes", f"{dataset.attrs['friction_loss']:.3%} of the work of the drive", ""))
-    return rows + _root_stress(dataset) + _estimated_error(dataset.attrs)
+    for name, label in (("peak_to_peak_transmission_error", "transmission error, peak to peak"), ("mean_transmission_error", "transmission error, mean")):
+        angle = attributes.get(name, math.nan)
+        length = angle * attributes["base_radius_wheel"] * MICROMETRES
+        known = f"{length:.4g} um = {angle:.5g} rad" if abs(length) > ROUND_OFF else "0 um"
+        rows.append((label, known if math.isfinite(angle) else "not determined", ""))
+    return rows
 
 
-def solver_rows(dataset) -> list[tuple[str, str, str]]:
+def _harmonics(attributes) -> list[Row]:
+    found = [attributes[name] for name in HARMONIC_NAMES if name in attributes]
+    if max(found, default=0.0) < ROUND_OFF:
+        return []
+    return [(f"harmonics of the mesh, 1 to {len(found)}", ", ".join(f"{each:.3g}" for each in found), "um")] if found else []
+
+
+def _stiffness(attributes) -> list[Row]:
+    if "mean_mesh_stiffness" not in attributes:
+        return []
+    one = f", one pair {attributes['single_pair_stiffness']:.4g} at most" if "single_pair_stiffness" in attributes else ""
+    return [("mesh stiffness", f"{attributes['mean_mesh_stiffness']:.4g} N/(mm um) on average{one}", "")]
+
+
+def _pair_force(attributes) -> list[Row]:
+    if not attributes.get("largest_pair_force"):
+        return []
+    rows = [("largest force of a tooth pair", f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.6g}", "")]
+    if "dynamic_factor_by_force" in attributes:
+        stress = f", {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""
+        rows.append(("dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f} by force{stress}", ""))
+    if "dynamic_factor_unknown" in attributes:
+        rows.append(("dynamic factor", attributes["dynamic_factor_unknown"], ""))
+    return rows
+
+
+def _pressure(attributes) -> list[Row]:
+    if not attributes.get("peak_contact_pressure") or "peak_contact_pressure_diameter" not in attributes:
+        return []
+    place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
+    flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
+    return [("peak contact pressure, off edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+
+
+def _power(attributes) -> list[Row]:
+    rows = []
+    if "input_power" in attributes:
+        rows.append(("input power", f"{attributes['input_power'] / KILO:.4g} kW", ""))
+    if "mesh_efficiency" in attributes:
+        watts = f"{attributes['friction_power']:.4g} W = " if "friction_power" in attributes else ""
+        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%}, efficiency of the mesh {attributes['mesh_efficiency']:.3%}", ""))
+    return rows
+
+
+def _sliding(dataset) -> list[Row]:
+    """The fastest sliding, and specific sliding where it is largest in size, at the start of either gear's active profile."""
+    if "specific_sliding" not in dataset:
+        return []
+    speed = f"{float(abs(dataset['sliding_speed']).max()) / KILO:.4g} m/s at most; " if "sliding_speed" in dataset else ""
+    lowest = dataset["specific_sliding"].min("path_point").values
+    return [("sliding", f"{speed}specific sliding {lowest[0]:.3g} pinion, {lowest[1]:.3g} wheel", "")]
+
+
+def _contact_loss(dataset) -> list[Row]:
+    """Of the drive flanks; nothing where they never touch, as where the wheel drives."""
+    attributes = dataset.attrs
+    count = attributes.get("contact_loss_count")
+    if not count or not dataset["normal_force"].max() > 0.0:
+        return []
+    return [("contact of the drive flanks lost" if "coast_normal_force" in dataset else "contact lost", f"{count} time{'s' * (count > 1)}, {attributes['contact_loss_share']:.2%} of the time, by up to {attributes['contact_loss_opening'] * MICROMETRES:.3g} um", "")]
+
+
+def solver_rows(dataset) -> list[Row]:
     """How the steps were solved."""
     rows = []
     if dataset.sizes["time"]:
@@ -63,26 +134,23 @@ def solver_rows(dataset) -> list[tuple[str, str, str]]:
     return rows + _rungs(dataset.attrs)
 
 
-def stage_rows(dataset) -> list[tuple[str, str, str]]:
+def stage_rows(dataset) -> list[Row]:
     """Wall time of each stage that the result carries."""
     return [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
 
 
-def _root_stress(dataset) -> list[tuple[str, str, str]]:
-    """Largest root stress of either gear and the dynamic factors, where the scene asks for them."""
-    if "root_stress_maximum" not in dataset or not dataset.sizes["time"]:
-        return []
-    largest = of_settled(dataset)["root_stress_maximum"].max(["time", "slot"]).values
-    rows = [("largest root stress", f"{largest[0]:.4g} pinion, {largest[1]:.4g} wheel", "MPa")]
-    if "dynamic_factor_by_stress" in dataset.attrs:
-        factors = [dataset.attrs[f"dynamic_factor_by_{kind}"] for kind in ("force", "stress")]
-        rows.append(("dynamic factor", f"{factors[0]:.3f} by force, {factors[1]:.3f} by root stress", ""))
-    if "dynamic_factor_unknown" in dataset.attrs:
-        rows.append(("dynamic factor", dataset.attrs["dynamic_factor_unknown"], ""))
+def _root_stress(attributes) -> list[Row]:
+    """Largest root stress of either gear with its place, where the scene asks for it."""
+    rows = []
+    for gear in ("pinion", "wheel"):
+        name = f"largest_root_stress_{gear}"
+        if name in attributes:
+            place = f"at mesh cycle {attributes[f'{name}_mesh_phase']:.6g}, tooth of pair {attributes[f'{name}_pair']}, {attributes[f'{name}_fillet']} side"
+            rows.append((f"largest root stress, {gear}", f"{attributes[name]:.4g} MPa {place}", ""))
     return rows
 
 
-def _estimated_error(attributes) -> list[tuple[str, str, str]]:
+def _estimated_error(attributes) -> list[Row]:
     """What a target asked for and what is estimated, with the settings and which of them limits it; nothing without a target."""
     if "target" not in attributes:
         return []
@@ -100,7 +168,7 @@ def _estimated_error(attributes) -> list[tuple[str, str, str]]:
     ]
 
 
-def _rungs(attributes) -> list[tuple[str, str, str]]:
+def _rungs(attributes) -> list[Row]:
     """How often a step needed a rung of the fallback ladder beyond its route's own method; nothing where none did."""
     own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else LADDER[0]
     used = {name.removeprefix(RUNG): int(count) for name, count in attributes.items() if name.startswith(RUNG)}

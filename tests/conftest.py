@@ -35,15 +35,6 @@ settings.load_profile("suite")
 DEMOS = Path(__file__).parents[1] / "demos"
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_cmdline_main(config):
-    """Two processes for the whole suite, each a file at a time; tests that are named, and `-n` of one's own, are left as they are."""
-    options = config.option
-    is_whole = config.args == config.getini("testpaths") and not (options.collectonly or options.usepdb)
-    if is_whole and getattr(options, "numprocesses", 0) is None and len(os.sched_getaffinity(0)) > 1:
-        options.numprocesses, options.dist, options.benchmark_disable = 2, "loadfile", True
-
-
 def pytest_unconfigure():
     """The suite's own cache goes with it."""
     if not IS_WORKER:

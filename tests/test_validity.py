@@ -140,7 +140,7 @@ def test_losses_are_runs_of_steps_without_contact():
 
 def test_impacts_that_the_time_step_does_not_resolve_are_named(coarse):
     """Energy account: 40 steps a cycle put energy into impacts, 320 do not; the result says which it was."""
-    undamped = replace(coarse, damping=None, coast_flanks=CoastFlanks(), motion=Motion(213.0, 30, 20))
+    undamped = replace(coarse, damping=None, coast_flanks=CoastFlanks(), motion=Motion(213.0, 18, 8))
     said = []
     for steps in (40, 320):
         result = simulate(replace(undamped, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))

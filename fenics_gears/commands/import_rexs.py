@@ -36,7 +36,7 @@ def import_rexs(options: argparse.Namespace) -> int:
     with written_aside(output.parent, written) as aside:
         (aside / output.name).write_text(imported.text, encoding="utf-8")
     if not options.quiet:
-        print(_told(imported, output))
+        print(_summary(imported, output))
     return 0
 
 
@@ -73,7 +73,7 @@ def _without_lines(words: str, source: str) -> str:
     return re.sub(rf"^{re.escape(source)}:\d+:", lambda _: f"{source}:", words, flags=re.MULTILINE)
 
 
-def _told(imported, output: Path) -> str:
+def _summary(imported, output: Path) -> str:
     """What the user should look at, and what comes next."""
     parts = [(f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}.", ())]
     parts += [(heading, listed) for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out)) if listed]

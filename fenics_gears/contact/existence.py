@@ -14,7 +14,6 @@ from fenics_gears.contact.errors import ContactNotConverged, MoreThanOneSolution
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
 from fenics_gears.contact.newton import CYCLED, OUTCOMES
 
-
 # A cycle of sets is rarely longer.
 LAST_SETS = 6
 

@@ -24,8 +24,13 @@ def without_oscillation(pressure: np.ndarray) -> np.ndarray:
     return result
 
 
-def peak_pressures(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """Largest pressure (...,) over the last axis of (..., n), MPa, so averaged; `offsets` (..., n), mm, are NaN where there is no contact node."""
+def read_off(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """Pressure (..., n), MPa, so averaged; `offsets` (..., n), mm, are NaN where there is no contact node. What every peak is read off."""
     inside = np.zeros(pressure.shape, dtype=bool)
     inside[..., :-2] = ~np.isnan(offsets[..., 2:])
-    return np.where(inside, without_oscillation(pressure), pressure).max(axis=-1)
+    return np.where(inside, without_oscillation(pressure), pressure)
+
+
+def peak_pressures(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """Largest pressure (...,) over the last axis of (..., n), MPa, so averaged; `offsets` as in `read_off`."""
+    return read_off(pressure, offsets).max(axis=-1)

@@ -13,8 +13,8 @@ from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.effects.damping import RAYLEIGH
 from fenics_gears.effects.shafts import Shafts
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.scene.data import Scene
 
 # The load's moment of inertia over the wheel's: their sum keeps six digits of the wheel's.

@@ -15,8 +15,8 @@ from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.ladder import HALVED, RUNGS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -222,7 +222,7 @@ class Marcher:
                 _, _, history, sets = last_failure.attempts[-1]
                 words = f"no solution at {last_failure.step:.6g} with a step {2**MOST_HALVINGS} times as short"
                 failure.attempts.append((HALVED, words, history, sets))
-                raise failure
+                raise failure from last_failure
 
     def _divided(self, scheme: AverageAcceleration, last: Record, step: float, failure, halvings: int) -> Record:
         """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the shortest."""

@@ -27,7 +27,7 @@ from fenics_gears.effects import (
     tooth_elasticity,
     torque_ripple,
 )
-from fenics_gears.effects.effect import OF_PAIRS, Effect, ResultVariable
+from fenics_gears.effects.effect import OF_PAIRS, OF_POINTS, Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
     tooth_elasticity.EFFECT,
@@ -55,7 +55,7 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action", dims=OF_PAIRS),
     ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action", dims=("time", "gear")),
     ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action", dims=("time", "gear")),
-    ResultVariable("reaction_couple", "N mm", "couple of the gear on its shaft", dims=("time", "gear")),
+    ResultVariable("reaction_couple", "N mm", "torque of the gear on its shaft, positive in the pinion's sense of rotation", dims=("time", "gear")),
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
     ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
@@ -63,12 +63,17 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("work_output", "N mm", "work that the wheel's shaft takes out, done on the load; negative where the wheel drives"),
     ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
     ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
+    ResultVariable("path_point_position", "mm", "distance of the point from T1 along the line of action", dims=OF_POINTS),
+    ResultVariable("path_point_diameter", "mm", "diameter at the point of the path of contact", dims=(*OF_POINTS, "gear")),
+    ResultVariable("sliding_speed", "mm/s", "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip", dims=OF_POINTS),
+    ResultVariable("specific_sliding", "1", "sliding speed over the speed of the flank's own contact point; negative in the dedendum", dims=(*OF_POINTS, "gear")),
+    ResultVariable("load_share", "1", "share of the mesh's force that a pair carries at the point of the path of contact", dims=OF_POINTS),
 )
 
 # What only contact that is spread over nodes has.
 OVER_CONTACT_NODES = tuple(
     f"{side}contact_{name}" for side in ("", "coast_") for name in ("pressure", "traction", "offset", "roll_angle")
-)
+) + ("largest_contact_pressure", "largest_contact_pressure_pair", "largest_contact_pressure_roll_angle", "largest_edge_pressure")
 
 
 def effect(section: str) -> Effect:
@@ -93,7 +98,10 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     on = effects_on(scene)
     named = {each.section for each in on}
     found = COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
-    return found if scene.resolves_contact else tuple(each for each in found if each.name not in OVER_CONTACT_NODES)
+    left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
+    if not scene.motion.speed_given:
+        left_out = (*left_out, "sliding_speed")
+    return tuple(each for each in found if each.name not in left_out)
 
 
 def common_period(scene) -> float:

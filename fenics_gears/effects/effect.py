@@ -17,7 +17,7 @@ from fenics_gears.scene.problem import Problem
 
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are stored.
-OF_PAIRS, OF_NODES = ("time", "slot"), ("contact_time", "slot", "contact_node")
+OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,7 @@ EFFECT = Effect(
         ResultVariable("friction_force", "N", "friction force of the mesh, on the drive flanks"),
         ResultVariable("pair_friction_force", "N", "friction force of the tooth pair", dims=OF_PAIRS),
         ResultVariable("contact_traction", "MPa", "friction traction on the flank", dims=OF_NODES),
-        ResultVariable("work_friction", "N mm", "work that friction takes"),
+        ResultVariable("work_friction", "N mm", "friction loss, as work"),
     ),
     # Between rigid flanks the pairs' shares of the force, and with them the friction, are not determined.
     needs=("tooth_elasticity",),

@@ -7,6 +7,7 @@ from math import degrees
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.sliding import specific_sliding
 
 
 def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:
@@ -41,6 +42,7 @@ def _pinion_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("pinion roll angle, LPSTC", degrees(pair.pinion_lpstc_roll_angle), "deg"),
         ("pinion roll angle, HPSTC", degrees(pair.pinion_hpstc_roll_angle), "deg"),
         ("pinion roll angle, tip", degrees(pair.pinion_eap_roll_angle), "deg"),
+        *_sliding_rows(pair, 0, "pinion", pair.path_start, pair.path_end),
     ]
 
 
@@ -51,6 +53,15 @@ def _wheel_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("wheel roll angle, LPSTC", degrees(pair.wheel_lpstc_roll_angle), "deg"),
         ("wheel roll angle, HPSTC", degrees(pair.wheel_hpstc_roll_angle), "deg"),
         ("wheel roll angle, tip", degrees(pair.wheel_eap_roll_angle), "deg"),
+        *_sliding_rows(pair, 1, "wheel", pair.path_end, pair.path_start),
+    ]
+
+
+def _sliding_rows(pair: GearPair, gear: int, name: str, lowest: float, highest: float) -> list[tuple[str, float, str]]:
+    """Specific sliding of a gear where its active profile starts and at its tip, positions (mm) on the line of action."""
+    return [
+        (f"{name} specific sliding, start of active profile", float(specific_sliding(pair, lowest)[gear]), ""),
+        (f"{name} specific sliding, tip", float(specific_sliding(pair, highest)[gear]), ""),
     ]
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
-
 # Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits of a double.
 DECIMALS_IN_MODULES = 12
 

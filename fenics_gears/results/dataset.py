@@ -16,9 +16,11 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, effects_on, result_variables
+from fenics_gears.model import Model
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate, path_point_values
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled, settled
@@ -38,7 +40,7 @@ def dataset(recorder: Recorder, march: March) -> xr.Dataset:
     )
     counted = settled(built, max(recorder.steps - 1, 0))
     attributes = _attributes(recorder, march, result, counted.first)
-    result = result.assign_attrs(attributes)
+    result = result.assign_attrs(attributes).assign(_contact_points(built, result.assign_attrs(attributes)))
     attributes = _numbers(recorder, march, result)
     found = [counted.warning] if counted.warning else []
     found += warnings_of(recorder, march, result)
@@ -78,6 +80,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "mesh_phase": ("time", arrays["mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start"}),
         "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
         "gear": ("gear", list(GEARS), {"long_name": "gear"}),
+        "path_point": path_point_coordinate(),
         "slot": ("slot", np.arange(recorder.slots), {"long_name": "place of a tooth pair among those that can touch at once"}),
     }
     if "contact_time" in arrays:
@@ -96,6 +99,15 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
 def _time_name(scene: Scene) -> str:
     """What the time is; a scene without speed has none."""
     return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
+
+
+def _contact_points(built: Model, result: xr.Dataset) -> dict[str, tuple]:
+    """Variables over the points of the path of contact."""
+    described = {variable.name: variable for variable in result_variables(built.scene)}
+    return {
+        name: (described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name})
+        for name, values in path_point_values(of_settled(result), built.scene, built.pair).items() if name in described
+    }
 
 
 def _undetermined_shares(result: xr.Dataset) -> list[str]:
@@ -139,19 +151,12 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset) -> dict[str, 
     error = counted["transmission_error"].values
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, recorder.built.clock)
-    if "peak pressure" in recorder.watched:
-        peaks = recorder.watched["peak pressure"][first:]
-        place = int(np.argmax(peaks))
-        numbers["peak_contact_pressure"] = float(peaks[place])
-        if peaks[place] > 0.0:
-            numbers["peak_contact_pressure_time"] = float(counted["time"].values[place])
-            numbers["peak_contact_pressure_pair"] = int(recorder.watched["pair of peak"][first + place])
     numbers["peak_to_peak_transmission_error"] = float(np.ptp(error))
     # The last step begins the next cycle.
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
     if len(error) > 1 and recorder.built.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
         numbers |= _friction_loss(counted)
-    return numbers
+    return numbers | key_numbers(counted.assign_attrs(numbers), recorder.built.pair, timed=recorder.built.scene.motion.speed_given)
 
 
 def _friction_loss(counted: xr.Dataset) -> dict[str, float]:

@@ -85,7 +85,7 @@ def transmitted(result: xr.Dataset) -> Transmitted:
 def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], records: list[Record], angle: float) -> np.ndarray:
     """Work (records,), N mm, that the nominal motion does against the loads; it turns the wheel by `angle` (rad) a step.
 
-    Both gears' arcs are as long. The wheel turns backwards, against a positive couple.
+    Both gears' arcs are as long. The wheel turns backwards, against a positive torque.
     """
     steps = [record.step for record in records]
     turned = np.zeros(len(drivetrain.coordinates))

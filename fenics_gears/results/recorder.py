@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
-from fenics_gears.contact.pressure import peak_pressures
 from fenics_gears.dynamics.march import Record, VaryingLoad
 from fenics_gears.effects import effects_on
 from fenics_gears.model import Model
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
+from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
 from fenics_gears.results.side_by_side import Layout, SideBySide
 from fenics_gears.storage import allocated, sizes, stored_arrays
 
@@ -82,6 +82,8 @@ class Recorder:
         times = np.array([self.built.clock.time(step) for step in steps])
         values = {"time": times, "mesh_phase": steps / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(records) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
+        if scene.tooth_elasticity is not None:
+            values |= stiffness_curves(nodes)
         energies, worked = self._energies(records)
         values |= energies
         for effect in effects_on(scene):
@@ -91,7 +93,7 @@ class Recorder:
         watched = watched_contact(nodes)
         if scene.resolves_contact:
             fields |= node_variables(scene, nodes)
-            watched["peak pressure"], watched["pair of peak"] = _peaks(fields, nodes.pair_number)
+            values |= pressure_curves(nodes, fields)
         if self.stress is not None:
             stresses = self.stress.values(nodes)
             fields["root_stress"] = stresses.pop("root_stress")
@@ -139,14 +141,3 @@ class Recorder:
         work = {name: value + self._worked.get(name, 0.0) for name, value in work.items()}
         worked = {name: value[-1] for name, value in work.items()}
         return {name: value[len(before) :] for name, value in (energies | work).items()}, worked
-
-
-def _peaks(fields: dict[str, np.ndarray], pair_number: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Largest pressure (steps,), MPa, on drive or coast flanks, and the number of the tooth pair that has it."""
-    peaks = peak_pressures(fields["contact_pressure"], fields["contact_offset"])
-    if "coast_contact_pressure" in fields:
-        # Roll angles, as offsets, are NaN where there is no contact node.
-        peaks = np.maximum(peaks, peak_pressures(fields["coast_contact_pressure"], fields["coast_contact_roll_angle"]))
-    slot = np.argmax(peaks, axis=1)
-    steps = np.arange(len(peaks))
-    return peaks[steps, slot], pair_number[steps, slot]

@@ -125,10 +125,10 @@ def needed(owner: GearParts | Stage, asked: str) -> Value:
     return value
 
 
-def missing(one: Place, *others: Place, remedy: str = "") -> ValueProblem:
+def missing(one: Place, *others: Place) -> ValueProblem:
     """That none of the places has a value."""
     besides = together(f"{name} of component {component.id}" for component, name, _ in others)
-    return ValueProblem(f"{place(*one[:2])} is missing{' (and ' + besides + ')' if besides else ''}.{remedy}")
+    return ValueProblem(f"{place(*one[:2])} is missing{' (and ' + besides + ')' if besides else ''}.")
 
 
 def _checked(asked: str, where: Place, module: Value | None = None) -> Value:

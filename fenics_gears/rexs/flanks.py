@@ -105,7 +105,7 @@ def _same(one: Relief | None, other: Relief | None) -> bool:
     """Whether both remove the same."""
     if one is None or other is None:
         return one is other
-    return all(isclose(one[name].number, other[name].number, rel_tol=SAME) for name in one)
+    return one.keys() == other.keys() and all(isclose(one[name].number, other[name].number, rel_tol=SAME) for name in one)
 
 
 def _relief_of(relief: Component, base: float, tip: float) -> Relief | None:
@@ -117,34 +117,36 @@ def _relief_of(relief: Component, base: float, tip: float) -> Relief | None:
     if depth.number == 0.0:
         return None
     positive(depth, where)
-    start, shape = _start(relief, base, tip), _shape(relief)
+    field, start, diameter = _start(relief, base, tip)
+    shape = _shape(relief)
     if relief.type == TIP:
-        depth = _at_the_tip(relief, depth, start, int(shape.number), base, tip)
-    return {"depth": depth, "start": start, "shape": shape}
+        depth = _at_the_tip(relief, depth, diameter, int(shape.number), base, tip)
+    return {"depth": depth, field: start, "shape": shape}
 
 
 def _stated(where: Place) -> Value | None:
     return value_of(*where) if where[1] in where[0].attributes else None
 
 
-def _start(relief: Component, base: float, tip: float) -> Value:
-    """The diameter where a relief starts. That of tip relief may be given by its length of roll from the tip (L_Ca, ISO 21771): the flank rolls
-    through s = sqrt(d^2 - d_b^2)/2 up to the diameter d."""
+def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, float | None]:
+    """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO 21771), which lies on the
+    path of contact. The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2 up to the diameter d."""
     where, by_length = (relief, f"{relief.type}_datum_diameter", "mm"), (relief, f"{relief.type}_datum_length", "mm")
-    stated, length = _stated(where), _stated(by_length) if relief.type == TIP else None
+    stated, length = _stated(where), _stated(by_length)
     if stated is None and length is None:
-        raise missing(where, remedy="" if relief.type == TIP else f" {by_length[1]} does not stand in for it.")
+        raise missing(where, by_length)
+    if stated is not None:
+        positive(stated, where)
     if length is None:
-        return positive(stated, where)
-    whole = 0.5 * sqrt(max(tip**2 - base**2, 0.0))
+        return "start", stated, stated.number
+    whole, diameter = 0.5 * sqrt(max(tip**2 - base**2, 0.0)), None
     if not 0.0 < length.number < whole:
         raise ValueProblem(f"{place(*by_length[:2])} = {length.words} is no length of roll of this flank. Allowed: above 0 and below {whole:.6g} mm.")
-    start = sqrt(base**2 + 4.0 * (whole - length.number) ** 2)
-    if stated is None:
-        return computed(start, 1.0, "mm", f"{length.origin}, {length.words} of roll from the tip")
-    if abs(stated.number - start) > ROUNDED * tip:
-        raise ValueProblem(f"{place(*where[:2])} = {stated.words} contradicts {by_length[1]} = {length.words}, which starts at {start:.6g} mm.")
-    return positive(stated, where)
+    if relief.type == TIP:
+        diameter = sqrt(base**2 + 4.0 * (whole - length.number) ** 2)
+        if stated is not None and abs(stated.number - diameter) > ROUNDED * tip:
+            raise ValueProblem(f"{place(*where[:2])} = {stated.words} contradicts {by_length[1]} = {length.words}, which starts at {diameter:.6g} mm.")
+    return ("length_on_path", length, diameter) if stated is None else ("start", stated, stated.number)
 
 
 def _shape(relief: Component) -> Value:
@@ -158,16 +160,16 @@ def _shape(relief: Component) -> Value:
     return Value(POWERS[shape], f'"{shape}"', f"{name} of component {relief.id}")
 
 
-def _at_the_tip(relief: Component, depth: Value, start: Value, power: int, base: float, tip: float) -> Value:
+def _at_the_tip(relief: Component, depth: Value, start: float, power: int, base: float, tip: float) -> Value:
     """The depth at the tip where the file gives it at another diameter: reliefs grow with the roll angle."""
     where = (relief, "tip_relief_evaluation_reference", "mm")
     evaluated = _stated(where)
     if evaluated is None:
         return depth
-    if not base <= start.number < evaluated.number:
-        raise ValueProblem(f"{place(*where[:2])} = {evaluated.words} does not lie outside the start of the relief, {start.words}.")
+    if not base <= start < evaluated.number:
+        raise ValueProblem(f"{place(*where[:2])} = {evaluated.words} does not lie outside the start of the relief, {start:.6g} mm.")
     if isclose(evaluated.number, tip, rel_tol=SAME):
         return depth
-    begin, there, end = (sqrt(diameter**2 - base**2) for diameter in (start.number, evaluated.number, max(tip, base)))
+    begin, there, end = (sqrt(diameter**2 - base**2) for diameter in (start, evaluated.number, max(tip, base)))
     number = depth.number * ((end - begin) / (there - begin)) ** power
     return computed(number, 1e-3, "um", f"{depth.origin}, {depth.words} at diameter {evaluated.words}, at the tip")

@@ -15,6 +15,7 @@ from fenics_gears.scene.schema import SceneText
 from fenics_gears.scene.synonyms import meant
 from fenics_gears.scene.written import as_written
 
+
 def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
     """The validated ``SceneText`` of a parsed TOML file, None where it is wrong, and all that is wrong with it."""
     try:

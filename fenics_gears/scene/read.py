@@ -7,7 +7,7 @@ import os
 import tomllib
 from pathlib import Path
 
-from fenics_gears.effects import top_level, tooth_elasticity
+from fenics_gears.effects import tooth_elasticity, top_level
 from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import SceneError
 from fenics_gears.scene import data, schema

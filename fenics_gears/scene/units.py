@@ -168,7 +168,7 @@ def _tidy(written: str) -> str:
     return _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written).translate(_SPELLINGS).strip()
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _unit(written: str) -> tuple[float, str]:
     """The factor from the unit to N, mm, s, rad, and its kind."""
     if not written:

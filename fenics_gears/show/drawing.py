@@ -24,7 +24,7 @@ FLAG_ROW = 17.0
 # Inches; letters of a heading's line.
 WIDTH, LETTERS = 10.0, 92
 # A still image is 900 points wide: more than these of a curve are not seen in it.
-STILL_POINTS = 1600
+STILL_POINTS = 1000
 
 
 @styled
@@ -140,8 +140,8 @@ def _legend(axes: Axes, chart: Chart) -> float:
     if not chart.has_legend:
         return 0.0
     names = [curve.name for curve in chart.curves if curve.listed]
-    entry = LEGEND_HANDLE + LEGEND_LETTER * max(map(len, names))
-    columns = max(1, min(len(names), int(0.82 * axes.figure.get_figwidth() * 72.0 / entry)))
+    entries, room = [LEGEND_HANDLE + LEGEND_LETTER * len(name) for name in names], 0.82 * axes.figure.get_figwidth() * 72.0
+    columns = len(names) if sum(entries) <= room else max(1, int(room / max(entries)))
     axes.legend(
         loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4, labelspacing=0.25
     )

@@ -36,7 +36,7 @@ def transmission_error(run: Run) -> Chart:
         note = f"Length on the wheel's base circle; 1 µm is {turned:.4g} µrad of the wheel. Positive where the wheel lags."
         second, place = Second("Angle of the wheel (µrad)", turned), " on the wheel's base circle"
     least = LEAST_SHARE * float(np.abs(values).max())
-    caption, curves = f"{ERROR}{place}, {_peak_to_peak(run, values, unit)}", [("transmission error", values, PALETTE[0])]
+    caption, curves = f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}", [("transmission error", values, PALETTE[0])]
     return over_time(run, caption, f"{ERROR} ({unit})", curves, least=least, note=note, second=second, height=380)
 
 
@@ -46,7 +46,7 @@ def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
         return f"peak to peak of what is stored {np.ptp(values):#.4g} {unit}"
     value = attributes["peak_to_peak_transmission_error"] * (run.micrometres if unit == "µm" else factor("rad", "µrad"))
     cycles = attributes.get("settled_cycles", 0.0)
-    over = f" over {cycles:.4g} settled mesh cycles" if cycles > np.ptp(run.window) * (1 + 1e-9) else ""
+    over = f" over {cycles:.4g} cycles" if cycles > np.ptp(run.window) * (1 + 1e-9) else ""
     return f"peak to peak {value:#.4g} {unit}{over}"
 
 

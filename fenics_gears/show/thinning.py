@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-# What a browser draws and zooms at once, and keeps some twenty curves of a page below 10 MB.
-MOST_POINTS = 5000
+# As many as a screen tells apart, and few enough to keep some twenty curves of a page below 10 MB.
+MOST_POINTS = 2000
 
 
 def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:

@@ -11,7 +11,9 @@ import xarray as xr
 import fenics_gears
 from fenics_gears.errors import ComputationError
 from fenics_gears.output import written_aside
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.files import read, save
+from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.record import CURVES, Record
@@ -23,7 +25,7 @@ STUDY_FILE = "study.nc"
 # 800 MB; beyond, the curves stay in the files of the cases.
 MOST_CURVE_VALUES = 100_000_000
 
-# Units and long name of each number of a record.
+# Units and long name of each number that every record has.
 NUMBERS = {
     "peak_to_peak_transmission_error": ("rad", "transmission error, peak to peak"),
     "mean_transmission_error": ("rad", "transmission error, mean"),
@@ -35,7 +37,7 @@ NUMBERS = {
 
 
 def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int, Failure]) -> xr.Dataset:
-    """One dataset of a study's cases so far; NaN where a case has no result.
+    """One dataset of a study's cases so far; NaN where a case has no result, or not that number.
 
     The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed and
     `failure` says why; curves are there when every case has the same steps.
@@ -43,8 +45,8 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
     result = xr.Dataset(coords={name: coordinate for axis in study.axes for name, coordinate in [_coordinate(axis, study)]})
     if study.combine == "zip":
         result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
-    for name, (units, long_name) in NUMBERS.items():
-        values = [records[i].numbers[name] if i in records else np.nan for i in _indices(study)]
+    for name, (units, long_name) in (NUMBERS | _further(records)).items():
+        values = [records[i].numbers.get(name, np.nan) if i in records else np.nan for i in _indices(study)]
         result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
     failed = np.array([int(i in failures) for i in _indices(study)])
     result["failed"] = (study.dimensions, failed.reshape(study.shape), {"units": "1", "long_name": "whether the case failed"})
@@ -73,6 +75,12 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
         complete=int(len(records) == len(study.cases)),
         curves=why_not or ", ".join(name for name in CURVES if name in result),
     )
+
+
+def _further(records: Mapping[int, Record]) -> dict[str, tuple[str, str]]:
+    """Units and long name of the numbers besides that some record has."""
+    known = {name for record in records.values() for name in record.numbers}
+    return {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
 
 
 def save_study(dataset: xr.Dataset, directory: Path) -> Path:

@@ -9,18 +9,19 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.settled import of_settled
 
 # Curves over the last cycles; those that a run has are taken.
-CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force")
+CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness")
 
 
 @dataclass(frozen=True)
 class Record:
     """Numbers and curves of one run.
 
-    `numbers`: by name; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
+    `numbers`: by name, those of `STUDIED` that the run has among them; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
     first recorded step; `labels`: units and long name of each curve; `warnings`: what the run says against itself.
     """
 
@@ -50,6 +51,7 @@ def record_of(run: xr.Dataset) -> Record:
         "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
         "wall_time": float(run.attrs["wall_time"]),
     }
+    numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
     last = shown(run)
     phase = last["mesh_phase"].values
     curves = {name: last[name].values for name in CURVES if name in run}

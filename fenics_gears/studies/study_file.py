@@ -152,7 +152,7 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
 
 def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
     without = _without(tree, mistakes)
-    fixed = {path: value for path, value in _entries(tree, "set", mistakes)}
+    fixed = dict(_entries(tree, "set", mistakes))
     swept = []
     for path, written in _entries(tree, "sweep", mistakes):
         try:

@@ -56,6 +56,7 @@ def stopped(folder):
         return first, kept, run(folder / "study.toml", folder / "out", 2)
 
 
+@pytest.mark.nightly
 def test_the_study_is_what_the_readme_says():
     """Count: both reliefs at 8 torques and 24 frequencies, the design load among them."""
     study = load_study(speed_and_load.STUDY)

@@ -7,7 +7,8 @@ from demos.flank_errors.order_spectrum import SCENE, named_lines
 from tests.coarse import COARSE
 
 from fenics_gears.scene.read import load_scene
-from fenics_gears.show.spectrum import order_spectrum
+from fenics_gears.show.orders import order_spectrum
+from fenics_gears.show.run import Run
 from fenics_gears.simulation import simulate
 
 
@@ -19,18 +20,18 @@ def test_the_picture_names_every_error_of_the_scene():
     assert (scene.motion.mesh_cycles, scene.motion.recorded_cycles) == (48, 48)
     assert scene.flank_errors.tolerance_class == 6
     result = simulate(replace(scene, accuracy=COARSE))
-    axes = order_spectrum(result).axes[0]
-    words = {text.get_text() for text in axes.texts}
-    named = {"mesh", "mesh − 1", "mesh + 1", "run-out of the pinion", "run-out of the wheel", "ghost order: 37 waves\non the pinion"}
-    assert named <= words
-    heights = {line.get_label(): line.get_ydata() for line in axes.lines}
+    chart = order_spectrum(Run(result))
+    flags = {flag.words: flag for flag in chart.flags}
+    named = {"mesh", "mesh − 1", "mesh + 1", "run-out of the pinion", "run-out of the wheel", "ghost order: 37 waves on the pinion"}
+    assert named <= set(flags)
+    heights = {curve.name: curve.y for curve in chart.curves}
     # Run-out of 10 and 15 um and pitch errors of the same size: the largest lines are those of the turns.
     assert 5.0 < heights["turn of the pinion"].max() < 25.0 and 5.0 < heights["turn of the wheel"].max() < 30.0
-    ghost = next(text for text in axes.texts if text.get_text().startswith("ghost"))
+    ghost = flags["ghost order: 37 waves on the pinion"]
     # A wave of 1 um, seen by one or two pairs in contact patches shorter than itself.
-    assert ghost.xy[0] == 37.0 and 0.5 < ghost.xy[1] < 1.1
+    assert ghost.x == 37.0 and 0.5 < ghost.y < 1.1
     # What the README says of them: the mesh's own lines stand out of its sidebands, the ghost order out of its neighbours.
     lines = named_lines(result)
-    assert lines["ghost order of 37 waves on the pinion"] == ghost.xy[1]
+    assert lines["ghost order of 37 waves on the pinion"] == ghost.y
     assert lines["mesh"] > 5.0 * max(amplitude for name, amplitude in lines.items() if name.startswith("sideband"))
     assert lines["run-out of the wheel"] > lines["run-out of the pinion"] > lines["mesh"]

@@ -46,6 +46,7 @@ def _swept(study, name):
     return next(axis.coordinate() for axis in study.axes if axis.name == name)
 
 
+@pytest.mark.nightly
 def test_every_study_varies_friction(loaded):
     """Every figure of the paper compares mu = 0.1 with mu = 0."""
     assert len(loaded) >= 10
@@ -54,6 +55,7 @@ def test_every_study_varies_friction(loaded):
         assert {None if case.scene.friction is None else case.scene.friction.coefficient for case in study.cases} == {None, 0.1}
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("reading", [READ, PRINTED])
 @pytest.mark.parametrize("figure", ["06", "10"])
 def test_frequency_sweeps_are_dense_and_run_long_enough(loaded, reading, figure):
@@ -72,6 +74,7 @@ def test_frequency_sweeps_are_dense_and_run_long_enough(loaded, reading, figure)
     assert frequencies[0] <= 10.0 and frequencies[-1] >= 4000.0
 
 
+@pytest.mark.nightly
 def test_readings_of_inertia_differ_in_nothing_but_what_they_must(loaded):
     """model.md, section 5: 24.5 N mm s^2 against 24.5 kg mm^2 = 24.5e-3 N mm s^2; the frequencies and depths are the same."""
     for name, study in loaded.items():
@@ -82,6 +85,7 @@ def test_readings_of_inertia_differ_in_nothing_but_what_they_must(loaded):
             assert [axis.values for axis in study.axes] == [axis.values for axis in other.axes]
 
 
+@pytest.mark.nightly
 def test_relief_depths_reach_from_none_to_50_um(loaded):
     """The range of Fig. 9."""
     for name in ("figure09_static", "figure09_dynamic"):

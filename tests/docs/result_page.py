@@ -21,9 +21,19 @@ A run's result is one `xarray.Dataset`, the same in memory (`simulate`) and in `
 ([in Python](python.md)). Every variable has `units` and `long_name`. A variable that belongs to an effect is there when the scene names the effect. Values that do not
 exist are not a number: places of contact nodes that a pair does not have, shares of rigid pairs that touch together.
 
-Signs: x is along the line of action, from the pinion's tangent point to the wheel's, y off it, towards the pinion's centre. Displacements and rotations are those from the nominal
-motion; rotations are positive in the pinion's sense of rotation, so that a wheel that lags has a positive one. At whole numbers of `mesh_phase` a new pair reaches the theoretical
-start of contact; with bearings and teeth that give way it touches before. Pressures and contact forces are positive in compression; friction on the pinion acts along -y where it is positive.
+## Signs
+
+* Directions: x is along the line of action, from the pinion's tangent point to the wheel's, y off it, towards the pinion's centre.
+* Rotations and torques are positive in the pinion's sense of rotation, on both gears; the wheel turns the other way, nominally. Displacements and rotations are those from the nominal motion: a
+  wheel that lags has a positive `rotation`, and the transmission error is positive where the wheel lags behind the pinion.
+* Reactions are what a gear does to its shaft: under the normal force F the pinion presses along -x and the wheel along +x. `reaction_couple` is then negative on both: -F r_b1 on the pinion's shaft, which
+  the drive has to overcome, and -F r_b2 on the wheel's, which turns the load. Friction adds to them.
+* `load.wheel_torque` and `wheel_couple` are torques of the load on the wheel's shaft: positive where they resist the drive, that is in the pinion's sense of rotation.
+* Normal forces and pressures are positive in compression. Friction on the pinion acts along -y where it is positive. Sliding is that of the pinion's flank over the wheel's, positive towards the pinion's tip:
+  negative before the pitch point, positive after it.
+* Work is positive from the pinion to the wheel; where the wheel drives, `work_input` and `work_output` are negative. `input_power` is that of the gear that drives, and positive.
+
+At whole numbers of `mesh_phase` a new pair reaches the theoretical start of contact; with bearings and teeth that give way it touches before.
 
 This page is written by `python -m tests.docs.write`, from `fenics_gears/effects`, `fenics_gears/results/attributes.py` and a run with every effect; a test says when it is out of date.
 """
@@ -41,6 +51,7 @@ DIMENSIONS = {
     "contact_time": "those of them, the last, whose contact fields are stored (`[output] contact_fields`)",
     "gear": '"pinion", "wheel"',
     "slot": "places for the tooth pairs that can touch at once; a pair keeps its own as long as it is in reach, `pair_number` says which is there",
+    "path_point": "points of the path of contact: A start, B and D ends of contact by the fewest pairs, C pitch point, E end",
     "contact_node": "contact nodes of a pair, in the order of their offset",
     "pinion_tooth": "teeth of the pinion, in the order in which they mesh",
     "wheel_tooth": "teeth of the wheel, likewise",

@@ -54,6 +54,7 @@ def test_imports_point_the_way_that_the_page_says():
     assert not against
 
 
+@pytest.mark.nightly
 def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
     """Authority: a study of frequencies with friction and without, of equal steps."""
     named = set(in_text(ROOT / "docs" / "studies.md"))

@@ -16,7 +16,8 @@ from fenics_gears.progress import SilentProgress
 from fenics_gears.results import dataset, shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
-from fenics_gears.show.curves import load_sharing
+from fenics_gears.show.forces import pair_forces
+from fenics_gears.show.run import Run
 from fenics_gears.simulation import gear_compliances, mesh_cycle, prepared, simulate
 
 FINE = replace(COARSE, steps_per_mesh_cycle=200)
@@ -59,7 +60,7 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
     assert max(apart) <= 5e-3
     assert backward.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
     assert backward.coast_flank_opening.values.max() <= 1e-12
-    lowest = min(np.nanmin(line.get_ydata()) for line in load_sharing(backward).axes[0].lines)
+    lowest = min(np.nanmin(curve.y) for curve in next(pair_forces(Run(backward))).curves)
     assert lowest == pytest.approx(-backward.pair_coast_normal_force.values.max())
 
 

@@ -15,6 +15,7 @@ from tests.report.conftest import scene_text
 from tests.report.pages import seen
 
 from fenics_gears import results
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.cli import main
 from fenics_gears.show.report.effects import effects
 from fenics_gears.show.run import Run
@@ -23,7 +24,7 @@ from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[2]
 SECTIONS = [
-    "summary", "warnings", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
+    "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
     "versions", "scene",
 ]  # fmt: skip
 
@@ -102,7 +103,7 @@ def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, 
     page = seen(bare / "report.html")
     said = set(captions(page))
     assert not any("riction" in each or "centres" in each or "shaft's end" in each for each in said)
-    assert "Friction takes" not in page.sections["summary"] and "Dynamic factor" not in page.sections["summary"]
+    assert "Friction loss" not in page.sections["summary"] and "Dynamic factor" not in page.sections["summary"]
     assert "lost to" not in page.sections["energy"] and "Natural frequencies" not in page.sections["solver"]
     assert "was not recorded" in page.sections["root-stress"] and "no-stress" in page.sections["stress"]
     assert "does not vary" in page.sections["spectra"]
@@ -134,7 +135,8 @@ def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
 @pytest.mark.parametrize("steps", [0, 1, 8])
 def test_an_incomplete_run_says_so(run, tmp_path, steps):
     """Authority: the attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is there."""
-    cut = results.load(run / "run.nc").isel(time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
+    whole = contact_times(results.load(run / "run.nc"))
+    cut = whole.isel(time=slice(0, steps), contact_time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
     page = page_of(cut, tmp_path)
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "INCOMPLETE RUN. It was interrupted." in text and list(page.sections) == SECTIONS and page.faults == []
@@ -229,14 +231,14 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
 def test_a_long_run_makes_a_small_page(run, tmp_path):
     """30,000 steps stay below 10 MB, and the highest of them is drawn."""
     dataset = (
-        results.load(run / "run.nc").drop_dims(["contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
+        results.load(run / "run.nc").drop_dims(["contact_time", "contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
     )
     steps = 30_001
     long = dataset.isel(time=np.arange(steps) % dataset.sizes["time"])
     phase = np.arange(steps) / 100.0
     force = long["normal_force"].values.copy()
     force[17_333] = 123_456.0
-    long = long.assign_coords(time=phase / 200.0, mesh_phase=("time", phase, dataset["mesh_phase"].attrs))
+    long = long.assign_coords(time=phase / 200.0, mesh_phase=("time", phase, dataset["mesh_phase"].attrs)).assign_attrs(shown_cycles=300)
     long["normal_force"] = ("time", force, dataset["normal_force"].attrs)
     page = page_of(long, tmp_path)
     assert (tmp_path / "report.html").stat().st_size < 10e6

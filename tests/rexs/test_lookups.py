@@ -10,6 +10,8 @@ from tests.rexs.test_paper_pair import imported
 
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Motion
+from fenics_gears.geometry.modification import removals
+from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.rexs.imported import Choice
 from fenics_gears.scene.read import scene_from_text
 
@@ -279,16 +281,22 @@ def test_relief_given_below_the_tip_is_extended_to_it(tmp_path, shape, power):
     assert scene.tip_relief.pinion.depth * ((there - start) / (tip - start)) ** power == pytest.approx(0.031, rel=1e-10)
 
 
-def test_tip_relief_by_its_length_of_roll(tmp_path):
-    """L_Ca of ISO 21771 is the length along the path of contact that the relieved part of the flank passes: the difference of the radii of curvature
-    at tip and start, each sqrt(r^2 - r_b^2); beside the diameter that it gives it says nothing new."""
+def test_reliefs_by_their_length_of_roll(tmp_path):
+    """L_C of ISO 21771 is the scene's own length on the path of contact: where the relief of a tip starts, geometry computes its own way; beside
+    the diameter that it gives the length says nothing new; the depth at another diameter is extended from that start."""
     base = 36.0 * cos(radians(20.0))
     length = sqrt(41.32**2 - base**2) - sqrt(39.5**2 - base**2)
-    scene, found = scene_of(tmp_path, with_relief(datum_length=(length, "mm")))
-    assert scene.tip_relief.pinion.start_diameter == 79.0
-    model = with_relief(datum_length=(length * 1e3, "mum"))
-    scene, found = scene_of(tmp_path, rexs.with_value(model, 40, "tip_relief_datum_diameter", None))
-    assert scene.tip_relief.pinion.start_diameter == pytest.approx(79.0, rel=1e-11) and "of roll from the tip" in found.text
+    scene, _ = scene_of(tmp_path, with_relief(datum_length=(length, "mm")))
+    assert scene.tip_relief.pinion.start_diameter == 79.0 and scene.tip_relief.pinion.length_on_path is None
+    values = {"datum_length": (length * 1e3, "mum"), "evaluation_reference": (81.0, "mm")}
+    scene, _ = scene_of(tmp_path, rexs.with_value(with_relief(**values), 40, "tip_relief_datum_diameter", None))
+    assert scene.tip_relief.pinion.length_on_path == pytest.approx(length)
+    start, there, tip = (sqrt((0.5 * diameter / base) ** 2 - 1.0) for diameter in (79.0, 81.0, 82.64))
+    assert scene.tip_relief.pinion.depth * (there - start) / (tip - start) == pytest.approx(0.031, rel=1e-9)
+    curve = removals(scene, gear_pair(scene.gears))[0]
+    assert curve(start * (1 - 1e-9)) == 0.0 and 0.0 < curve(start * (1 + 1e-4)) < 1e-3
+    scene, _ = scene_of(tmp_path, rexs.with_value(with_relief("root_relief", datum_length=(1.5, "mm")), 40, "root_relief_datum_diameter", None))
+    assert scene.root_relief.pinion.length_on_path == 1.5
 
 
 @pytest.mark.parametrize("form", [rexs.as_xml, rexs.as_json])

@@ -94,15 +94,14 @@ def test_all_mistakes_are_told_at_once(tmp_path):
         ({"shape_of_relief": ("circular",)}, "shape_of_relief = circular. Allowed: linear or parabolic"),
         ({"datum_length": (25.0, "mm")}, "tip_relief_datum_length = 25.0 mm is no length of roll of this flank. Allowed: above 0 and below 23.7"),
         ({"datum_length": (3.0, "mm")}, "tip_relief_datum_diameter = 79.0 mm contradicts tip_relief_datum_length = 3.0 mm, which starts at 7"),
-        ({"evaluation_reference": (79.0, "mm")}, "tip_relief_evaluation_reference = 79.0 mm does not lie outside the start of the relief, 79.0 mm"),
+        ({"evaluation_reference": (79.0, "mm")}, "tip_relief_evaluation_reference = 79.0 mm does not lie outside the start of the relief, 79 mm"),
     ],
 )
 def test_wrong_reliefs_are_named(tmp_path, values, words):
-    """As other values are; where a root relief ends, and so its length of roll begins, no attribute says."""
+    """As other values are; a relief has a start, by one attribute or another."""
     assert words in refused(tmp_path, with_relief(**values))
-    model = with_relief("root_relief")
-    rexs.component(model, 40)["attributes"][1] = rexs.attribute("root_relief_datum_length", 3.0, "mm")
-    assert "root_relief_datum_diameter is missing. root_relief_datum_length does not stand in for it" in refused(tmp_path, model)
+    model = rexs.with_value(with_relief("root_relief"), 40, "root_relief_datum_diameter", None)
+    assert "root_relief_datum_diameter is missing (and root_relief_datum_length of component 40)" in refused(tmp_path, model)
 
 
 def test_pairs_that_are_none(tmp_path):

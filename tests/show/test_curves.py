@@ -74,7 +74,7 @@ def test_transmission_error_and_the_wheels_sideways_motion():
 def test_the_peak_to_peak_is_named():
     """Authority: 400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
     (above, _) = transmission_error(made_up_run(steps=41)).get_axes()
-    assert above.get_title(loc="left") == "Transmission error on the wheel's base circle, peak to peak 20.00 µm"
+    assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
 
 
 def test_an_incomplete_run_names_the_peak_to_peak_of_what_is_stored():

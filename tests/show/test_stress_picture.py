@@ -67,17 +67,27 @@ def test_picture_is_whole_and_colours_are_where_the_stress_is(picture):
     assert not strongly_coloured(whole)[: whole.shape[0] // 4].any() and not strongly_coloured(whole)[whole.shape[0] * 2 // 3 :].any()
 
 
-def test_teeth_that_have_parted_are_drawn_without_stress(run, tmp_path, monkeypatch):
-    """No forces, no stress: bodies in the colour of zero, in a picture, a moving one, for ParaView and in a report."""
-    from fenics_gears.show import stress_animation
-
-    monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
+@pytest.fixture
+def parted(run, tmp_path):
+    """A run whose teeth carry nothing."""
     dataset = results.load(run / "run.nc")
     forces = [name for name in dataset if "force" in name or "pressure" in name or "traction" in name]
     results.save(dataset.assign({name: dataset[name].copy(data=0.0 * dataset[name].values) for name in forces}), tmp_path / "run.nc")
+
+
+def test_teeth_that_have_parted_are_drawn_without_stress(parted, tmp_path):
+    """No forces, no stress: bodies in the colour of zero."""
     assert main(["picture", str(tmp_path), "--at", "0.25", "--quiet"]) == 0
     found = imread(tmp_path / "stress.png")[..., :3]
     assert not strongly_coloured(part(found, (0.015, 0.06, 0.90, 0.79))).any()
+
+
+@pytest.mark.nightly
+def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypatch):
+    """The same in a moving picture, for ParaView and in a report."""
+    from fenics_gears.show import stress_animation
+
+    monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
     assert main(["picture", str(tmp_path), "--animate", "--pvd", str(tmp_path / "turn.pvd"), "--quiet"]) == 0
     assert (tmp_path / "stress.gif").is_file() and len(list(tmp_path.glob("turn_*.vtu"))) == 2
     assert main(["report", str(tmp_path), "--at", "0.25", "--quiet"]) == 0

@@ -22,10 +22,10 @@ from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
-from fenics_gears.results.stored_forces import stored_forces
-from fenics_gears.root_stress_output import quasi_static as without_inertia
-from fenics_gears.run_stresses import RunStresses
+from fenics_gears.dynamic_factor import quasi_static as without_inertia
 from fenics_gears.results.settled import of_settled
+from fenics_gears.results.stored_forces import stored_forces
+from fenics_gears.run_stresses import RunStresses
 from fenics_gears.scene.data import Load, Motion, Output
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation import simulate
@@ -95,7 +95,7 @@ def test_without_the_output_nothing_of_it_is_there(paper_scene):
     """Rule 9 of the house, for what is no effect: no variables, no attributes."""
     result = simulate(coarse_scene(paper_scene, cycles=1))
     assert not [name for name in result.variables if "root" in name or "fillet" in name]
-    assert not [name for name in result.attrs if "dynamic" in name or "quasi_static" in name]
+    assert not [name for name in result.attrs if "stress" in name]
 
 
 def test_dynamic_factors_are_one_where_the_gears_turn_slowly(paper_scene):

@@ -125,7 +125,7 @@ def _check_teeth(tips: np.ndarray, gear: Gear, name: str) -> None:
 
 def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Gear, name: str) -> None:
     ends = points[hub]
-    turns = np.angle(((ends[:, 1] @ [1.0, 1.0j]) / (ends[:, 0] @ [1.0, 1.0j]))) if len(hub) else np.zeros(0)
+    turns = np.angle((ends[:, 1] @ [1.0, 1.0j]) / (ends[:, 0] @ [1.0, 1.0j])) if len(hub) else np.zeros(0)
     covered = np.abs(turns).sum() / (2.0 * np.pi)
     if abs(covered - 1.0) > 1e-6:
         raise SceneError(

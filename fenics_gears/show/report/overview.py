@@ -50,7 +50,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
             "Peak contact pressure",
             digits(attributes["peak_contact_pressure"]),
             "MPa",
-            "over five contact nodes" + (", on a sharp edge: see the warnings" if "sharp edge" in attributes.get("warnings", "") else ""),
+            _where(attributes),
         )
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "slot"]).values
@@ -60,10 +60,13 @@ def _tiles(run: Run) -> Iterator[Tile]:
             "Dynamic factor",
             f"{attributes['dynamic_factor_by_force']:.3f}",
             "",
-            f"by force; {attributes['dynamic_factor_by_stress']:.3f} by root stress",
+            "by force" + (f"; {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""),
         )
     if "friction_loss" in attributes:
-        yield Tile("Friction takes", f"{100.0 * attributes['friction_loss']:.3g}", "%", "of the work of the drive")
+        lost = f"{digits(attributes['friction_power'])} W of {digits(1e-3 * attributes['input_power'])} kW" if "friction_power" in attributes else ""
+        yield Tile("Friction loss", f"{100.0 * attributes['friction_loss']:.3g}", "%", lost)
+    if "mean_mesh_stiffness" in attributes:
+        yield Tile("Mesh stiffness, mean", digits(attributes["mean_mesh_stiffness"]), "N/(mm µm)", "force over deflection")
     if run.pair is not None:
         yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}")
     if attributes.get("contact_loss_count"):
@@ -77,13 +80,21 @@ def _tiles(run: Run) -> Iterator[Tile]:
         )
 
 
+def _where(attributes) -> str:
+    """Where the peak of the contact pressure is, and that there is one at an edge too."""
+    if "peak_contact_pressure_diameter" not in attributes:
+        return "over five contact nodes"
+    at = f"at diameter {attributes['peak_contact_pressure_diameter']:.4g} mm of the pinion"
+    return at + ("; more at tips' edges, see the warnings" if "peak_edge_pressure" in attributes else "")
+
+
 def _rows(run: Run) -> list[tuple[str, object, str]]:
     dataset, attributes, rows = run.dataset, run.dataset.attrs, []
     times, phase = dataset["time"].values, dataset["mesh_phase"].values
     if run.scene is not None:
         first, ramp = run.scene.motion.mesh_frequency, run.scene.speed_ramp
         speed = first / run.scene.gears.pinion.teeth * factor("1/s", "1/min")
-        rows.append(("couple on the wheel", run.scene.load.wheel_torque * factor("N mm", "N m"), "N m"))
+        rows.append(("torque on the wheel", run.scene.load.wheel_torque * factor("N mm", "N m"), "N m"))
         rows.append(
             ("mesh frequency", f"{first:g} to {ramp.end_frequency:g} Hz" if ramp else f"{first:g} Hz, the pinion at {speed:.5g} rpm", "")
         )

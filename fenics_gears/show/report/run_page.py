@@ -8,6 +8,7 @@ from fenics_gears.show.report.effects import effects
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
+from fenics_gears.show.report.numbers import numbers
 from fenics_gears.show.report.overview import summary, warnings
 from fenics_gears.show.report.page import Page
 from fenics_gears.show.report.root_stress import root_stress
@@ -17,7 +18,7 @@ from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run_scene import conditions
 from fenics_gears.validity import NO_MEANING
 
-SECTIONS = (summary, warnings, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)
+SECTIONS = (summary, warnings, numbers, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)
 
 
 def run_page(run: Run, progress: Progress | None = None) -> Page:

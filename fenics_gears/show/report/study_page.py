@@ -35,7 +35,7 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
         scene_section(str(attributes.get("scene", "")), "Base scene"),
     ]  # fmt: skip
     title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
-    swept = ", ".join(f"{field.path} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields)
+    swept = ", ".join(f"{field.called} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields)
     return Page("Gear pair: report on a study", title, f"{counted(cases.count, 'case')} over {swept}", sections, made_by(), _alarm(cases))
 
 

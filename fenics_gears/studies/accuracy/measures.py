@@ -26,7 +26,7 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
     """
     found = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:
-        found[STIFFNESS] = np.array([mean_mesh_stiffness(run)])
+        found[STIFFNESS] = np.array([stiffness_by_energy(run)])
     if "contact_pressure" in run:
         found[PRESSURE] = _pressure(run, window)
         found[PEAK] = np.array([run.attrs["peak_contact_pressure"]])
@@ -41,7 +41,7 @@ def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
     return {CURVE: _curve(run, every), SPAN: np.array([height * run.attrs["base_radius_wheel"]])}
 
 
-def mean_mesh_stiffness(run: xr.Dataset) -> float:
+def stiffness_by_energy(run: xr.Dataset) -> float:
     """Mean over the last mesh cycle (N/mm) of the spring that holds the teeth's energy U under the mesh's force F: F^2 / (2 U)."""
     force, energy = (run[name].values[_last_cycle(run)] for name in ("normal_force", "energy_teeth"))
     loaded = energy > 0.0

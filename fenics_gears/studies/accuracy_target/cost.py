@@ -22,7 +22,8 @@ def run_cost(built: Model, element: str, flank: Number, body: Number, step: Numb
         # In the plane half the size is four times as many.
         unknowns = of_body * np.asarray(body, dtype=float) ** -2 + 0.5 * per_node * dofs
         total = total + cost.GEAR + cost.UNKNOWN * unknowns + cost.FLANK_CUBE * dofs**3
-    rows = loaded_pairs(built) * nodes * (1 if built.scene.friction is None else 2)
-    positions = 1.0 / np.asarray(step, dtype=float)
-    cycles = built.scene.motion.mesh_cycles
-    return total + positions * (cost.POSITION + cost.POSITION_SQUARE * rows**2 + cycles * (cost.STEP + cost.STEP_SQUARE * rows**2))
+    pairs, positions = loaded_pairs(built), 1.0 / np.asarray(step, dtype=float)
+    loaded = pairs * nodes
+    rows = loaded * (1 if built.scene.friction is None else 2)
+    of_step = cost.STEP + cost.ROWS_SQUARE * rows**2
+    return total + positions * (cost.PAIR * pairs + cost.NODES_SQUARE * loaded**2 + built.scene.motion.mesh_cycles * of_step)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -46,10 +47,11 @@ class Limits:
         return operator_bytes(1.0 / step, rows, self._friction) + sum(flank_bytes(flank_unknowns(gear, self._order, flank)) for gear in gears)
 
     def stored_bytes(self, flank: Size, step: Size, length: float) -> Size:
-        """Size of the scene's own result, all its recorded cycles."""
-        resolution = self._built.resolution
-        as_built = resolution.contact_grid.nodes * resolution.steps_per_mesh_cycle
-        return self._built.stored_bytes * self._nodes(flank, length) / (step * as_built)
+        """Size of the scene's own result: curves of all steps, and the contact fields that it stores."""
+        grid, steps = self._built.resolution.contact_grid, self._built.resolution.steps_per_mesh_cycle
+        curves = replace(self._built, contact_cycles=0).stored_bytes
+        fields = self._built.stored_bytes - curves
+        return (curves + fields * self._nodes(flank, length) / grid.nodes) / (step * steps)
 
     def too_fine(self, flank: Size, body: Size, length: float) -> Size:
         """Whether elements or contact nodes are finer than a scene file may ask for."""

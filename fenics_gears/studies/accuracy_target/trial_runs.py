@@ -29,7 +29,7 @@ NAMES = (FLANK, BODY, STEPS)
 COARSEST = {FLANK: 0.7, BODY: 4.0, STEPS: 20}
 LEVELS = 3
 # The level on which the others stand while one setting is refined.
-BASE_LEVEL = {FLANK: 1, BODY: 2, STEPS: 2}
+BASE_LEVEL = {FLANK: 2, BODY: 2, STEPS: 2}
 # Condensed gears that are kept: pinion and wheel of the base, and of one more level.
 KEPT_GEARS = 4
 # By how much the contact window is lengthened where it cuts contact off.

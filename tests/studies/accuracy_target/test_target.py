@@ -136,7 +136,9 @@ def test_the_cost_of_any_sizes_is_that_of_the_scene_with_them(scene):
     ratios = []
     for sizes in (fine, {**fine, "flank": 0.08}, {**fine, "step": 0.005}):
         setting = Setting("P2", sizes["flank"], NODE_SPACING * sizes["flank"], 3.0, 1.0, round(1.0 / sizes["step"]))
-        expected = expected_cost(model(setting.of(scene)))
+        built = model(setting.of(scene))
+        expected = expected_cost(built)
+        assert bounds.stored_bytes(sizes["flank"], sizes["step"], 3.0) == pytest.approx(built.stored_bytes, rel=0.1)
         ratios.append(bounds.cost(**sizes, length=3.0) / (expected.condensing + expected.marching))
     assert ratios == pytest.approx([1.0] * 3, rel=0.2)
     plain = dict(**fine, length=3.0)
@@ -212,7 +214,7 @@ def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
     bounds, module = limits.Limits(scene, "P2"), scene.gears.module
     assert bounds.allowed(0.01 * module, 1.0, 0.05, 1.0) and not bounds.allowed(0.9e-3 * module, 1.0, 0.05, 1.0)
     assert "finer than a scene may ask for" in bounds.why_not(0.9e-3 * module, 1.0, 1.0)
-    many_cycles = replace(scene, motion=Motion(200.0, 50, 50))
+    many_cycles = replace(scene, motion=Motion(200.0, 600, 600))
     assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 5e-3, 1.0)
     assert not limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0)
     assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
@@ -280,4 +282,4 @@ def test_check_says_that_settings_are_chosen_by_the_run(text, tmp_path, capsys):
     """`gears check` computes nothing."""
     (tmp_path / "scene.toml").write_text(text)
     assert main(["check", str(tmp_path / "scene.toml")]) == 0
-    assert "10.000% a run chooses settings" in capsys.readouterr().out
+    assert "10.000%: a run chooses settings" in capsys.readouterr().out

@@ -1,0 +1,45 @@
+"""How the flanks slide over each other along the path of contact, by the rigid pair's nominal motion (ISO 21771, Niemann/Winter).
+
+At a distance xi (mm) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi, and their points move across the line of
+action with omega1 rho1 and omega2 rho2. Positions are arrays of any shape.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.geometry.pair import GearPair
+
+# Start of contact, begin of contact by the fewest pairs (LPSTC of the pinion), pitch point, end of contact by the fewest pairs (HPSTC),
+# end of contact: the letters of ISO 21771 where the pinion drives.
+CONTACT_POINTS = ("A", "B", "C", "D", "E")
+
+
+def contact_points(pair: GearPair) -> np.ndarray:
+    """Positions (5,), mm from T1, of the CONTACT_POINTS."""
+    return np.array([pair.path_start, pair.start_of_fewest_pairs, pair.pitch_point, pair.end_of_fewest_pairs, pair.path_end])
+
+
+def sliding_per_rotation(pair: GearPair, position):
+    """Sliding speed over the pinion's angular speed, mm: v_g / omega1 = rho1 - rho2 z1/z2.
+
+    Of the pinion's flank over the wheel's, positive towards the pinion's tip: negative before the pitch point, positive after it.
+    """
+    return position - pair.rotation_ratio * (pair.line_of_action_length - position)
+
+
+def specific_sliding(pair: GearPair, position) -> tuple[np.ndarray, np.ndarray]:
+    """Sliding speed over the speed of the flank's own point across the line of action, of pinion and wheel.
+
+    zeta1 = 1 - rho2 z1/(rho1 z2), zeta2 = 1 - rho1 z2/(rho2 z1): negative in a dedendum, positive in an addendum, largest in size at the start
+    of a gear's active profile; minus infinity at its base circle.
+    """
+    position = np.asarray(position, dtype=float)
+    across = pair.rotation_ratio * (pair.line_of_action_length - position)
+    with np.errstate(divide="ignore"):
+        return 1.0 - across / position, 1.0 - position / across
+
+
+def sliding_speed(pair: GearPair, position, mesh_frequency: float):
+    """Sliding speed v_g, mm/s, at a mesh frequency (Hz), signed as `sliding_per_rotation`."""
+    return sliding_per_rotation(pair, position) * mesh_frequency * pair.pinion.angular_pitch

@@ -1,0 +1,152 @@
+"""The numbers that people ask a run for, as attributes of its result: of the settled whole mesh cycles, each with its unit and definition.
+
+They are read off the result's curves. What each is and where it comes from stands in `results.attributes`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
+from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.numbers import HARMONICS, harmonics, largest_of_one_pair, mean_where_positive, shares_at
+from fenics_gears.scene.data import Scene
+
+MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
+HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
+# What a study takes of its cases' numbers, of those that they have.
+STUDIED = (
+    *HARMONIC_NAMES, "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
+    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "largest_root_stress_pinion",
+    "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
+)  # fmt: skip
+
+
+def key_numbers(counted: xr.Dataset, pair: GearPair, timed: bool = True) -> dict[str, float | str]:
+    """All numbers of the settled steps of a result; the attribute `friction_loss` is used if it is there. timed: the scene has a speed, so that there is power."""
+    # The last step begins the next cycle.
+    settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
+    return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _root_stress(settled) | _power(counted, timed)
+
+
+def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
+    """Harmonics of the transmission error as a length at the wheel's base circle, um, of the last whole mesh cycles; nothing of less than one, or on a
+    ramp, where no two cycles are alike."""
+    phase = settled["mesh_phase"].values
+    if len(phase) < 2 or "mesh_frequency" in settled:
+        return {}
+    a_cycle = round(1.0 / (phase[1] - phase[0]))
+    cycles = len(phase) // a_cycle
+    if not cycles:
+        return {}
+    curve = settled["transmission_error"].values[-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
+    found = harmonics(curve, cycles)
+    return {name: float(amplitude) for name, amplitude in zip(HARMONIC_NAMES, found) if np.isfinite(amplitude)}
+
+
+def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
+    """Mesh stiffness over the face width, N/(mm um): c_gamma, its tangent, and the c' of one pair."""
+    if "mesh_stiffness" not in settled:
+        return {}
+    secant, tangent, pairs = (settled[name].values for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs"))
+    found = {
+        "mean_mesh_stiffness": mean_where_positive(secant),
+        "mean_mesh_stiffness_tangent": mean_where_positive(tangent),
+        "single_pair_stiffness": largest_of_one_pair(secant, pairs),
+    }
+    return {name: value * MICROMETRE / pair.face_width for name, value in found.items() if np.isfinite(value)}
+
+
+def _pair_force(settled: xr.Dataset) -> dict[str, float]:
+    """The largest normal force of a tooth pair, N, on drive or coast flanks; nothing where shares of rigid pairs are not
+    determined, or nothing presses."""
+    names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in settled]
+    over_time = np.max([settled[name].values.max(axis=1, initial=0.0) for name in names], axis=0)
+    if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
+        return {}
+    place = int(over_time.argmax())
+    return {"largest_pair_force": float(over_time[place]), "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place])}
+
+
+def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
+    """The largest contact pressure and where it is."""
+    if "largest_contact_pressure" not in settled:
+        return {}
+    pressure = settled["largest_contact_pressure"].values
+    place = int(pressure.argmax())
+    found: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
+    edge = float(settled["largest_edge_pressure"].max())
+    if edge:
+        found["peak_edge_pressure"] = edge
+    if pressure[place] <= NO_FORCE / pair.face_width**2:
+        return {"peak_contact_pressure": 0.0}
+    at = settled.isel(time=place)
+    on_coast = "coast_normal_force" in at and float(at["coast_normal_force"]) > float(at["normal_force"])
+    return found | {
+        "peak_contact_pressure_time": float(at["time"]),
+        "peak_contact_pressure_mesh_phase": float(at["mesh_phase"]),
+        "peak_contact_pressure_pair": int(at["largest_contact_pressure_pair"]),
+        "peak_contact_pressure_flank": "coast" if on_coast else "drive",
+        "peak_contact_pressure_diameter": 2.0 * float(pair.pinion.radius(float(at["largest_contact_pressure_roll_angle"]))),
+    }
+
+
+def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
+    """The largest root stress of either gear, MPa, when it is, at the tooth of which pair and on which side; where it was asked for."""
+    if "root_stress_maximum" not in settled:
+        return {}
+    found: dict[str, float | str] = {}
+    for gear in ("pinion", "wheel"):
+        stress = settled["root_stress_maximum"].sel(gear=gear).transpose("time", "slot").values
+        if not np.nanmax(stress, initial=0.0):
+            continue
+        step, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
+        at = settled.isel(time=step, slot=slot)
+        sides = at["root_stress_at_30_degrees"].sel(gear=gear)
+        name = f"largest_root_stress_{gear}"
+        found |= {
+            name: float(stress[step, slot]),
+            f"{name}_mesh_phase": float(at["mesh_phase"]),
+            f"{name}_pair": int(at["pair_number"]),
+            f"{name}_fillet": str(sides["fillet"].values[int(np.nanargmax(sides.values))]),
+        }
+    return found
+
+
+def _power(counted: xr.Dataset, timed: bool) -> dict[str, float]:
+    """Mean power of the drive, W, friction loss, W, and efficiency of the mesh; no power without a speed, nothing if the drive does no work."""
+    seconds, drive = float(np.ptp(counted["time"].values)), abs(transmitted(counted).drive)
+    if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
+        return {}
+    power, loss = drive / seconds / WATT, counted.attrs.get("friction_loss")
+    found = {"input_power": power} if timed else {}
+    if loss is not None:
+        found |= {"mesh_efficiency": 1.0 - loss} | ({"friction_power": loss * power} if timed else {})
+    return found
+
+
+def path_point_values(counted: xr.Dataset, scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
+    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in the settled steps."""
+    points = contact_points(pair)
+    rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
+    diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
+    numbers = counted["pair_number"].values
+    entered = numbers - counted["pair_number"].attrs["number_at_phase_0"]
+    forces = np.where(numbers > 0, counted["pair_normal_force"].values, np.nan)
+    return {
+        "path_point_position": points,
+        "path_point_diameter": np.transpose(diameters),
+        "sliding_speed": sliding_speed(pair, points, scene.mesh_frequencies[1]),
+        "specific_sliding": np.transpose(specific_sliding(pair, points)),
+        "load_share": shares_at((points - pair.path_start) / pair.base_pitch, counted["mesh_phase"].values, entered, forces),
+    }
+
+
+def path_point_coordinate() -> tuple:
+    """The coordinate of those variables."""
+    words = "start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact"
+    return ("path_point", list(CONTACT_POINTS), {"long_name": f"point of the path of contact: {words}"})

@@ -1,0 +1,54 @@
+"""Curves of an elastic mesh besides its forces: its stiffness, and its largest pressure with where that is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.contact.mesh_stiffness import mesh_stiffness
+from fenics_gears.contact.pressure import read_off
+from fenics_gears.results.side_by_side import SideBySide
+
+Curves = dict[str, np.ndarray]
+
+
+def stiffness_curves(nodes: SideBySide) -> Curves:
+    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive records of an elastic mesh."""
+    found = [mesh_stiffness(record.position.operator, record.solution) for record in nodes.records]
+    return {
+        "mesh_stiffness": np.array([each.secant for each in found]),
+        "mesh_stiffness_tangent": np.array([each.tangent for each in found]),
+        "loaded_pairs": np.array([each.pairs for each in found]),
+    }
+
+
+def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curves:
+    """The largest pressure of consecutive records, its tooth pair and its place, from their contact `fields`.
+
+    Pairs that press with the edge that ends a flank are left out of it, and have a largest pressure of their own: linear elasticity has no
+    limit there, and the number grows as contact nodes come closer.
+    """
+    pressed_edge = nodes.of("on_tip").any(axis=0) & (nodes.normal > NO_FORCE)
+    highest, rolls, at_edge = [], [], []
+    for side, drive in (("", True), ("coast_", False)):
+        if f"{side}contact_pressure" not in fields:
+            continue
+        place = fields[f"{side}contact_roll_angle"]
+        pressure = read_off(fields[f"{side}contact_pressure"], place)
+        node = pressure.argmax(axis=-1)[..., None]
+        highest.append(np.take_along_axis(pressure, node, -1)[..., 0])
+        rolls.append(np.take_along_axis(place, node, -1)[..., 0])
+        at_edge.append(nodes.by_slot(pressed_edge & (nodes.drive == drive)) > 0)
+    pressure, edge = np.concatenate(highest, axis=1), np.concatenate(at_edge, axis=1)
+    numbers = np.concatenate([nodes.pair_number] * len(highest), axis=1)
+    off_edge = np.where(edge, 0.0, pressure)
+    at = np.arange(len(pressure)), off_edge.argmax(axis=1)
+    touching = off_edge[at] > 0.0
+    return {
+        "largest_contact_pressure": off_edge[at],
+        "largest_contact_pressure_pair": np.where(touching, numbers[at], 0),
+        "largest_contact_pressure_roll_angle": np.where(touching, np.concatenate(rolls, axis=1)[at], np.nan),
+        "largest_edge_pressure": np.where(edge, pressure, 0.0).max(axis=1),
+    }

@@ -1,0 +1,60 @@
+"""The numbers that a pair is judged by, as plain functions of curves; `results.rated` takes them from a result.
+
+Curves (steps,) are those of whole mesh cycles of the settled motion, one value a step, the end left out that begins the next cycle.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+HARMONICS = 5
+ROUNDING = 1e-9  # mesh cycles
+
+
+def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
+    """Amplitudes (count,) of the first harmonics of the mesh frequency in a curve over `cycles` whole mesh cycles, in the curve's unit.
+
+    The curve is mean + sum over n of amplitude_n cos(2 pi n phase + shift_n) and what lies between the harmonics; harmonics that
+    the steps do not sample, above half of the steps a cycle, are not a number.
+    """
+    steps = len(curve) // cycles
+    spectrum = np.abs(np.fft.rfft(curve)) * (2.0 / len(curve))
+    order = np.arange(1, count + 1)
+    return np.array([spectrum[n * cycles] if 2 * n < steps else np.nan for n in order])
+
+
+def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray) -> np.ndarray:
+    """Share (len(positions),) of the mesh's force that a pair carries at positions on its path, in mesh cycles since the start of contact.
+
+    `phase` (steps,): mesh cycles; `numbers`, `forces` (steps, pairs): the pairs' numbers and their forces, N; a pair with number n is at
+    position `phase - n`. Straight between steps, the mean over the pairs that pass a position; not a number where none does.
+    """
+    positions = np.asarray(positions, dtype=float)
+    total = np.nansum(forces, axis=1, keepdims=True)
+    share = np.divide(forces, total, out=np.full(forces.shape, np.nan), where=total > 0.0)
+    known = np.isfinite(share)
+    passed, number, share = (phase[:, None] - numbers)[known], np.broadcast_to(numbers, forces.shape)[known], share[known]
+    if not len(share):
+        return np.full(len(positions), np.nan)
+    order = np.lexsort((passed, number))
+    passed, share = passed[order], share[order]
+    _, first, of_pair = np.unique(number[order], return_index=True, return_inverse=True)
+    lowest, highest = passed[first], passed[np.append(first[1:], len(passed)) - 1]
+    # One pair after the other on a single axis, so that all are interpolated at once.
+    apart = np.ptp(passed) + 1.0
+    inside = (positions >= lowest[:, None] - ROUNDING) & (positions <= highest[:, None] + ROUNDING)
+    found = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
+    count = inside.sum(axis=0)
+    return np.divide(np.where(inside, found, 0.0).sum(axis=0), count, out=np.full(len(positions), np.nan), where=count > 0)
+
+
+def mean_where_positive(values: np.ndarray) -> float:
+    """Mean of the values of steps at which something touches; not a number where nothing ever does."""
+    touching = values > 0.0
+    return float(values[touching].mean()) if touching.any() else np.nan
+
+
+def largest_of_one_pair(stiffness: np.ndarray, pairs: np.ndarray) -> float:
+    """Largest stiffness (steps,) at steps with one pair (steps,) in mesh; not a number where there are always more."""
+    alone = pairs == 1
+    return float(stiffness[alone].max()) if alone.any() else np.nan

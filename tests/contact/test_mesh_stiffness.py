@@ -1,0 +1,83 @@
+"""The mesh stiffness at a step against the load's finite differences, and against springs whose stiffness is given."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh_stiffness import NOTHING_TOUCHES, mesh_stiffness
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
+from fenics_gears.mesh_springs import iso_cycle
+from fenics_gears.model import model
+from tests.coarse import COARSE
+
+ROTATION_OF_THE_WHEEL = 5
+LOAD = 7e3
+
+
+def statics(operator, load):
+    """The static solution under a force (N) along the line of action on the wheel, which turns freely."""
+    problem = StepProblem(
+        stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, rigid=operator.rigid, gap=operator.gap,
+        slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
+    )  # fmt: skip
+    return solve_step(problem, cold_start(operator.gap, operator.node_pair))
+
+
+@pytest.fixture(scope="module")
+def cycle(stand_in_flanks):
+    """Frictionless contact of elastic stand-in teeth, of which only the wheel turns."""
+    return MeshCycle(stand_in_flanks, ContactGrid(1.5, 31), 20, [ROTATION_OF_THE_WHEEL], tangential=False)
+
+
+@pytest.mark.parametrize("step", [0, 6, 11, 17])
+def test_tangent_is_the_finite_difference_of_load_over_rotation(cycle, step):
+    """Brute force: two static solutions at loads a millionth apart, dF over the difference of the wheel's arc rb2 phi2."""
+    operator = cycle.position(step).operator
+    softer, harder = (statics(operator, LOAD * (1.0 + part)) for part in (-1e-6, 1e-6))
+    assert np.array_equal(softer.status, harder.status)
+    difference = 2e-6 * LOAD / float(harder.coordinates[0] - softer.coordinates[0])
+    assert mesh_stiffness(operator, statics(operator, LOAD)).tangent == pytest.approx(difference, rel=1e-6)
+
+
+@pytest.mark.parametrize("step", [0, 11])
+def test_secant_is_the_mean_of_the_tangents_from_no_load_on(cycle, step):
+    """Identity: F/delta is the harmonic mean over the load of dF/ddelta, delta being the integral of dF over it (midpoint rule)."""
+    operator, parts = cycle.position(step).operator, 400
+    found = [mesh_stiffness(operator, statics(operator, LOAD * (i + 0.5) / parts)) for i in range(parts)]
+    softness = np.mean([1.0 / each.tangent for each in found])
+    assert mesh_stiffness(operator, statics(operator, LOAD)).secant == pytest.approx(1.0 / softness, rel=2e-3)
+    assert found[-1].secant < found[-1].tangent
+
+
+def test_pairs_that_carry(cycle):
+    """Definition of the contact ratio, 1.47: half of the mesh cycle two pairs carry, then one; stiffness falls as the second leaves."""
+    found = [mesh_stiffness(cycle.position(step).operator, statics(cycle.position(step).operator, LOAD)) for step in (4, 15)]
+    assert [each.pairs for each in found] == [2, 1]
+    assert found[0].secant > 1.2 * found[1].secant and found[0].tangent > 1.2 * found[1].tangent
+    assert all(each.force == pytest.approx(LOAD) for each in found)
+
+
+def test_springs_have_the_stiffness_that_they_are_given(quasi_static_scene):
+    """ISO 6336-1: of its model of the mesh, c' b (0.75 n + 0.25) with n pairs in mesh, tangent and secant alike."""
+    scene = replace(quasi_static_scene, friction=None, shafts=None, bearings=None, accuracy=replace(COARSE, model="ISO 6336-1"))
+    built = model(scene)
+    springs, width = iso_cycle(built), scene.gears.face_width
+    single = pair_stiffness(scene.gears, scene.load.wheel_torque / built.pair.wheel.base_radius / width)
+    for step in (3, 30):
+        operator = springs.position(step).operator
+        found = mesh_stiffness(operator, statics(operator, LOAD))
+        assert found.secant == pytest.approx(single * mesh_factor(found.pairs), rel=1e-9)
+        assert found.tangent == pytest.approx(found.secant, rel=1e-9)
+
+
+def test_no_stiffness_where_nothing_touches(cycle):
+    """Definition."""
+    operator = cycle.position(3).operator
+    nothing = SimpleNamespace(forces=np.zeros(operator.nodes), status=np.zeros(operator.nodes, dtype=np.int8), coordinates=np.zeros(1))
+    assert mesh_stiffness(operator, nothing) == NOTHING_TOUCHES

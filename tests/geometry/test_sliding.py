@@ -1,0 +1,60 @@
+"""Sliding along the path of contact."""
+
+import numpy as np
+import pytest
+
+from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_per_rotation, sliding_speed, specific_sliding
+
+
+def test_specific_sliding_is_the_difference_of_the_arcs_that_roll_and_slide(paper_pair):
+    """Authority: the arcs s = rb v^2/2 of the involutes; while the pinion turns a little, contact passes ds1 of its flank and ds2 of the
+    wheel's, and slides over ds1 - ds2 (central differences)."""
+    positions = np.linspace(paper_pair.path_start, paper_pair.path_end, 9)
+    advance = 1e-4
+
+    def arcs(position):
+        pinion, wheel = paper_pair.pinion, paper_pair.wheel
+        return (
+            0.5 * pinion.base_radius * paper_pair.pinion_roll_angle(position) ** 2,
+            0.5 * wheel.base_radius * paper_pair.wheel_roll_angle(position) ** 2,
+        )
+
+    (after_1, after_2), (before_1, before_2) = arcs(positions + advance), arcs(positions - advance)
+    # The wheel's contact point runs down its flank, towards its base circle.
+    passed_1, passed_2 = after_1 - before_1, before_2 - after_2
+    of_pinion, of_wheel = specific_sliding(paper_pair, positions)
+    assert of_pinion == pytest.approx((passed_1 - passed_2) / passed_1, abs=1e-9)
+    assert of_wheel == pytest.approx((passed_2 - passed_1) / passed_2, abs=1e-9)
+    turned = 2.0 * advance / paper_pair.pinion.base_radius
+    assert sliding_per_rotation(paper_pair, positions) == pytest.approx((passed_1 - passed_2) / turned, abs=1e-9)
+
+
+def test_sliding_speed_is_the_distance_from_the_pitch_point_times_both_speeds(paper_pair):
+    """Authority: ISO 21771, v_g = g (omega1 + omega2), zero at the pitch point, g from it along the line of action."""
+    positions = contact_points(paper_pair)
+    first = 2.0 * np.pi * 200.0 / paper_pair.pinion.teeth
+    distance = positions - paper_pair.pitch_point
+    expected = distance * first * (1.0 + paper_pair.rotation_ratio)
+    assert sliding_speed(paper_pair, positions, 200.0) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+    assert sliding_speed(paper_pair, positions[CONTACT_POINTS.index("C")], 200.0) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_specific_sliding_at_the_ends_by_the_closed_forms(paper_pair):
+    """Authority: Niemann/Winter, zeta_f1 = 1 - rho_A2/(u rho_A1) at the pinion's root, zeta_f2 = 1 - u rho_E1/rho_E2 at the wheel's,
+    with the curvatures from tip and base circles: rho_A2 = sqrt(ra2^2 - rb2^2), rho_E1 = sqrt(ra1^2 - rb1^2)."""
+    pinion, wheel = paper_pair.pinion, paper_pair.wheel
+    ratio, length = wheel.teeth / pinion.teeth, paper_pair.line_of_action_length
+    of_wheel_tip, of_pinion_tip = (np.sqrt(gear.tip_radius**2 - gear.base_radius**2) for gear in (wheel, pinion))
+    at_root_1 = 1.0 - of_wheel_tip / (ratio * (length - of_wheel_tip))
+    at_root_2 = 1.0 - ratio * of_pinion_tip / (length - of_pinion_tip)
+    points = contact_points(paper_pair)
+    of_pinion, of_wheel = specific_sliding(paper_pair, points)
+    assert of_pinion[0] == pytest.approx(at_root_1, rel=1e-9) and of_wheel[-1] == pytest.approx(at_root_2, rel=1e-9)
+    assert of_pinion[0] == min(of_pinion) and of_wheel[-1] == min(of_wheel)
+
+
+def test_contact_points_are_in_order_and_a_base_pitch_apart(paper_pair):
+    """Identity: A and D are a base pitch apart where one pair is alone in between, so are B and E; with more pairs as many pitches."""
+    first, begin, _, end, last = contact_points(paper_pair)
+    assert end - first == pytest.approx(paper_pair.base_pitch) and last - begin == pytest.approx(paper_pair.base_pitch)
+    assert np.all(np.diff(contact_points(paper_pair)) > 0.0)
