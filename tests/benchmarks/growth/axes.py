@@ -107,7 +107,7 @@ def _standard_gear(teeth: int, module: float, solid: bool) -> GearData:
     return GearData(teeth, 0.0, module * (teeth + 2.0), root, bore, 0.38)
 
 
-LINEAR, NONE = "as many as there are", "does not depend on it"
+LINEAR, NONE = "proportional to their number", "does not depend on it"
 AXES = (
     Axis(
         "flank nodes", "nodes along the pinion's flank (P2, two an element)", logarithmic(8, 800), of_flank_elements, "flank_nodes",
