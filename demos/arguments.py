@@ -6,7 +6,7 @@ import argparse
 import os
 from pathlib import Path
 
-from fenics_gears import environment
+from fenics_gears.system import environment
 
 
 def output_directory(demo: str, description: str, arguments: list[str] | None = None) -> Path:

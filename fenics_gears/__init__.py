@@ -6,7 +6,7 @@ __version__ = "0.1.0"
 __all__ = ["__version__", "load_scene", "simulate"]
 
 # Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.
-_HOMES = {"load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.simulation"}
+_HOMES = {"load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.studies.simulate"}
 
 
 def __getattr__(name: str):
@@ -14,5 +14,5 @@ def __getattr__(name: str):
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     # What BLAS, MPI and VTK read from the environment must stand there before they are loaded.
-    importlib.import_module("fenics_gears.environment").prepare()
+    importlib.import_module("fenics_gears.system.environment").prepare()
     return getattr(importlib.import_module(_HOMES[name]), name)

@@ -2,7 +2,7 @@
 
 import sys
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 
 if __name__ == "__main__":
     sys.exit(main())

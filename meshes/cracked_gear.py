@@ -17,9 +17,9 @@ from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_gear_mesh
 from fenics_gears.errors import GearsError, SceneError
-from fenics_gears.model import model
+from fenics_gears.inputs.units import QuantityError, quantity
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
-from fenics_gears.scene.units import QuantityError, quantity
 
 
 def _of_kind(kind: str):
@@ -50,10 +50,10 @@ def arguments() -> argparse.ArgumentParser:
     return parser
 
 
-def _check_elements(built) -> None:
+def _check_elements(model) -> None:
     """Raise SceneError for a scene whose gears are not of triangles."""
-    if not built.scene.resolves_contact or element_named(built.resolution.element).quadrilateral:
-        raise SceneError(f"the scene computes its teeth as {built.resolution.element}; meshes of cracked gears have triangles. Take accuracy.element P2 or P1")
+    if not model.scene.resolves_contact or element_named(model.resolution.element).quadrilateral:
+        raise SceneError(f"the scene computes its teeth as {model.resolution.element}; meshes of cracked gears have triangles. Take accuracy.element P2 or P1")
 
 
 def main(words: list[str] | None = None) -> int:
@@ -63,9 +63,9 @@ def main(words: list[str] | None = None) -> int:
         print(f"{options.file}: must end in .msh, gmsh's own format", file=sys.stderr)
         return 2
     try:
-        built = model(load_scene(options.scene))
-        _check_elements(built)
-        gear, resolution = getattr(built.pair, options.gear), built.resolution
+        model = model_of(load_scene(options.scene))
+        _check_elements(model)
+        gear, resolution = getattr(model.pair, options.gear), model.resolution
         sizes = element_sizes(gear, element_named(resolution.element), options.flank_size or resolution.flank_element_size, resolution.body_element_size)
         cracks = {} if options.depth is None else {options.tooth: RootCrack(options.depth, options.angle, options.mouth)}
         mesh = cracked_gear_mesh(gear, sizes, cracks)

@@ -21,10 +21,10 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
-from fenics_gears.model import Model, model
-from fenics_gears.resolution import hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation import gear_compliance
+from fenics_gears.simulation.elastic_route import gear_compliance
 
 # The smaller load, in parts of the larger: half its half-width.
 SMALLER = 0.25
@@ -61,23 +61,23 @@ class HertzContact:
 
     def __init__(self, scene: Scene):
         self.scene = replace(scene, friction=None)
-        built = model(self.scene)
-        self.pair, self.line_load = built.pair, abs(scene.load.wheel_torque) / built.pair.wheel.base_radius / built.pair.face_width
-        self.modulus, self.radius = plane_contact_modulus(scene), relative_radius(built.pair, built.pair.pitch_point)
+        model = model_of(self.scene)
+        self.pair, self.line_load = model.pair, abs(scene.load.wheel_torque) / model.pair.wheel.base_radius / model.pair.face_width
+        self.modulus, self.radius = plane_contact_modulus(scene), relative_radius(model.pair, model.pair.pitch_point)
 
     def half_width(self, line_load: float) -> float:
         """Hertz's, mm, under a line load (N/mm)."""
         return hertz_half_width(line_load, self.radius, self.modulus)
 
-    def built(self, flank_element_size: float, element: str = "P2") -> Model:
+    def model(self, flank_element_size: float, element: str = "P2") -> Model:
         """The model with flank elements of a size (mm)."""
         accuracy = replace(self.scene.accuracy, element=element, flank_element_size=flank_element_size)
-        return model(replace(self.scene, accuracy=accuracy))
+        return model_of(replace(self.scene, accuracy=accuracy))
 
     def compliances(self, flank_element_size: float, element: str = "P2", cache=None):
         """Both gears' flank compliance."""
-        built = self.built(flank_element_size, element)
-        return tuple(gear_compliance(built, name, 2, cache) for name in ("pinion", "wheel"))
+        model = self.model(flank_element_size, element)
+        return tuple(gear_compliance(model, name, 2, cache) for name in ("pinion", "wheel"))
 
     def pressed(self, compliances, spacing: float, line_load: float) -> Pressed:
         """Solve one position under a line load (N/mm) with contact nodes `spacing` (mm) apart, one of them on the line of action."""

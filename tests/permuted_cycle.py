@@ -4,15 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.progress import SilentProgress
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 
 def solved_in_other_order(scene, seed: int):
     """The scene's result with all unknowns of every step shuffled before the solver sees them, and its answer put back."""
 
-    def preparation(built, progress, cache):
-        gears, cycle = prepared(built, SilentProgress(), cache)
+    def preparation(model, progress, cache):
+        gears, cycle = prepared(model, SilentProgress(), cache)
         plain, random = cycle.solve, np.random.default_rng(seed)
 
         def solve(position, problem, status, last):

@@ -19,10 +19,11 @@ import xarray as xr
 from tests.studies.conftest import environment, mpirun
 
 import fenics_gears
-from fenics_gears import progress, results
-from fenics_gears.cli import main
+from fenics_gears import results
+from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError
-from fenics_gears.validity import NO_MEANING
+from fenics_gears.results.validity import NO_MEANING
+from fenics_gears.system import progress
 
 CHECKOUT = Path(__file__).parents[1]
 DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
@@ -49,7 +50,7 @@ def small_result(complete=1):
 def simulation(monkeypatch, tmp_path):
     """A module in the place of the simulation, whose ``outcome`` is returned or raised; the test runs in an empty directory."""
     monkeypatch.chdir(tmp_path)
-    stand_in = types.ModuleType("fenics_gears.simulation")
+    stand_in = types.ModuleType("fenics_gears.studies.simulate")
     stand_in.outcome, stand_in.calls = small_result(), []
 
     def simulate(scene, *, progress=None, comm=None):
@@ -69,7 +70,7 @@ def simulation(monkeypatch, tmp_path):
         return [picture]
 
     plots.draw_run = draw_run
-    monkeypatch.setitem(sys.modules, "fenics_gears.simulation", stand_in)
+    monkeypatch.setitem(sys.modules, "fenics_gears.studies.simulate", stand_in)
     monkeypatch.setitem(sys.modules, "fenics_gears.show.plots", plots)
     return stand_in
 
@@ -379,7 +380,7 @@ def test_version(capsys):
 def test_help_loads_neither_numerics_nor_the_schema():
     """Authority: issue 2, help at once; what is not loaded takes no time."""
     program = (
-        "import sys, fenics_gears.cli as cli\n"
+        "import sys, fenics_gears.commands.cli as cli\n"
         "try: cli.main(['--help'])\n"
         "except SystemExit: pass\n"
         "print(sorted({'numpy', 'pydantic', 'pint', 'rich', 'xarray', 'dolfinx', 'numba'} & set(sys.modules)))"

@@ -5,12 +5,11 @@ from math import pi, sqrt
 
 import pytest
 
-from fenics_gears.description import describe
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
-from fenics_gears.model import model
-from fenics_gears.resolution import (
+from fenics_gears.model.description import describe
+from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     MOST_STEPS_PER_MESH_CYCLE,
@@ -21,12 +20,12 @@ from fenics_gears.scene.data import Accuracy
 
 
 def of_scene(scene, **accuracy):
-    return model(replace(scene, accuracy=Accuracy(**accuracy))).resolution
+    return model_of(replace(scene, accuracy=Accuracy(**accuracy))).resolution
 
 
 def test_values_of_the_scene_are_used_as_they_are(paper_scene):
     """The paper's own: P2, 0.08 mm, 1.5 mm, 20 nodes, 100 steps."""
-    resolution = model(paper_scene).resolution
+    resolution = model_of(paper_scene).resolution
     assert (resolution.element, resolution.flank_element_size) == ("P2", 0.08)
     assert (resolution.contact_grid.length, resolution.contact_grid.nodes) == (1.5, 20)
     assert resolution.steps_per_mesh_cycle == 100
@@ -61,7 +60,7 @@ def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
     slow = replace(scene, motion=replace(scene.motion, mesh_frequency=0.01))
     assert resolve(slow, paper_pair, shafts).steps_per_mesh_cycle == MOST_STEPS_PER_MESH_CYCLE
     static = replace(scene, inertia=None, damping=None)
-    assert model(static).resolution.steps_per_mesh_cycle == 200
+    assert model_of(static).resolution.steps_per_mesh_cycle == 200
 
 
 def test_natural_frequencies_against_single_oscillators(paper_scene, paper_pair):
@@ -103,6 +102,6 @@ def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):
 
 def test_steps_too_few_to_see_the_transmission_error_are_named(paper_scene):
     """Authority: measured, quasi-static. Of 200 steps' peak-to-peak value 20 see 99 %, 10 as little as 95 %, 4 as little as half."""
-    few, enough = (model(replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps), inertia=None, damping=None)).warnings for steps in (19, 20))
+    few, enough = (model_of(replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps), inertia=None, damping=None)).warnings for steps in (19, 20))
     assert any("steps_per_mesh_cycle is 19" in warning for warning in few)
     assert not any("steps_per_mesh_cycle" in warning for warning in enough)

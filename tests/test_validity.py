@@ -13,10 +13,10 @@ from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.progress import SilentProgress
+from fenics_gears.results.validity import warnings_of_energy, worst_first
 from fenics_gears.scene.data import Accuracy, Load, Motion
-from fenics_gears.simulation import simulate
-from fenics_gears.validity import warnings_of_energy, worst_first
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 

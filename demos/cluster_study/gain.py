@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import scene_from_text
 
 WITH, WITHOUT = "present", "absent"
@@ -37,7 +37,7 @@ def gain(study: Path) -> Gain:
         dataset = opened[["peak_to_peak_transmission_error", "case_file"]].load()
     first = str(dataset.case_file.values.ravel()[0])
     with xr.open_dataset(study.parent / first, engine="h5netcdf") as run:
-        radius = model(scene_from_text(run.attrs["scene"])).pair.wheel.base_radius
+        radius = model_of(scene_from_text(run.attrs["scene"])).pair.wheel.base_radius
     error = (dataset.peak_to_peak_transmission_error * radius * 1e3).transpose("tip_relief", "wheel_torque", "mesh_frequency")
     with_relief, without = (error.sel(tip_relief=relief).values for relief in (WITH, WITHOUT))
     return Gain(dataset.wheel_torque.values, dataset.mesh_frequency.values, with_relief, without)

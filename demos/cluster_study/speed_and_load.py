@@ -38,7 +38,7 @@ def shown(directory: Path) -> list[Path]:
     """Draw the study that lies in a directory and write its table, both into it."""
     from demos.cluster_study.gain import gain, table
     from demos.cluster_study.picture import draw
-    from fenics_gears.output import written_aside
+    from fenics_gears.system.output import written_aside
     from fenics_gears.show.plots import save_figure
 
     found = gain(directory / "study.nc")

@@ -15,7 +15,7 @@ from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_gear_mesh
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Scene
 from fenics_gears.show.spectrum import OrderLines, order_lines
@@ -59,10 +59,10 @@ def healthy(scene: Scene) -> Scene:
 
 def cracked(scene: Scene, depth: float, file: Path) -> Scene:
     """The scene with a crack of some depth (mm) in its pinion, whose mesh is written to a file; as fine as the contact asks for."""
-    built = model(healthy(scene))
-    resolution = built.resolution
-    sizes = element_sizes(built.pair.pinion, element_named(resolution.element), resolution.flank_element_size, resolution.body_element_size)
-    write_body_mesh(cracked_gear_mesh(built.pair.pinion, sizes, {CRACKED_TOOTH: RootCrack(depth)}), file)
+    model = model_of(healthy(scene))
+    resolution = model.resolution
+    sizes = element_sizes(model.pair.pinion, element_named(resolution.element), resolution.flank_element_size, resolution.body_element_size)
+    write_body_mesh(cracked_gear_mesh(model.pair.pinion, sizes, {CRACKED_TOOTH: RootCrack(depth)}), file)
     return replace(scene, body_meshes=located(BodyMeshes(MeshFile(str(file)), None), file.parent))
 
 

@@ -24,7 +24,7 @@ from fenics_gears.elasticity.sector_interior import dofs_of
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, crack_line, cracked_gear_mesh
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Material
 
 P2 = ELEMENTS["P2"]
@@ -97,11 +97,11 @@ def table(bodies: dict[float, CrackedBody], line_load: float) -> list[str]:
 
 def main() -> None:
     """Print the table for the depths of this folder."""
-    built = model(load_scene(HERE / "cracked_tooth.toml"))
-    gear, material = built.pair.pinion, built.scene.gears.material
+    model = model_of(load_scene(HERE / "cracked_tooth.toml"))
+    gear, material = model.pair.pinion, model.scene.gears.material
     sizes = element_sizes(gear, P2, 0.4)
     bodies = {depth: CrackedBody(gear, material, sizes, RootCrack(depth)) for depth in DEPTHS if depth}
-    load = built.scene.load.wheel_torque / built.pair.wheel.base_radius / built.pair.face_width
+    load = model.scene.load.wheel_torque / model.pair.wheel.base_radius / model.pair.face_width
     print("\n".join(table(bodies, load)))
 
 

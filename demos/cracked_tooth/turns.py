@@ -20,7 +20,7 @@ from fenics_gears import load_scene
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_sector_mesh
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.show.panels import DOTS_PER_INCH
 
 # The crack whose mesh is shown.
@@ -52,8 +52,8 @@ def main(directory: Path) -> Path:
     """Run all depths, print the table, draw the picture into a directory, and return its file."""
     directory.mkdir(parents=True, exist_ok=True)
     found = turns(directory)
-    built = model(load_scene(HERE / "cracked_tooth.toml"))
-    gear, resolution = built.pair.pinion, built.resolution
+    model = model_of(load_scene(HERE / "cracked_tooth.toml"))
+    gear, resolution = model.pair.pinion, model.resolution
     print("\n".join(table(found, gear.teeth)))
     sizes = element_sizes(gear, element_named(resolution.element), resolution.flank_element_size)
     figure = draw(found, gear, cracked_sector_mesh(gear, sizes, SHOWN), SHOWN)

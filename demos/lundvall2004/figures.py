@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from demos.lundvall2004.measured import PRINTED, READ, WITH, WITHOUT, Measured, base_pair, peak_to_peak
-from fenics_gears.output import written_aside
+from fenics_gears.system.output import written_aside
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, GREY, PALETTE, legend, limits, styled
 
 LINES = {

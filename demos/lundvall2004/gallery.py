@@ -65,7 +65,7 @@ def run_studies(directory: Path, begun: float) -> int:
 def run_one(file: Path, directory: Path) -> tuple[int, str, float]:
     """Run what is missing of one study: exit code, what came of it, wall time in s."""
     from fenics_gears.errors import ComputationError, GearsError
-    from fenics_gears.progress import SilentProgress
+    from fenics_gears.system.progress import SilentProgress
     from fenics_gears.studies.run_study import run_study
 
     begun = time.perf_counter()

@@ -11,8 +11,8 @@ import xarray as xr
 from fenics_gears import load_scene, results
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.dynamics.frequencies import natural_frequencies
-from fenics_gears.model import model
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
+from fenics_gears.model.model import model_of
+from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 
@@ -76,10 +76,10 @@ def base_scene() -> Scene:
 
 def base_pair() -> GearPair:
     """The paper's gear pair."""
-    return model(base_scene()).pair
+    return model_of(base_scene()).pair
 
 
 def frequencies_of(run: xr.Dataset) -> np.ndarray:
     """Natural frequencies (Hz) of the scene of a run, with one tooth pair in mesh."""
     scene = scene_from_text(run.attrs["scene"])
-    return natural_frequencies(model(scene).drivetrain, mesh_stiffness(scene))
+    return natural_frequencies(model_of(scene).drivetrain, mesh_stiffness(scene))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from demos.lundvall2004.claims import Claim, claims_of_inertia, table_of_claims
 from demos.lundvall2004.measured import PRINTED, READ, WITH, Measured, frequencies_of
-from fenics_gears.output import written_aside
+from fenics_gears.system.output import written_aside
 
 HEADINGS = {READ: "J = 24.5 N mm s^2, as we read it", PRINTED: "J = 24.5 kg mm^2, as printed"}
 

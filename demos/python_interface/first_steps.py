@@ -153,7 +153,7 @@ figure.savefig(PICTURES / "study_and_spectrum.png", dpi=110)
 # A run stores contact forces; displacement and stress of both gears follow from them at any stored step.
 
 # %%
-from fenics_gears.run_stresses import RunStresses
+from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.stress_picture import colour_limit, stress_picture
 

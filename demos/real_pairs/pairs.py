@@ -24,18 +24,18 @@ class Pair:
 def measured(path: Path) -> Pair:
     """Both runs of a scene; the dynamic factor is the largest force of a tooth pair over that without inertia."""
     from fenics_gears import load_scene, simulate
-    from fenics_gears.dynamics.gear_inertia import lumped_gears
-    from fenics_gears.model import model
+    from fenics_gears.model.drivetrain import lumped_gears
+    from fenics_gears.model.model import model_of
 
     scene = load_scene(path)
-    built = model(scene)
+    model = model_of(scene)
     at_speed = simulate(scene)
     static = simulate(replace(scene, inertia=None, damping=None, motion=replace(scene.motion, mesh_cycles=2)))
-    inertias = [1e3 * gear.moment_of_inertia for gear in lumped_gears(scene, built.pair).values()]
-    errors = [1e3 * built.pair.wheel.base_radius * run.attrs["peak_to_peak_transmission_error"] for run in (static, at_speed)]
+    inertias = [1e3 * gear.moment_of_inertia for gear in lumped_gears(scene, model.pair).values()]
+    errors = [1e3 * model.pair.wheel.base_radius * run.attrs["peak_to_peak_transmission_error"] for run in (static, at_speed)]
     forces = [float(run.pair_normal_force.max()) for run in (at_speed, static)]
     row = (
-        scene.title, f"{scene.motion.mesh_frequency:.0f}", *(f"{each:.0f}" for each in inertias), f"{built.vibrations[-1].frequency:.0f}",
+        scene.title, f"{scene.motion.mesh_frequency:.0f}", *(f"{each:.0f}" for each in inertias), f"{model.vibrations[-1].frequency:.0f}",
         *(f"{error:.3g}" for error in errors), f"{forces[0] / forces[1]:.3f}",
     )  # fmt: skip
     return Pair(at_speed, static, row)

@@ -20,7 +20,7 @@ def main(arguments: list[str] | None = None) -> int:
     from demos.speed_ramp.sweeps import HERE, ramps, steady
     from fenics_gears import load_scene
     from fenics_gears.geometry.pair import gear_pair
-    from fenics_gears.output import written_aside
+    from fenics_gears.system.output import written_aside
     from fenics_gears.show.panels import DOTS_PER_INCH
     from fenics_gears.studies.gear_store import GearStore
 

@@ -14,8 +14,8 @@ from fenics_gears import load_scene
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model import Model, model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.system.progress import SilentProgress
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.studies.gear_store import GearStore
 
@@ -34,26 +34,26 @@ class Sweep:
 
 def sweep(scene: Scene, store: GearStore, cycles: int | None = None) -> Sweep:
     """March a scene without friction, over more `cycles` than it has if asked to; after its ramp the speed is that of its end."""
-    built = model(scene)
-    _, cycle = store.prepared(built, SilentProgress(), user_cache())
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, 0.0, built.pace, built.clock, built.loads)
+    model = model_of(scene)
+    _, cycle = store.prepared(model, SilentProgress(), user_cache())
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.pace, model.clock, model.loads)
     cycles = cycles or scene.motion.mesh_cycles
-    per_cycle = built.resolution.steps_per_mesh_cycle
+    per_cycle = model.resolution.steps_per_mesh_cycle
     records = marcher.run(cycles * per_cycle, cycles * per_cycle + 1).records
-    error = _transmission_error(built, np.array([record.state.position for record in records]))
+    error = _transmission_error(model, np.array([record.state.position for record in records]))
     begins = per_cycle * np.arange(cycles)
-    frequency = [cycles_a_second(built, begin, begin + per_cycle) for begin in begins]
+    frequency = [cycles_a_second(model, begin, begin + per_cycle) for begin in begins]
     return Sweep(np.array(frequency), np.array([np.ptp(error[begin : begin + per_cycle + 1]) for begin in begins]))
 
 
-def cycles_a_second(built: Model, first: int, last: int) -> float:
+def cycles_a_second(model: Model, first: int, last: int) -> float:
     """Mean mesh frequency (Hz) from one step to another."""
-    return (last - first) / built.resolution.steps_per_mesh_cycle / built.clock.duration(first, last)
+    return (last - first) / model.resolution.steps_per_mesh_cycle / model.clock.duration(first, last)
 
 
-def _transmission_error(built: Model, states: np.ndarray) -> np.ndarray:
-    ratio = built.pair.pinion.teeth / built.pair.wheel.teeth
-    return built.drivetrain.value(states, "rotation_2") + ratio * built.drivetrain.value(states, "rotation_1")
+def _transmission_error(model: Model, states: np.ndarray) -> np.ndarray:
+    ratio = model.pair.pinion.teeth / model.pair.wheel.teeth
+    return model.drivetrain.value(states, "rotation_2") + ratio * model.drivetrain.value(states, "rotation_1")
 
 
 def ramps(store: GearStore) -> dict[str, Sweep]:

@@ -28,7 +28,7 @@ def measured(directory: Path) -> list[Path]:
     from demos.tip_relief import findings, pictures
     from demos.tip_relief.design import LINEAR, Bench, conditions, paper_scene
     from demos.tip_relief.table import table
-    from fenics_gears.output import written_aside
+    from fenics_gears.system.output import written_aside
     from fenics_gears.show.plots import save_figure
     from fenics_gears.studies.gear_store import GearStore
 

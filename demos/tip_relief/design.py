@@ -13,7 +13,7 @@ from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
 from fenics_gears.studies.gear_store import GearStore
@@ -62,7 +62,7 @@ class Bench:
     """Runs a scene with one relief after another."""
 
     def __init__(self, scene: Scene, store: GearStore):
-        self.scene, self.pair, self._store = scene, model(scene).pair, store
+        self.scene, self.pair, self._store = scene, model_of(scene).pair, store
 
     def torque(self, load: float | np.ndarray = 1.0) -> float | np.ndarray:
         """Couple on the wheel, N m, at a `load` in parts of the scene's."""

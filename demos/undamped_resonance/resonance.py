@@ -24,7 +24,7 @@ def main(arguments: list[str] | None = None) -> int:
 def compute(study: Path, directory: Path) -> int:
     """Run what is missing of a study; the exit code, words on failures to the error output."""
     from fenics_gears.errors import ComputationError, GearsError
-    from fenics_gears.progress import SilentProgress
+    from fenics_gears.system.progress import SilentProgress
     from fenics_gears.studies.run_study import run_study
 
     try:
@@ -43,7 +43,7 @@ def picture(directory: Path) -> Path:
     """Draw the study that lies in a directory, and save the picture there."""
     from demos.undamped_resonance.drawing import draw
     from demos.undamped_resonance.sweeps import sweeps
-    from fenics_gears.output import written_aside
+    from fenics_gears.system.output import written_aside
     from fenics_gears.show.panels import DOTS_PER_INCH
 
     figure = draw(sweeps(directory))

@@ -38,8 +38,8 @@ def accuracy(options: argparse.Namespace) -> int:
 
 
 def _print(report, files) -> None:
-    from fenics_gears.console import print_rows, print_table
     from fenics_gears.studies.accuracy import table
+    from fenics_gears.system.console import print_rows, print_table
 
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
     print_table(title, [table.HEADINGS, table.UNITS], table.table_rows(report))

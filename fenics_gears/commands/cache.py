@@ -15,8 +15,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def cache(options: argparse.Namespace) -> int:
     """Print the state of the cache, or empty it and print what was removed."""
-    from fenics_gears.console import print_rows
     from fenics_gears.elasticity.cache import user_cache
+    from fenics_gears.system.console import print_rows
 
     kept = user_cache()
     if options.clear:

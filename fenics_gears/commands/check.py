@@ -16,10 +16,10 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def check(options: argparse.Namespace) -> int:
     """Print the description of a scene and its effects."""
-    from fenics_gears.console import print_rows
+    from fenics_gears.system.console import print_rows
 
     scene = checked_scene(options.scene)
-    from fenics_gears.description import describe
+    from fenics_gears.model.description import describe
 
     description = describe(scene)
     print(f"{scene.title}\n")
@@ -31,7 +31,7 @@ def check(options: argparse.Namespace) -> int:
 
 def effect_rows(scene) -> list[tuple[str, str, str]]:
     """Each effect: on with what it adds, off with what the model is without it."""
-    from fenics_gears.description import effect_states
+    from fenics_gears.model.description import effect_states
 
     rows = []
     for state in effect_states(scene):

@@ -32,8 +32,8 @@ def effects(options: argparse.Namespace) -> int:
 
 
 def _print(report, files) -> None:
-    from fenics_gears.console import print_rows, print_table
     from fenics_gears.studies.effect_lattice import table
+    from fenics_gears.system.console import print_rows, print_table
 
     heading = f"{report.scene.title}: effects, one more than the bare scene and one less than all"
     print_table(heading, [table.HEADINGS, table.UNITS], table.table_rows(report))

@@ -21,7 +21,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def export(options: argparse.Namespace) -> int:
     """Write a run's table of curves."""
-    from fenics_gears.output import check_writable, written_aside
+    from fenics_gears.system.output import check_writable, written_aside
 
     file = run_file(options.run)
     output = options.output or file.parent / CURVES_FILE

@@ -30,7 +30,7 @@ def import_rexs(options: argparse.Namespace) -> int:
     choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
     imported = imported_scene(options.file, choice)
     _check_scene(imported, options.file, output)
-    from fenics_gears.output import written_aside
+    from fenics_gears.system.output import written_aside
 
     written: list[Path] = []
     with written_aside(output.parent, written) as aside:
@@ -42,7 +42,7 @@ def import_rexs(options: argparse.Namespace) -> int:
 
 def _check_output(output: Path) -> None:
     """A scene is the user's own work: none is overwritten."""
-    from fenics_gears.output import check_writable
+    from fenics_gears.system.output import check_writable
 
     check_writable(output.parent)
     if output.suffix != ".toml":
@@ -53,8 +53,8 @@ def _check_output(output: Path) -> None:
 
 def _check_scene(imported, file: Path, output: Path) -> None:
     """What the file says makes a scene and gears that mesh. Raises SceneError, which also says what had to be assumed."""
-    from fenics_gears.geometry.modification import removals
     from fenics_gears.geometry.pair import gear_pair
+    from fenics_gears.model.modification import removals
     from fenics_gears.scene.read import scene_from_text
 
     source = f"{file} as a scene"

@@ -8,7 +8,7 @@ from pathlib import Path
 from fenics_gears.commands.scene_file import checked_scene_and_directory
 from fenics_gears.commands.told_progress import told_progress
 from fenics_gears.errors import SceneError
-from fenics_gears.job import communicator
+from fenics_gears.system.job import communicator
 
 
 def scene_to_measure(options, command: str):
@@ -32,8 +32,8 @@ def measured(measure: Callable, quiet: bool):
 
 def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
     """Write `name`.csv by `write_csv(report, file)` and `name`.png, the figure `draw(report)`; return the files."""
-    from fenics_gears.output import written_aside
     from fenics_gears.show.plots import save_figure
+    from fenics_gears.system.output import written_aside
 
     written: list[Path] = []
     with written_aside(directory, written) as aside:
@@ -44,7 +44,7 @@ def write_report(report, directory: Path, name: str, write_csv: Callable, draw: 
 
 def print_origin(report, files: list[Path]) -> None:
     """The end of a report: what it was measured on, and its files."""
-    from fenics_gears.console import print_rows
+    from fenics_gears.system.console import print_rows
 
     print_rows("Measured on", [(name, words, "") for name, words in report.machine.items()])
     print_rows("Files", [("", str(file), "") for file in files])

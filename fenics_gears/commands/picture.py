@@ -32,7 +32,7 @@ def picture(options: argparse.Namespace) -> int:
     drawn = options.animate or options.output is not None or options.vtu is None and options.pvd is None
     _check_outputs(options, output if drawn else None)
     dataset, scene = _loaded(file)
-    from fenics_gears.results.stored_forces import stored_index
+    from fenics_gears.simulation.stored_forces import stored_index
 
     index = stored_index(dataset, options.at)
     progress = told_progress(options.quiet)
@@ -48,8 +48,8 @@ def picture(options: argparse.Namespace) -> int:
 
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    from fenics_gears.output import written_aside
-    from fenics_gears.run_stresses import RunStresses
+    from fenics_gears.simulation.run_stresses import RunStresses
+    from fenics_gears.system.output import written_aside
 
     written: list[Path] = []
     with RunStresses(dataset, scene) as runs:
@@ -68,8 +68,8 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
 
 
 def _series(runs, dataset, collection: Path, progress) -> Path:
-    from fenics_gears.output import written_aside
     from fenics_gears.show.stress_series import save_series
+    from fenics_gears.system.output import written_aside
 
     progress.stage("recover stresses")
     with written_aside(collection.parent, []) as aside:
@@ -104,7 +104,7 @@ def _loaded(file: Path):
 
 
 def _check_outputs(options, output: Path | None) -> None:
-    from fenics_gears.output import check_writable
+    from fenics_gears.system.output import check_writable
 
     for path in (output, options.vtu, options.pvd):
         if path is not None:

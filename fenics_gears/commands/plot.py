@@ -19,7 +19,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def plot(options: argparse.Namespace) -> int:
     """Draw a run's pictures."""
-    from fenics_gears.output import check_writable
+    from fenics_gears.system.output import check_writable
 
     file = run_file(options.run)
     directory = options.output or file.parent

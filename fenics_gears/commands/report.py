@@ -81,7 +81,7 @@ def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
 
 
 def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
-    from fenics_gears.output import check_writable
+    from fenics_gears.system.output import check_writable
 
     check_writable(output.parent)
     if output.is_dir():
@@ -92,13 +92,13 @@ def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
 
 def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
     from fenics_gears import results
-    from fenics_gears.show.run import Run
     from fenics_gears.show.report.run_page import run_page
+    from fenics_gears.show.run import Run
 
     run = Run(_read(results.load, file), file, at=options.at, stress=not options.no_stress)
     written = []
     if options.at is not None and run.steps:
-        from fenics_gears.results.stored_forces import stored_index
+        from fenics_gears.simulation.stored_forces import stored_index
 
         stored_index(run.dataset, options.at)
     if options.effects:
@@ -124,10 +124,10 @@ def _read(load, file: Path):
 def _measure_effects(run, progress) -> list[Path]:
     """Measure the effects of the run's scene, and write what `gears effects` writes beside it."""
     from fenics_gears.commands.measuring import write_report
-    from fenics_gears.job import communicator
     from fenics_gears.show.effect_costs import effect_costs
     from fenics_gears.studies.effect_lattice.measured import measure
     from fenics_gears.studies.effect_lattice.table import write_csv
+    from fenics_gears.system.job import communicator
 
     if run.scene is None:
         raise SceneError(
@@ -139,8 +139,8 @@ def _measure_effects(run, progress) -> list[Path]:
 
 
 def _write(page, output: Path) -> list[Path]:
-    from fenics_gears.output import written_aside
     from fenics_gears.show.report.rendering import rendered
+    from fenics_gears.system.output import written_aside
 
     text = rendered(page)
     written: list[Path] = []

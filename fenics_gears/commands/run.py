@@ -12,9 +12,9 @@ from fenics_gears.commands.exit_codes import INTERRUPTED, NO_MEANING
 from fenics_gears.commands.scene_file import add_output_argument, add_scene_argument, checked_scene_and_directory
 from fenics_gears.commands.told_progress import told_progress
 from fenics_gears.errors import ComputationError
-from fenics_gears.interruption import Interruption
-from fenics_gears.job import communicator
 from fenics_gears.show import PICTURE_FILES
+from fenics_gears.system.interruption import Interruption
+from fenics_gears.system.job import communicator
 
 RUN_FILE = "run.nc"
 
@@ -34,11 +34,11 @@ def run(options: argparse.Namespace) -> int:
     # Every rank has now found the scene and the directory right, and none leaves the others waiting.
     comm = communicator()
     if comm is not None and comm.rank > 0:
-        from fenics_gears.simulation import assist
+        from fenics_gears.simulation.simulate import assist
 
         assist(scene, comm)
         return 0
-    from fenics_gears.simulation import simulate
+    from fenics_gears.studies.simulate import simulate
 
     with Interruption(told_progress(options.quiet)) as interruption:
         try:
@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
     if last_words:
         print(last_words, file=sys.stderr)
         return INTERRUPTED
-    from fenics_gears import validity
+    from fenics_gears.results import validity
 
     worthless = [said for said in dataset.attrs.get("warnings", "").splitlines() if validity.NO_MEANING in said]
     if worthless:
@@ -75,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
 def _save(dataset, directory: Path, interruption: Interruption) -> Path:
     """Write the result where no Ctrl-C can lose it, and return its file."""
     from fenics_gears import results
-    from fenics_gears.output import written_aside
+    from fenics_gears.system.output import written_aside
 
     interruption.ignore()
     written: list[Path] = []
@@ -94,8 +94,8 @@ def _kept(dataset, file: Path) -> str:
 
 
 def _print_summary(title: str, dataset, files: Sequence[Path], stages: Sequence[tuple[str, float]]) -> None:
-    from fenics_gears.console import print_rows
-    from fenics_gears.summary import summary_rows
+    from fenics_gears.results.summary import summary_rows
+    from fenics_gears.system.console import print_rows
 
     print_rows(title, summary_rows(dataset, stages))
     print_rows("Files", [("", str(file), "") for file in files])

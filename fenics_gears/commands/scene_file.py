@@ -13,8 +13,8 @@ def checked_scene(path: Path):
 
     scene = load_scene(path)
     from fenics_gears.effects import check_files
-    from fenics_gears.geometry.modification import corner, removals
     from fenics_gears.geometry.pair import gear_pair
+    from fenics_gears.model.modification import corner, removals
 
     try:
         pair = gear_pair(scene.gears)
@@ -28,7 +28,7 @@ def checked_scene(path: Path):
 
 def checked_scene_and_directory(options):
     """The scene of a command's options, found right, and the directory to write into, found writable. Raises as `checked_scene` does."""
-    from fenics_gears.output import check_writable
+    from fenics_gears.system.output import check_writable
 
     scene = checked_scene(options.scene)
     directory = options.output or Path("results") / scene.name

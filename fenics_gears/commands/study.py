@@ -36,7 +36,7 @@ def study(options: argparse.Namespace) -> int:
         return 0
     pictures = [] if outcome.interrupted else draw_study(outcome.file)
     if not options.quiet:
-        from fenics_gears.console import print_rows
+        from fenics_gears.system.console import print_rows
 
         print_rows(outcome.study.title, summary_rows(outcome))
         print_rows("Files", [("", str(file), "") for file in (outcome.file, *pictures)])

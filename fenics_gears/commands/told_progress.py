@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 
-from fenics_gears.console import on_terminal
-from fenics_gears.progress import BarProgress, LineProgress, Progress, SilentProgress
+from fenics_gears.system.console import on_terminal
+from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 
 def told_progress(quiet: bool) -> Progress:

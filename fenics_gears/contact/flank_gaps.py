@@ -14,9 +14,9 @@ import numpy as np
 from fenics_gears.contact.interpolation import hat_average, quadrature_offsets
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
-from fenics_gears.effects.flank_errors import FlankErrors
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
+from fenics_gears.geometry.flank_error_data import FlankErrors
 from fenics_gears.geometry.involute import roll_angle_at_height
 from fenics_gears.geometry.pair import GearPair
 

@@ -166,8 +166,8 @@ class Cycle:
 
     def _pairs_of(self, index: float) -> tuple[PairNodes, ...]:
         places = pair_places(self.pair, self.grid, index / self.steps, self.coast_flanks, self.corner)
-        built = (self._pair(place) for place in places)
-        return tuple(pair for pair in built if pair is not None)
+        model = (self._pair(place) for place in places)
+        return tuple(pair for pair in model if pair is not None)
 
     def _pair(self, place: Place) -> PairNodes | None:
         raise NotImplementedError

@@ -14,7 +14,6 @@ import numpy as np
 from fenics_gears.contact.compliance_product import compliance_product, directions
 from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, ToothPair
-from fenics_gears.elasticity.compliance import FlankCompliance
 
 # The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
 # coordinate is a length and every row a force, and no equation is scaled against another. The output shaft's end goes by its

@@ -13,7 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import per_node
-from fenics_gears.effects.eccentricity import Eccentricity, Offset
+from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.geometry.pair import GearPair
 
 

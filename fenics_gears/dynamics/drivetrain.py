@@ -5,17 +5,19 @@ Rotations are carried as arc lengths rb phi (mm), so that all coordinates are le
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES
-from fenics_gears.effects.damping import RAYLEIGH
-from fenics_gears.effects.shafts import Shafts
+from fenics_gears.dynamics.drivetrain_data import RAYLEIGH, Bearings, Damping, Inertia, Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
-from fenics_gears.scene.data import Scene
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.gear_inertia import LumpedGear
 
 # The load's moment of inertia over the wheel's: their sum keeps six digits of the wheel's.
 MOST_OF_WHEEL = 1e10
@@ -81,26 +83,40 @@ class Drivetrain:
         return states[..., position] / self.radii[position]
 
 
-def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
-    """The drivetrain that the scene's sections call for; what no section frees does not appear.
+@dataclass(frozen=True)
+class Supports:
+    """What moves and resists in a drivetrain; None for what a scene does not have. `gears`: "pinion" and "wheel" as lumped masses, with `inertia`."""
 
-    Raises SceneError for a load so heavy that the wheel is nothing beside it.
+    shafts: Shafts | None = None
+    bearings: Bearings | None = None
+    inertia: Inertia | None = None
+    gears: Mapping[str, LumpedGear] = field(default_factory=dict)
+    damping: Damping | None = None
+
+
+def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
+    """The drivetrain of a pair under a torque (N mm) on the wheel's shaft; what nothing frees does not appear.
+
+    `mesh_stiffness`, N/mm: of one tooth pair, roughly; damping ratios are of the modes with it. Raises SceneError for a load so heavy that
+    the wheel is nothing beside it.
     """
-    names = _moving_coordinates(scene)
+    names = _moving_coordinates(supports)
     radius = {"rotation_1": pair.pinion.base_radius, "rotation_2": pair.wheel.base_radius, "shaft_twist": pair.wheel.base_radius}
     radii = np.array([radius.get(name, 1.0) for name in names])
     stiffness, mass = np.zeros((len(names), len(names))), None
-    if scene.bearings is not None:
+    if supports.bearings is not None:
         for name, (gear, direction) in TRANSLATIONS.items():
-            stiffness[names.index(name), names.index(name)] = scene.bearings.of(gear, direction)
-    if scene.shafts is not None:
-        _add_torsion(stiffness, names, scene.shafts)
-    if scene.inertia is not None:
-        mass = _mass(names, scene, pair)
+            stiffness[names.index(name), names.index(name)] = supports.bearings.of(gear, direction)
+    if supports.shafts is not None:
+        _add_torsion(stiffness, names, supports.shafts)
+    if supports.inertia is not None:
+        mass = _mass(names, supports.inertia, supports.gears)
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
-    undamped = Drivetrain(names, radii, stiffness, of_couple(names, radii, scene.load.wheel_torque), mass, damping=None)
-    return undamped if scene.damping is None or mass is None else replace(undamped, damping=_damping(scene, undamped))
+    undamped = Drivetrain(names, radii, stiffness, of_couple(names, radii, wheel_torque), mass, damping=None)
+    if supports.damping is None or mass is None:
+        return undamped
+    return replace(undamped, damping=_damping(supports.damping, undamped, mesh_stiffness))
 
 
 def of_couple(names: tuple[str, ...], radii: np.ndarray, couple: float) -> np.ndarray:
@@ -108,11 +124,11 @@ def of_couple(names: tuple[str, ...], radii: np.ndarray, couple: float) -> np.nd
     return np.array([couple if name in ("rotation_2", "shaft_twist") else 0.0 for name in names]) / radii
 
 
-def _moving_coordinates(scene: Scene) -> tuple[str, ...]:
+def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
     moving = {"rotation_2"}
-    if scene.bearings is not None:
+    if supports.bearings is not None:
         moving.update(TRANSLATIONS)
-    if scene.shafts is not None:
+    if supports.shafts is not None:
         moving.update(("rotation_1", "shaft_twist"))
     return tuple(name for name in CENTRE_COORDINATES if name in moving)
 
@@ -123,11 +139,9 @@ def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], shafts: Shafts) 
         stiffness[names.index(name), names.index(name)] += shafts.of(shaft)
 
 
-def _mass(names: tuple[str, ...], scene: Scene, pair: GearPair) -> np.ndarray:
+def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGear]) -> np.ndarray:
     """Lumped masses; J3 phi3'' with phi3 = phi2 + twist couples the wheel's rotation with the twist."""
-    from fenics_gears.dynamics.gear_inertia import lumped_gears
-
-    gears, end = lumped_gears(scene, pair), scene.inertia.shaft_end
+    end = inertia.shaft_end
     lumped = {name: gears[gear].mass if name in TRANSLATIONS else gears[gear].moment_of_inertia for name, gear in SIDE.items()}
     mass, second = np.diag([lumped[name] for name in names]), names.index("rotation_2")
     if "shaft_twist" in names:
@@ -136,8 +150,8 @@ def _mass(names: tuple[str, ...], scene: Scene, pair: GearPair) -> np.ndarray:
         mass[twist, twist] = end
         mass[second, second] += end
         mass[second, twist] = mass[twist, second] = end
-    elif scene.inertia.load is not None:
-        mass[second, second] += scene.inertia.load
+    elif inertia.load is not None:
+        mass[second, second] += inertia.load
     return mass
 
 
@@ -150,12 +164,12 @@ def _check_load(end: float, wheel: float) -> None:
         )
 
 
-def _damping(scene: Scene, undamped: Drivetrain) -> np.ndarray:
+def _damping(damping: Damping, undamped: Drivetrain, mesh_stiffness: float) -> np.ndarray:
     """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh."""
-    if scene.damping.ratios:
+    if damping.ratios:
         from fenics_gears.dynamics.modal_damping import modal_damping
 
-        return modal_damping(undamped, mesh_stiffness(scene), scene.damping.ratios)
+        return modal_damping(undamped, mesh_stiffness, damping.ratios)
     # No spring and no mass joins both sides of the mesh: a row's factors are its column's too.
-    alpha, beta = (np.array([[scene.damping.of(SIDE[name], each)] for name in undamped.coordinates]) for each in RAYLEIGH)
+    alpha, beta = (np.array([[damping.of(SIDE[name], each)] for name in undamped.coordinates]) for each in RAYLEIGH)
     return alpha * undamped.stiffness + beta * undamped.mass

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from fenics_gears.dynamics.drivetrain import Drivetrain, of_couple
-from fenics_gears.effects.torque_ripple import TorqueRipple
+from fenics_gears.dynamics.torque_ripple_data import TorqueRipple
 
 
 def couple(ripple: TorqueRipple, angles: Sequence[float]) -> np.ndarray:

@@ -3,43 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
+from fenics_gears.dynamics.drivetrain_data import Bearings, Support
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import GEARS, Tree, table
+from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, Tree, table
 
 DIRECTIONS = ("x", "y")
-
-
-@dataclass(frozen=True)
-class Support:
-    """Translational stiffness of one shaft's support, N/mm: in every direction, along and off the line of action; None as the other shaft's."""
-
-    stiffness: float | None = None
-    stiffness_x: float | None = None
-    stiffness_y: float | None = None
-
-    def along(self, direction: str) -> float | None:
-        """Stiffness in "x" or "y"; None where it is not given."""
-        own = {"x": self.stiffness_x, "y": self.stiffness_y}[direction]
-        return self.stiffness if own is None else own
-
-
-@dataclass(frozen=True)
-class Bearings(Support):
-    """Support of both shafts, and what `pinion` and `wheel` have of their own."""
-
-    pinion: Support | None = None
-    wheel: Support | None = None
-
-    def of(self, gear: str, direction: str) -> float:
-        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"."""
-        own = getattr(self, gear)
-        stiffness = None if own is None else own.along(direction)
-        return self.along(direction) if stiffness is None else stiffness
 
 
 def _stiffness(meaning: str, otherwise: str):

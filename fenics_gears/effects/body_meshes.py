@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.scene.fields import Section, file_name
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs.fields import Section, file_name
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.written import as_written
 
 GEARS = ("pinion", "wheel")
 # A flank of elements this much longer than those the contact asks for does not resolve it.
@@ -135,14 +135,14 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
 
 def watched(meshes: BodyMeshes, cycle, records) -> dict:
     """Smallest and largest openings (steps,), mm, of the cracks of either gear."""
-    from fenics_gears.results.crack_openings import crack_openings
+    from fenics_gears.dynamics.crack_openings import crack_openings
 
     return crack_openings(cycle, records)
 
 
 def findings(meshes: BodyMeshes, watched) -> list[str]:
     """Sentences on cracks that a run would have closed."""
-    from fenics_gears.results.crack_openings import closed_cracks
+    from fenics_gears.dynamics.crack_openings import closed_cracks
 
     return closed_cracks(watched)
 

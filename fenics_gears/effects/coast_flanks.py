@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
-from fenics_gears.scene.fields import Section
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, quantity_in, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs.fields import Section
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, quantity_in, table
+from fenics_gears.inputs.written import as_written
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.scene.fields import Section, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
+from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, table
 
 
 @dataclass(frozen=True)

@@ -3,41 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
+from fenics_gears.dynamics.drivetrain_data import MODAL, RAYLEIGH, Damping, Rayleigh
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, number, numbers, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import GEARS, Tree, material_sections, quantity_in, table
-from fenics_gears.scene.written import as_written
-
-RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
-
-
-@dataclass(frozen=True)
-class Rayleigh:
-    """Rayleigh damping of a shaft with its gear: alpha K + beta M, alpha in s, beta in 1/s; None as of both shafts."""
-
-    stiffness_proportional: float | None = None
-    mass_proportional: float | None = None
-
-
-@dataclass(frozen=True)
-class Damping(Rayleigh):
-    """Rayleigh damping of both shafts and what `pinion` and `wheel`, each with its shaft, have of their own; or `ratios` alone.
-
-    `ratios`: of the critical damping, by mode from the lowest frequency on; the last holds for all that follow.
-    """
-
-    pinion: Rayleigh | None = None
-    wheel: Rayleigh | None = None
-    ratios: tuple[float, ...] = ()
-
-    def of(self, gear: str, name: str) -> float:
-        """`name` of alpha and beta, of the shaft of the "pinion" or of the "wheel"."""
-        own = getattr(getattr(self, gear), name, None)
-        return getattr(self, name) if own is None else own
+from fenics_gears.inputs.fields import Section, number, numbers, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, Tree, material_sections, quantity_in, table
+from fenics_gears.inputs.written import as_written
 
 
 def _stiffness_proportional(otherwise: str):

@@ -3,34 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import lcm
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.scene.fields import Section, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table, too_large_for_the_module
-
-
-@dataclass(frozen=True)
-class Offset:
-    """Where the centre of a gear's base circle lies from its axis of rotation: distance, mm, and phase, rad.
-
-    The phase is the angle from the line of action's direction, pinion to wheel, at the start of the first mesh cycle, counted in
-    the gear's own sense of rotation.
-    """
-
-    distance: float
-    phase: float
-
-
-@dataclass(frozen=True)
-class Eccentricity:
-    """Run-out of the pair; a gear that runs true has None."""
-
-    pinion: Offset | None
-    wheel: Offset | None
+from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
+from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, table, too_large_for_the_module
 
 
 class OffsetText(Section):

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.scene.fields import Section
-from fenics_gears.scene.problem import Problem
-
+from fenics_gears.inputs.fields import Section
+from fenics_gears.inputs.problem import Problem
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are stored.
 OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)

@@ -8,17 +8,18 @@ in the order in which they mesh, from the tooth of either gear that meshes first
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import lcm
 from pathlib import Path
 from typing import Any, Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.errors import SceneError
-from fenics_gears.scene.fields import Section, file_name, quantities, quantity, whole_number
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import LARGEST_ERROR, Tree, quantity_in, table, teeth_in, too_large_for_the_module
-from fenics_gears.scene.written import as_written
+from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
+from fenics_gears.inputs.fields import Section, file_name, quantities, quantity, whole_number
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import LARGEST_ERROR, Tree, quantity_in, table, teeth_in, too_large_for_the_module
+from fenics_gears.inputs.written import as_written
 
 GEARS = ("pinion", "wheel")
 LISTS = ("pitch", "profile_slope", "profile_form")
@@ -26,40 +27,6 @@ LISTS = ("pitch", "profile_slope", "profile_form")
 PITCH_ROUNDING = 0.05e-3
 # Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
 DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
-
-
-@dataclass(frozen=True)
-class Waviness:
-    """Undulation of all flanks of a gear, ``amplitude`` mm, ``waves`` a turn, ``phase`` in rad."""
-
-    amplitude: float
-    waves: int
-    phase: float
-
-
-@dataclass(frozen=True)
-class GearErrors:
-    """What is given of one gear's errors, mm, a value for each tooth; None for what is not given.
-
-    ``file``: the table that values are from; ``problem``: what is wrong with it, in words, empty where nothing is.
-    """
-
-    pitch: tuple[float, ...] | None = None
-    profile_slope: tuple[float, ...] | None = None
-    profile_form: tuple[float, ...] | None = None
-    waviness: Waviness | None = None
-    file: str | None = None
-    problem: str = ""
-
-
-@dataclass(frozen=True)
-class FlankErrors:
-    """Errors of both gears' drive flanks; what is not given is drawn within a flank tolerance class, zero without one."""
-
-    pinion: GearErrors = GearErrors()
-    wheel: GearErrors = GearErrors()
-    tolerance_class: int | None = None
-    seed: int = 1
 
 
 DRAWN = "drawn within the tolerance class, none without one"

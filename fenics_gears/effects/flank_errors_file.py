@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 
-from fenics_gears.scene import units
-from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.synonyms import meant
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs import units
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.synonyms import meant
+from fenics_gears.inputs.written import as_written
 
 TOOTH = "tooth"
 EXAMPLE = "tooth, pitch (um), profile_slope (um)"

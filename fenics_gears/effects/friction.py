@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
-from fenics_gears.scene.fields import Section, number
+from fenics_gears.inputs.fields import Section, number
 
 
 @dataclass(frozen=True)

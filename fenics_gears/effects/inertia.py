@@ -3,46 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
+from fenics_gears.dynamics.drivetrain_data import LUMPED, GearInertia, Inertia
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import GEARS, Tree, table
-from fenics_gears.scene.written import as_written
-
-LUMPED = ("mass", "moment_of_inertia")
-
-
-@dataclass(frozen=True)
-class GearInertia:
-    """Mass, N s^2/mm, and moment of inertia, N mm s^2, of a gear; where one is None, it is that of its body of `density`, N s^2/mm^4."""
-
-    mass: float | None = None
-    moment_of_inertia: float | None = None
-    density: float | None = None
-
-
-@dataclass(frozen=True)
-class Inertia(GearInertia):
-    """Of both gears, what `pinion` and `wheel` have of their own, and the moment of inertia of the `load` (None: as of both gears)."""
-
-    pinion: GearInertia | None = None
-    wheel: GearInertia | None = None
-    load: float | None = None
-
-    def of(self, gear: str) -> GearInertia:
-        """What the "pinion" or the "wheel" has; of its own, by its own density, or as of both."""
-        own = getattr(self, gear) or GearInertia()
-        if own.density is not None:
-            return own
-        return GearInertia(*(getattr(self if getattr(own, name) is None else own, name) for name in LUMPED), self.density)
-
-    @property
-    def shaft_end(self) -> float | None:
-        """Moment of inertia (N mm s^2) at the far end of the output shaft."""
-        return self.moment_of_inertia if self.load is None else self.load
+from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, Tree, table
+from fenics_gears.inputs.written import as_written
 
 
 def _mass(meaning: str, otherwise: str):

@@ -3,35 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Literal, Optional
 
-from fenics_gears.scene import units
-from fenics_gears.scene.fields import Measured, Section, choice, either, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief
+from fenics_gears.inputs import units
+from fenics_gears.inputs.fields import Measured, Section, choice, either, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.written import as_written
 
-LINEAR, PARABOLIC = "linear", "parabolic"
 GEARS = ("pinion", "wheel")
 # Steps of a block, those that press a node hardest, whose pressure is looked at.
 STEPS_JUDGED = 4
-
-
-@dataclass(frozen=True)
-class Relief:
-    """Relief of one gear: depth at its end, mm; start as a roll angle in rad, a diameter or a length in mm, none for the usual place.
-
-    ``shape``: "linear" or "parabolic" in the roll angle, from the start to the end. ``length_on_path``: from the start to the end, on
-    the path of contact (ISO 21771, where profile charts have it); ``length_on_flank``: the same along the involute.
-    """
-
-    depth: float
-    start_roll_angle: float | None
-    shape: str = LINEAR
-    start_diameter: float | None = None
-    length_on_path: float | None = None
-    length_on_flank: float | None = None
 
 
 def start_field(word: str, word_meaning: str) -> Any:

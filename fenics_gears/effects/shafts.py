@@ -3,36 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
+from fenics_gears.dynamics.drivetrain_data import Shaft, Shafts
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, table
+from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, table
 
 SHAFTS = ("input", "output")
-
-
-@dataclass(frozen=True)
-class Shaft:
-    """Torsional stiffness of one shaft, N mm/rad."""
-
-    torsional_stiffness: float
-
-
-@dataclass(frozen=True)
-class Shafts:
-    """Torsional stiffness, N mm/rad, of either shaft that has none of its own, and what `input` and `output` have."""
-
-    torsional_stiffness: float | None = None
-    input: Shaft | None = None
-    output: Shaft | None = None
-
-    def of(self, shaft: str) -> float:
-        """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft."""
-        own = getattr(self, shaft)
-        return self.torsional_stiffness if own is None else own.torsional_stiffness
 
 
 def _stiffness(meaning: str, otherwise: str = ""):

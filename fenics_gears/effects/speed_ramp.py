@@ -8,10 +8,10 @@ from math import inf
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene.fields import Section, quantity, whole_number
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, quantity_in, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs.fields import Section, quantity, whole_number
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, quantity_in, table
+from fenics_gears.inputs.written import as_written
 
 
 @dataclass(frozen=True)

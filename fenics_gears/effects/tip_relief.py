@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import GEARS, Relief, TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree
-
-
-@dataclass(frozen=True)
-class TipRelief:
-    """Tip relief of the pair; a gear without relief has None."""
-
-    pinion: Relief | None
-    wheel: Relief | None
+from fenics_gears.effects.relief import GEARS, TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
+from fenics_gears.geometry.relief_data import TipRelief
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree
 
 
 class TipReliefText(TipReliefOfGearText):

@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Optional
 
 from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
-from fenics_gears.scene.fields import Section, number, quantity
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import GEARS, Tree, material_sections, table
-
-
-@dataclass(frozen=True)
-class Material:
-    """Isotropic linear elasticity; Young's modulus in MPa."""
-
-    youngs_modulus: float
-    poissons_ratio: float
+from fenics_gears.geometry.gear_data import Material
+from fenics_gears.inputs.fields import Section, number, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
 
 
 def _youngs_modulus(otherwise: str = ""):

@@ -11,13 +11,14 @@ from typing import Any
 from pydantic import Field
 from pydantic_core import PydanticCustomError
 
+from fenics_gears.dynamics.torque_ripple_data import Harmonic, TorqueRipple
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.scene import units
-from fenics_gears.scene.fields import Allowed, Section, out_of_range, refused
-from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.problem import Problem
-from fenics_gears.scene.tree import Tree, quantity_in, table
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs import units
+from fenics_gears.inputs.fields import Allowed, Section, out_of_range, refused
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, quantity_in, table
+from fenics_gears.inputs.written import as_written
 
 HIGHEST_ORDER = 1e6
 MOST_HARMONICS = 1000
@@ -25,22 +26,6 @@ MOST_HARMONICS = 1000
 FINEST_PART_OF_ORDER = 1000
 # Bounds of amplitude and phase, and what they are written like.
 QUANTITIES = {"amplitude": ("1e-12 N m", "1e12 N m", "20 N m"), "phase": ("-360 deg", "360 deg", "30 deg")}
-
-
-@dataclass(frozen=True)
-class Harmonic:
-    """amplitude cos(order theta + phase), N mm and rad, with theta the angle that the wheel's shaft has turned since the start."""
-
-    order: float
-    amplitude: float
-    phase: float = 0.0
-
-
-@dataclass(frozen=True)
-class TorqueRipple:
-    """What adds to the couple on the wheel's shaft."""
-
-    harmonics: tuple[Harmonic, ...]
 
 
 @dataclass(frozen=True)

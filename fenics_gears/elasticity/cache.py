@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears.errors import SceneError
-from fenics_gears.sealed import seal, unsealed
+from fenics_gears.system.sealed import seal, unsealed
 
 LOGGER = logging.getLogger(__name__)
 DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"

@@ -14,7 +14,7 @@ from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.packed_symmetric import packed, unpacked
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.scene.data import Material
+from fenics_gears.geometry.gear_data import Material
 
 # To be raised by one whenever the same inputs give other numbers.
 ALGORITHM_VERSION = 8

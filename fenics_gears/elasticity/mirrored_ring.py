@@ -11,11 +11,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dpotri
 
-from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
 from fenics_gears.elasticity.cut_chain import Run
 from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.half_sector import centreline_direction
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import cut_response, turned_nodes
 from fenics_gears.errors import ComputationError

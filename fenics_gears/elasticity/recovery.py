@@ -21,7 +21,7 @@ from fenics_gears.elasticity.ring import check_congruent, rotation
 from fenics_gears.elasticity.sector_interior import SectorInterior, dofs_of
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.scene.data import Material
+from fenics_gears.geometry.gear_data import Material
 
 
 @dataclass(frozen=True)

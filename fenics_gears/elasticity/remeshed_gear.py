@@ -19,8 +19,8 @@ from fenics_gears.elasticity.sector_boundary import flank_through
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.superelement import Superelement, closed, joined, of_sector, run_of
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.involute import canonical_point
-from fenics_gears.scene.data import Material
 
 NO_NODES = np.empty((0, 2))
 

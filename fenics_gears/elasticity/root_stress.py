@@ -14,7 +14,7 @@ from fenics_gears.elasticity.cache import Cache, content_key
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, element_sizes
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.scene.data import Material
+from fenics_gears.geometry.gear_data import Material
 
 # To be raised by one whenever the same inputs give other numbers.
 ROWS_VERSION = 1

@@ -11,7 +11,7 @@ from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.scene.data import Material
+from fenics_gears.geometry.gear_data import Material
 
 
 def whole_gear_compliance(

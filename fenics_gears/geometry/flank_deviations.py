@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.effects.flank_errors import FlankErrors, GearErrors, Waviness
+from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
 from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair

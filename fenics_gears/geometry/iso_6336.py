@@ -10,8 +10,8 @@ from math import degrees
 
 import numpy as np
 
+from fenics_gears.geometry.gear_data import GearPairData
 from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
-from fenics_gears.scene.data import GearPairData
 
 STEEL_YOUNGS_MODULUS = 206e3
 # The standard's tooth stiffness falls below this line load (N/mm), as its root of the fourth degree.
@@ -37,7 +37,7 @@ def single_stiffness(gears: GearPairData) -> tuple[float, float]:
 def pair_stiffness(gears: GearPairData, line_load: float) -> float:
     """c' b (N/mm) of one pair of the scene's materials, over the width at which they meet, under a line load (N/mm)."""
     low = (line_load / FULL_LINE_LOAD) ** 0.25 if 0.0 < line_load < FULL_LINE_LOAD else 1.0
-    of_material = mean_youngs_modulus(gears) / STEEL_YOUNGS_MODULUS
+    of_material = mean_youngs_modulus(gears.materials) / STEEL_YOUNGS_MODULUS
     return single_stiffness(gears)[1] * 1e3 * gears.face_width * of_material * low
 
 

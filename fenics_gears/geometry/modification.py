@@ -6,10 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.effects import effects_on
-from fenics_gears.geometry.pair import GearPair
-from fenics_gears.scene.data import Scene
-
 
 @dataclass(frozen=True)
 class Removals:
@@ -20,23 +16,3 @@ class Removals:
     def __call__(self, roll_angle) -> np.ndarray:
         """Removal (mm) at roll angles (rad, any shape) by all of them together."""
         return sum(part(roll_angle) for part in self.parts)
-
-
-def corner(scene: Scene, pair: GearPair):
-    """How the scene's tips touch off the line of action, as contact sees it; None where no effect says so.
-
-    Raises GeometryError for an edge that does not fit a tip.
-    """
-    found = [effect.corner(getattr(scene, effect.section), pair) for effect in effects_on(scene) if effect.corner is not None]
-    return found[0] if found else None
-
-
-def removals(scene: Scene, pair: GearPair) -> tuple:
-    """Material that the scene's effects remove from the drive flanks of pinion and wheel: functions of the roll angle, or None.
-
-    Raises GeometryError where an effect asks for what the flank does not have.
-    """
-    effects = [each for each in effects_on(scene) if each.removal is not None]
-    found = [effect.removal(getattr(scene, effect.section), pair) for effect in effects]
-    parts = [tuple(part for part in of_gear if part is not None) for of_gear in zip(*found)] or [(), ()]
-    return tuple(Removals(of_gear) if len(of_gear) > 1 else (of_gear[0] if of_gear else None) for of_gear in parts)

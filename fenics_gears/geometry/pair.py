@@ -11,9 +11,9 @@ from math import acos, floor, sqrt, tan
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import check_gear
+from fenics_gears.geometry.gear_data import GearData, GearPairData
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 from fenics_gears.geometry.pair_checks import check_pair
-from fenics_gears.scene.data import GearData, GearPairData
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 

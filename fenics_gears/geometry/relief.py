@@ -7,12 +7,10 @@ from math import degrees, isfinite, sqrt
 
 import numpy as np
 
-from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
-from fenics_gears.effects.root_relief import RootRelief
-from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief, RootRelief, TipRelief
 
 POWERS = {LINEAR: 1, PARABOLIC: 2}
 

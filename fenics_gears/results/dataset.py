@@ -16,7 +16,8 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, effects_on, result_variables
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
+from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
@@ -24,8 +25,8 @@ from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate,
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled, settled
-from fenics_gears.storage import ROOT_STRESS
-from fenics_gears.validity import warnings_of, warnings_of_energy
+from fenics_gears.results.validity import warnings_of, warnings_of_energy
+from fenics_gears.scene.data import Scene
 
 GEARS = ("pinion", "wheel")
 
@@ -33,27 +34,27 @@ GEARS = ("pinion", "wheel")
 def dataset(recorder: Recorder, march: March) -> xr.Dataset:
     """What was recorded of a march as a dataset; every variable with units and long name."""
     recorder.finish()
-    built, arrays = recorder.built, dict(recorder.arrays)
+    model, arrays = recorder.model, dict(recorder.arrays)
     result = xr.Dataset(
         {name: (dims, values, labels) for name, dims, values, labels in _variables(recorder, arrays)},
         coords=_coordinates(recorder, arrays),
     )
-    counted = settled(built, max(recorder.steps - 1, 0))
+    counted = settled(model, max(recorder.steps - 1, 0))
     attributes = _attributes(recorder, march, result, counted.first)
-    result = result.assign_attrs(attributes).assign(_contact_points(built, result.assign_attrs(attributes)))
+    result = result.assign_attrs(attributes).assign(_contact_points(model, result.assign_attrs(attributes)))
     attributes = _numbers(recorder, march, result)
     found = [counted.warning] if counted.warning else []
     found += warnings_of(recorder, march, result)
-    found += [*warnings_of_energy(built.scene, shown(result), recorder.cycle.steps), *_undetermined_shares(result)]
-    for effect in effects_on(built.scene):
+    found += [*warnings_of_energy(model.scene, shown(result), recorder.cycle.steps), *_undetermined_shares(result)]
+    for effect in effects_on(model.scene):
         if effect.findings is not None:
-            found += effect.findings(getattr(built.scene, effect.section), recorder.watched)
+            found += effect.findings(getattr(model.scene, effect.section), recorder.watched)
     return result.assign_attrs(attributes, warnings="\n".join(found))
 
 
 def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
     """Name, dimensions, values and labels of each variable."""
-    scene, described = recorder.built.scene, {variable.name: variable for variable in result_variables(recorder.built.scene)}
+    scene, described = recorder.model.scene, {variable.name: variable for variable in result_variables(recorder.model.scene)}
     for name, variable in described.items():
         if name in arrays:
             yield name, variable.dims, arrays[name], {"units": variable.units, "long_name": variable.long_name}
@@ -76,7 +77,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "number_at_phase_0": recorder.first_number,
     }
     coordinates = {
-        "time": ("time", arrays["time"], {"units": "s", "long_name": _time_name(recorder.built.scene)}),
+        "time": ("time", arrays["time"], {"units": "s", "long_name": _time_name(recorder.model.scene)}),
         "mesh_phase": ("time", arrays["mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start"}),
         "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
         "gear": ("gear", list(GEARS), {"long_name": "gear"}),
@@ -101,12 +102,12 @@ def _time_name(scene: Scene) -> str:
     return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
 
 
-def _contact_points(built: Model, result: xr.Dataset) -> dict[str, tuple]:
+def _contact_points(model: Model, result: xr.Dataset) -> dict[str, tuple]:
     """Variables over the points of the path of contact."""
-    described = {variable.name: variable for variable in result_variables(built.scene)}
+    described = {variable.name: variable for variable in result_variables(model.scene)}
     return {
         name: (described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name})
-        for name, values in path_point_values(of_settled(result), built.scene, built.pair).items() if name in described
+        for name, values in path_point_values(of_settled(result), model.scene, model.pair).items() if name in described
     }
 
 
@@ -122,7 +123,7 @@ def _undetermined_shares(result: xr.Dataset) -> list[str]:
 
 
 def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int) -> dict:
-    scene = recorder.built.scene
+    scene = recorder.model.scene
     attributes = {
         "title": scene.title,
         "scene": scene.text,
@@ -150,13 +151,13 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset) -> dict[str, 
     first = recorder.steps - counted.sizes["time"]
     error = counted["transmission_error"].values
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
-    numbers = loss_attributes(lost, first, march.steps, recorder.built.clock)
+    numbers = loss_attributes(lost, first, march.steps, recorder.model.clock)
     numbers["peak_to_peak_transmission_error"] = float(np.ptp(error))
     # The last step begins the next cycle.
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
-    if len(error) > 1 and recorder.built.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
+    if len(error) > 1 and recorder.model.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
         numbers |= _friction_loss(counted)
-    return numbers | key_numbers(counted.assign_attrs(numbers), recorder.built.pair, timed=recorder.built.scene.motion.speed_given)
+    return numbers | key_numbers(counted.assign_attrs(numbers), recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
 
 
 def _friction_loss(counted: xr.Dataset) -> dict[str, float]:

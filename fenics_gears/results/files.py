@@ -10,7 +10,7 @@ import xarray as xr
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.old_layout import upgraded
-from fenics_gears.sealed import seal, unsealed
+from fenics_gears.system.sealed import seal, unsealed
 
 
 def save(result: xr.Dataset, path: str | Path) -> None:

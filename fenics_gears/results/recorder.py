@@ -14,12 +14,12 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
 from fenics_gears.dynamics.march import Record, VaryingLoad
 from fenics_gears.effects import effects_on
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
+from fenics_gears.model.storage import allocated, sizes, stored_arrays
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
 from fenics_gears.results.side_by_side import Layout, SideBySide
-from fenics_gears.storage import allocated, sizes, stored_arrays
 
 if TYPE_CHECKING:
     from fenics_gears.results.root_stress_variables import RootStress
@@ -35,14 +35,14 @@ class Recorder:
     reaches the start of contact as the run begins.
     """
 
-    def __init__(self, built: Model, cycle: Cycle, loads: Sequence[VaryingLoad] | None = None, stress: RootStress | None = None):
-        self.built, self.cycle, self.stress = built, cycle, stress
-        self.loads = built.loads if loads is None else loads
+    def __init__(self, model: Model, cycle: Cycle, loads: Sequence[VaryingLoad] | None = None, stress: RootStress | None = None):
+        self.model, self.cycle, self.stress = model, cycle, stress
+        self.loads = model.loads if loads is None else loads
         places = [[pair.place for pair in cycle.pairs_at(index)] for index in range(cycle.steps)]
         self.first_number = 1 + max((place.index for each in places for place in each), default=0)
         self.slots = max(pairs_at_once(places), 1)
-        self.size = sizes(built.steps + 1, built.contact_steps, self.slots, cycle.grid.nodes)
-        self.arrays = allocated(stored_arrays(built.scene, self.size), self.size)
+        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.nodes)
+        self.arrays = allocated(stored_arrays(model.scene, self.size), self.size)
         self.steps = 0
         self._watched: list[dict[str, np.ndarray]] = []
         self._waiting: list[Record] = []
@@ -61,7 +61,7 @@ class Recorder:
         if self._waiting:
             self._go_over()
         stored = self.size["contact_time"]
-        for name, (dims, _) in stored_arrays(self.built.scene, self.size).items():
+        for name, (dims, _) in stored_arrays(self.model.scene, self.size).items():
             if dims[0] == "contact_time":
                 whole = self.arrays[name]
                 self.arrays[name] = np.roll(whole, -(self.steps % stored), axis=0) if self.steps > stored else whole[: self.steps]
@@ -76,10 +76,10 @@ class Recorder:
 
     def _go_over(self) -> None:
         records = self._waiting
-        scene, cycle = self.built.scene, self.cycle
+        scene, cycle = self.model.scene, self.cycle
         nodes = SideBySide(cycle, records, self._layouts, self.slots, self.first_number)
         steps = np.array([record.step for record in records], dtype=float)
-        times = np.array([self.built.clock.time(step) for step in steps])
+        times = np.array([self.model.clock.time(step) for step in steps])
         values = {"time": times, "mesh_phase": steps / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(records) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:
@@ -116,7 +116,7 @@ class Recorder:
                 array[self.steps : self.steps + count] = values[name]
 
     def _centres(self, records: Sequence[Record]) -> dict[str, np.ndarray]:
-        scene, drivetrain = self.built.scene, self.built.drivetrain
+        scene, drivetrain = self.model.scene, self.model.drivetrain
         states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
 
         def both(first: str, second: str) -> np.ndarray:
@@ -134,10 +134,10 @@ class Recorder:
 
     def _energies(self, records: Sequence[Record]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
         """Energies, and work since the first step of all; and the work at the last: the account goes on from the last record before."""
-        built, before = self.built, [] if self._last is None else [self._last]
+        model, before = self.model, [] if self._last is None else [self._last]
         together = [*before, *records]
-        energies = energy_variables(built.scene, built.drivetrain, together)
-        work = work_variables(built.scene, self.cycle, built.drivetrain, built.clock, self.loads, together, energies["energy"])
+        energies = energy_variables(model.scene, model.drivetrain, together)
+        work = work_variables(model.scene, self.cycle, model.drivetrain, model.clock, self.loads, together, energies["energy"])
         work = {name: value + self._worked.get(name, 0.0) for name, value in work.items()}
         worked = {name: value[-1] for name, value in work.items()}
         return {name: value[len(before) :] for name, value in (energies | work).items()}, worked

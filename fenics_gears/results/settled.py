@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, exp, inf, isfinite, log, pi, sqrt
-
 from typing import TYPE_CHECKING
 
 import xarray as xr
 
 from fenics_gears.effects import common_period
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -27,24 +26,24 @@ class Settled:
     warning: str = ""
 
 
-def settled(built: Model, steps: int) -> Settled:
+def settled(model: Model, steps: int) -> Settled:
     """The steps that count of so many, by the drivetrain's slowest vibration that contact excites; all of a quasi-static run.
 
     Whole common periods are taken where there is one, the last of them whether or not the start has died down, and where all cycles
     are alike at least those whose contact fields are stored. Of a run that never repeats all counts if it does not die down.
     """
-    a_cycle, period = built.resolution.steps_per_mesh_cycle, common_period(built.scene)
-    rate, slowest = _slowest(built)
-    calm = _step_at(built, log(1.0 / DIED_DOWN) / rate if rate else inf, steps)
+    a_cycle, period = model.resolution.steps_per_mesh_cycle, common_period(model.scene)
+    rate, slowest = _slowest(model)
+    calm = _step_at(model, log(1.0 / DIED_DOWN) / rate if rate else inf, steps)
     if not isfinite(period):
         return Settled(calm) if calm < steps else Settled(0, _warning(slowest, rate, 1.0, None, steps > 0))
-    least = (int(period) if period > 1 else built.scene.motion.recorded_cycles) * a_cycle
+    least = (int(period) if period > 1 else model.scene.motion.recorded_cycles) * a_cycle
     first = max(min(calm, steps - least), 0)
     whole = (steps - first) // (int(period) * a_cycle)
     warning = ""
     if calm > first and steps:
-        needed = ceil(built.clock.duration(0, calm) * built.scene.motion.mesh_frequency + least / a_cycle) if rate else None
-        warning = _warning(slowest, rate, exp(-rate * built.clock.time(first)), needed, True)
+        needed = ceil(model.clock.duration(0, calm) * model.scene.motion.mesh_frequency + least / a_cycle) if rate else None
+        warning = _warning(slowest, rate, exp(-rate * model.clock.time(first)), needed, True)
     return Settled(steps - whole * int(period) * a_cycle if whole else first, warning)
 
 
@@ -54,32 +53,32 @@ def of_settled(result: xr.Dataset) -> xr.Dataset:
     return result if begin is None else result.isel(time=result["time"].values >= begin)
 
 
-def _slowest(built: Model) -> tuple[float, Vibration | None]:
+def _slowest(model: Model) -> tuple[float, Vibration | None]:
     """Rate of decay (1/s) of the vibration that dies down last, and that vibration; infinite where there is none."""
-    rates = [(_rate(each, built), each) for each in built.vibrations if each.excited]
+    rates = [(_rate(each, model), each) for each in model.vibrations if each.excited]
     return min(rates, key=lambda each: each[0], default=(inf, None))
 
 
-def _rate(vibration: Vibration, built: Model) -> float:
+def _rate(vibration: Vibration, model: Model) -> float:
     """Rate (1/s) at which a vibration decays, by its damping and by the time stepping: backward Euler forgets what it does not follow."""
     angular, ratio = 2.0 * pi * vibration.frequency, vibration.damping_ratio
     rate = angular * (ratio if ratio <= 1.0 else ratio - sqrt(ratio**2 - 1.0))
-    if not built.pace.averages_acceleration:
-        rate += 0.5 * log(1.0 + (angular * built.time_step) ** 2) / built.time_step
+    if not model.pace.averages_acceleration:
+        rate += 0.5 * log(1.0 + (angular * model.time_step) ** 2) / model.time_step
     return rate
 
 
-def _step_at(built: Model, time: float, steps: int) -> float:
+def _step_at(model: Model, time: float, steps: int) -> float:
     """The first step at or after a time (s); infinite beyond the last where steps are not all as long."""
     if time <= 0.0 or not steps:
         return 0
-    if time <= built.clock.time(steps):
+    if time <= model.clock.time(steps):
         low, high = 0, steps
         while low < high:
             middle = (low + high) // 2
-            low, high = (low, middle) if built.clock.time(middle) >= time else (middle + 1, high)
+            low, high = (low, middle) if model.clock.time(middle) >= time else (middle + 1, high)
         return low
-    return inf if not isfinite(time) else steps + ceil((time - built.clock.time(steps)) / built.time_step)
+    return inf if not isfinite(time) else steps + ceil((time - model.clock.time(steps)) / model.time_step)
 
 
 def _warning(slowest: Vibration, rate: float, left: float, needed: int | None, ran: bool) -> str:

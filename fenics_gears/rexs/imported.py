@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.inputs import units
 from fenics_gears.rexs.attributes import Reading, first
 from fenics_gears.rexs.flanks import note_what_is_left_out, relief_sections, tolerance_class
 from fenics_gears.rexs.gears import Sections, gear_sections
@@ -16,7 +17,6 @@ from fenics_gears.rexs.read import read_model
 from fenics_gears.rexs.scene_text import scene_text
 from fenics_gears.rexs.stage import Stage, chosen_stage
 from fenics_gears.rexs.values import Value, ValueProblem
-from fenics_gears.scene import units
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD
 
 # Options that stand in for what the file says, with an example each.

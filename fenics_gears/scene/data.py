@@ -5,56 +5,20 @@ A section that the scene does not name is ``None``: that effect is not simulated
 
 from __future__ import annotations
 
-from dataclasses import dataclass, make_dataclass
-from typing import TYPE_CHECKING, Any, Optional, TypeAlias
+from dataclasses import dataclass
 
-from fenics_gears.effects import top_level
-from fenics_gears.effects.tooth_elasticity import Material
-
-
-@dataclass(frozen=True)
-class GearData:
-    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` of its own, None for the pair's."""
-
-    teeth: int
-    profile_shift: float
-    tip_diameter: float
-    root_diameter: float
-    bore_diameter: float
-    rack_tip_radius: float
-    face_width: float | None = None
-    material: Material | None = None
-
-
-@dataclass(frozen=True)
-class GearPairData:
-    """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
-
-    `face_width`, mm, is that over which both gears meet, the smaller of their own; `material` that of gears without one of their own.
-    """
-
-    module: float
-    pressure_angle: float
-    centre_distance: float
-    face_width: float
-    pinion: GearData
-    wheel: GearData
-    material: Material | None
-
-    @property
-    def materials(self) -> tuple[Material, Material] | None:
-        """What pinion and wheel are made of; None where they are rigid."""
-        found = (self.material_of("pinion"), self.material_of("wheel"))
-        return None if None in found else found
-
-    def material_of(self, name: str) -> Material | None:
-        """What the "pinion" or the "wheel" is made of."""
-        return getattr(self, name).material or self.material
-
-    @property
-    def face_widths(self) -> tuple[float, float]:
-        """Width (mm) of the pinion and of the wheel."""
-        return self.pinion.face_width or self.face_width, self.wheel.face_width or self.face_width
+from fenics_gears.dynamics.drivetrain_data import Bearings, Damping, Inertia, Shafts
+from fenics_gears.dynamics.torque_ripple_data import TorqueRipple
+from fenics_gears.effects.body_meshes import BodyMeshes
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.effects.friction import Friction
+from fenics_gears.effects.speed_ramp import SpeedRamp
+from fenics_gears.geometry.eccentricity_data import Eccentricity
+from fenics_gears.geometry.flank_error_data import FlankErrors
+from fenics_gears.geometry.gear_data import GearData as GearData
+from fenics_gears.geometry.gear_data import GearPairData, Material
+from fenics_gears.geometry.relief_data import RootRelief, TipRelief
 
 
 @dataclass(frozen=True)
@@ -121,7 +85,13 @@ class Output:
 
 
 @dataclass(frozen=True)
-class _AlwaysThere:
+class Scene:
+    """Everything that a run needs to know, and the text it was read from.
+
+    One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an effect that the scene does
+    not name is None. (Elastic teeth are an effect too: they are there where `gears` have a material.)
+    """
+
     title: str
     gears: GearPairData
     load: Load
@@ -130,6 +100,20 @@ class _AlwaysThere:
     output: Output = Output()
     text: str = ""
     name: str = "scene"
+    body_meshes: BodyMeshes | None = None
+    shafts: Shafts | None = None
+    bearings: Bearings | None = None
+    inertia: Inertia | None = None
+    damping: Damping | None = None
+    friction: Friction | None = None
+    tip_relief: TipRelief | None = None
+    root_relief: RootRelief | None = None
+    flank_errors: FlankErrors | None = None
+    eccentricity: Eccentricity | None = None
+    coast_flanks: CoastFlanks | None = None
+    corner_contact: CornerContact | None = None
+    torque_ripple: TorqueRipple | None = None
+    speed_ramp: SpeedRamp | None = None
 
     @property
     def mesh_frequencies(self) -> tuple[float, float]:
@@ -146,12 +130,3 @@ class _AlwaysThere:
     def resolves_contact(self) -> bool:
         """Whether contact is spread over nodes of elastic flanks, so that there are pressures."""
         return self.tooth_elasticity is not None and self.accuracy.model in (None, ELASTIC)
-
-
-# Everything a run needs to know, and the text it was read from; one field for each effect, None where the scene does not name it.
-if TYPE_CHECKING:
-    Scene: TypeAlias = Any  # of fields that are known when the program runs
-else:
-    Scene = make_dataclass("Scene", [(effect.section, Optional[effect.data], None) for effect in top_level()], bases=(_AlwaysThere,), frozen=True)
-    Scene.__doc__ = "Everything a run needs to know, and the text it was read from; an effect that the scene does not name is None."
-    Scene.__module__ = __name__

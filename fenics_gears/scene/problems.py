@@ -8,12 +8,12 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from fenics_gears.scene.fields import Allowed, allowed_in
-from fenics_gears.scene.names import did_you_mean, nearest
-from fenics_gears.scene.problem import Path, Problem
+from fenics_gears.inputs.fields import Allowed, allowed_in
+from fenics_gears.inputs.names import did_you_mean, nearest
+from fenics_gears.inputs.problem import Path, Problem
+from fenics_gears.inputs.synonyms import meant
+from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.schema import SceneText
-from fenics_gears.scene.synonyms import meant
-from fenics_gears.scene.written import as_written
 
 
 def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:

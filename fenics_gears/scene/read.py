@@ -10,13 +10,13 @@ from pathlib import Path
 from fenics_gears.effects import tooth_elasticity, top_level
 from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import SceneError
+from fenics_gears.inputs.lines import line_numbers
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene import data, schema
-from fenics_gears.scene.lines import line_numbers
-from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
-from fenics_gears.scene.written import WrittenFloat
 
 
 def load_scene(path: str | os.PathLike) -> data.Scene:

@@ -10,14 +10,14 @@ from collections.abc import Iterator, Mapping
 from math import inf, lcm
 
 from fenics_gears import effects
+from fenics_gears.inputs.fields import allowed_in
+from fenics_gears.inputs.names import nearest
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.synonyms import meant
+from fenics_gears.inputs.tree import GEARS, Tree, material_sections, quantity_in, table, teeth_in
+from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
-from fenics_gears.scene.fields import allowed_in
-from fenics_gears.scene.names import nearest
-from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears, Motion
-from fenics_gears.scene.synonyms import meant
-from fenics_gears.scene.tree import GEARS, Tree, material_sections, quantity_in, table, teeth_in
-from fenics_gears.scene.written import as_written
 
 # In modules: the dense compliance of a flank of such elements has gigabytes.
 FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2

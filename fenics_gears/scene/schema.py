@@ -6,15 +6,15 @@ Ranges are generous: what is physically possible is allowed. Whether teeth and d
 from __future__ import annotations
 
 import re
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal, Optional
 
 from pydantic import Field, create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
+from fenics_gears.inputs.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
+from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-from fenics_gears.scene.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
-from fenics_gears.scene.written import as_written
 
 
 def _diameter(example: str, meaning: str):
@@ -203,7 +203,7 @@ class Output(Section):
     root_stress: bool = switch(
         meaning="stress along the fillets of the loaded teeth over time, and dynamic factors by force and by stress; see [stress](stress.md)"
     )
-    contact_fields: Optional[Union[bool, int]] = Field(
+    contact_fields: Optional[bool | int] = Field(
         None,
         json_schema_extra={
             "allowed": AllowedContactFields(

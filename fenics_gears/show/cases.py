@@ -13,8 +13,8 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.show.units import factor
-from fenics_gears.validity import NO_MEANING
 
 PRESENT, ABSENT = "present", "absent"
 # Sections whose name says nothing that their fields' names do not.

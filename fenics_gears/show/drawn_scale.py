@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.path import Path
 from scipy.spatial import cKDTree
 
-from fenics_gears.run_stresses import GearsInMesh
 from fenics_gears.show.stress_grid import largest_movement, shown_points
+from fenics_gears.simulation.run_stresses import GearsInMesh
 
 # In modules: how far the largest displacement may be drawn, and how deep one tooth into another. Gaps are drawn as large as they are, so
 # that a pair about to touch overlaps as soon as what closes it is enlarged enough.

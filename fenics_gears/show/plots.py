@@ -12,7 +12,6 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.output import written_aside
 from fenics_gears.show import PICTURE_FILES
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import heading, picture
@@ -23,6 +22,7 @@ from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
 from fenics_gears.show.pressure import pressure_maps
 from fenics_gears.show.run import Run
 from fenics_gears.show.run_scene import conditions
+from fenics_gears.system.output import written_aside
 
 
 def _errors(run: Run) -> list[Chart]:

@@ -13,9 +13,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.run_stresses import RunStresses
 from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.stress_picture import COLOURS, colour_limit, exceeds, stress_picture
+from fenics_gears.simulation.run_stresses import RunStresses
 
 FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
 FRAMES_PER_SECOND = 12

@@ -12,7 +12,7 @@ import numpy as np
 
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import ComputationError
-from fenics_gears.run_stresses import GearInSpace, GearsInMesh
+from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 
 # VTK's numbers of cell types, by corners.
 VTK_CELL = {3: 5, 4: 9}

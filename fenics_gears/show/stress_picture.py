@@ -18,11 +18,11 @@ from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.run_stresses import GearsInMesh
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, on_line, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run_scene import conditions, scene_of
 from fenics_gears.show.stress_grid import outline, shown_points, surface
+from fenics_gears.simulation.run_stresses import GearsInMesh
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
 COLOURS = LinearSegmentedColormap.from_list("stress", [
@@ -157,7 +157,7 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
 
 def rendered(mesh: GearsInMesh, view: View, pixels: np.ndarray, scale: float, limit: float) -> np.ndarray:
     """The bodies in a view as an image (height, width, 3), flat colours, drawn off screen."""
-    from fenics_gears.environment import provide_display
+    from fenics_gears.system.environment import provide_display
 
     provide_display()
     import pyvista

@@ -9,9 +9,9 @@ from xml.etree import ElementTree
 import numpy as np
 import xarray as xr
 
-from fenics_gears.run_stresses import RunStresses
 from fenics_gears.show.stress_animation import frame_steps
 from fenics_gears.show.stress_grid import save_vtu
+from fenics_gears.simulation.run_stresses import RunStresses
 
 
 def save_series(runs: RunStresses, dataset: xr.Dataset, collection: Path, told: Callable[[int, int], None]) -> None:

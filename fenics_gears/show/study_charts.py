@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.show import chart
+from fenics_gears.show.cases import Cases, Field
 from fenics_gears.show.chart import LINES, MARKED_LINES, Chart, Curve
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.cases import Cases, Field
 
 # What one plot's legend holds; dashes tell apart what has the same colour.
 MOST_LINES = 2 * len(PALETTE)

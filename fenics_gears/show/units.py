@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.scene.units import QuantityError, quantity
+from fenics_gears.inputs.units import QuantityError, quantity
 
 
 def factor(unit: str, wanted: str) -> float:

@@ -11,8 +11,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run_scene import conditions
-from fenics_gears.studies.accuracy.report import OWN, Report, WholeResult
 from fenics_gears.studies.accuracy.measures import judged
+from fenics_gears.studies.accuracy.report import OWN, Report, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h")

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.scene import units
-from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs import units
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.written import as_written
 from fenics_gears.studies.fields import ABSENT, PRESENT, Path, is_section, toml_value
 
 RANGE_KEYS = ("start", "stop", "count", "step", "spacing")

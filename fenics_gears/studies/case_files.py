@@ -15,9 +15,9 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.output import written_aside
 from fenics_gears.studies.record import Record, record_of
 from fenics_gears.studies.study import Case, Study
+from fenics_gears.system.output import written_aside
 
 LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"

@@ -10,16 +10,16 @@ import xarray as xr
 
 import fenics_gears
 from fenics_gears.errors import ComputationError
-from fenics_gears.output import written_aside
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
+from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.record import CURVES, Record
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.work import Failure
-from fenics_gears.validity import NO_MEANING
+from fenics_gears.system.output import written_aside
 
 STUDY_FILE = "study.nc"
 # 800 MB; beyond, the curves stay in the files of the cases.

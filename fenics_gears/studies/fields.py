@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
-from fenics_gears.scene.names import did_you_mean
+from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.scene.schema import SceneText
 
 Path = tuple[str, ...]

@@ -9,11 +9,12 @@ from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.effects import EFFECTS
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
-from fenics_gears.model import Model
-from fenics_gears.progress import Progress
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import Model
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import ISO_6336
-from fenics_gears.simulation import Compliances, gear_compliance, mesh_cycle, prepared, tooth_reach
+from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle, tooth_reach
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.system.progress import Progress
 
 GEARS = ("pinion", "wheel")
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
@@ -33,33 +34,33 @@ class GearStore:
         self._cycle_key: tuple | None = None
         self._prepared: tuple[Compliances, MeshCycle] | None = None
 
-    def prepared(self, built: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
+    def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
         """Compliances and mesh cycle for ``simulate``, kept or made."""
-        key = cycle_key(built)
+        key = cycle_key(model)
         if self._cycles and key == self._cycle_key:
             compliances, cycle = self._prepared
             return tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances), cycle
         self._cycle_key = self._prepared = None  # frees its memory before the next is made
-        made = self._made(built, progress, cache)
+        made = self._made(model, progress, cache)
         if self._cycles:
             self._cycle_key, self._prepared = key, made
         return made
 
-    def gear(self, built: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
+    def gear(self, model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
         """Flank compliance of the "pinion" or the "wheel", kept, from the cache, or condensed."""
-        key = gear_key(built, name, reach)
+        key = gear_key(model, name, reach)
         # Last in the dictionary, last to be given up.
-        self._gears[key] = self._gears.pop(key, None) or gear_compliance(built, name, reach, cache)
+        self._gears[key] = self._gears.pop(key, None) or gear_compliance(model, name, reach, cache)
         return self._gears[key]
 
-    def _made(self, built: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
-        if built.resolution.condensation == EVERY_STEP or not built.scene.resolves_contact:
-            return prepared(built, progress, cache)
-        reach = tooth_reach(built)
-        compliances = tuple(self.gear(built, name, reach, cache) for name in GEARS)
+    def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
+        if model.resolution.condensation == EVERY_STEP or not model.scene.resolves_contact:
+            return prepared(model, progress, cache)
+        reach = tooth_reach(model)
+        compliances = tuple(self.gear(model, name, reach, cache) for name in GEARS)
         while self._most is not None and len(self._gears) > self._most:
             del self._gears[next(iter(self._gears))]
-        return compliances, mesh_cycle(built, compliances)
+        return compliances, mesh_cycle(model, compliances)
 
 
 @functools.lru_cache(maxsize=1)
@@ -68,22 +69,22 @@ def own_gear_store() -> GearStore:
     return GearStore()
 
 
-def has_gears(built: Model) -> bool:
+def has_gears(model: Model) -> bool:
     """Whether a scene's model needs the gears' elasticity."""
-    return built.scene.tooth_elasticity is not None and built.scene.accuracy.model != ISO_6336
+    return model.scene.tooth_elasticity is not None and model.scene.accuracy.model != ISO_6336
 
 
-def gear_key(built: Model, name: str, reach: Reach) -> tuple:
+def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
-    resolution = built.resolution
+    resolution = model.resolution
     sizes = resolution.flank_element_size, resolution.body_element_size
-    own = tuple(getattr(getattr(built.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(built.pair, name), built.scene.gears.material_of(name), resolution.element, sizes, reach, resolution.elastic_teeth, own
+    own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
+    return getattr(model.pair, name), model.scene.gears.material_of(name), resolution.element, sizes, reach, resolution.elastic_teeth, own
 
 
-def cycle_key(built: Model) -> tuple:
+def cycle_key(model: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on."""
-    scene, resolution = built.scene, built.resolution
+    scene, resolution = model.scene, model.resolution
     accuracy = (
         resolution.condensation,
         resolution.element,
@@ -95,4 +96,4 @@ def cycle_key(built: Model) -> tuple:
     )
     in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.corner or effect.elasticity)
     model = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, model), tuple(built.drivetrain.indices), scene.friction is not None
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, model), tuple(model.drivetrain.indices), scene.friction is not None

@@ -12,7 +12,7 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from fenics_gears.job import communicator
+from fenics_gears.system.job import communicator
 
 SECONDS_BETWEEN_LOOKS = 0.05
 

@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
+from fenics_gears.inputs.lines import line_numbers
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.written import WrittenFloat, as_written
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.lines import line_numbers
-from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.problem import Problem
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.scene.rules import broken_rules
-from fenics_gears.scene.written import WrittenFloat, as_written
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
 from fenics_gears.studies.study import Case, Study, scene_key
@@ -278,7 +278,7 @@ def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Sc
         return None, problems
     scene = scene_from_text(fields.as_toml(tree), name, directory=directory)
     try:
-        model(scene)
+        model_of(scene)
     except SceneError as error:
         return None, [Problem((), None, str(error))]
     return scene, []

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.run_study import Outcome
-from fenics_gears.validity import NO_MEANING
 
 MOST_FAILURES = 5
 

@@ -11,15 +11,16 @@ from pathlib import Path
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import GearsError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation import simulate, tooth_reach
+from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.studies.case_files import save_case, save_failure
-from fenics_gears.studies.record import Record
-from fenics_gears.studies.study import Case
 from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, has_gears, own_gear_store
+from fenics_gears.studies.record import Record
+from fenics_gears.studies.simulate import simulate
+from fenics_gears.studies.study import Case
+from fenics_gears.system.progress import SilentProgress
 
 Tick = Callable[[], None]
 
@@ -53,16 +54,16 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
     reaches: dict[tuple, Reach] = {}
     tasks: dict[tuple, GearTask] = {}
     for case in cases:
-        built = model(case.scene)
+        model = model_of(case.scene)
         # A target's gears are known when its settings are chosen.
-        if case.scene.accuracy.target is not None or built.resolution.condensation == EVERY_STEP or not has_gears(built):
+        if case.scene.accuracy.target is not None or model.resolution.condensation == EVERY_STEP or not has_gears(model):
             continue
-        cycle = cycle_key(built)[:4]  # the reach follows from gears and accuracy
+        cycle = cycle_key(model)[:4]  # the reach follows from gears and accuracy
         if cycle not in reaches:
-            reaches[cycle] = tooth_reach(built)
+            reaches[cycle] = tooth_reach(model)
         for name in GEARS:
             # Young's modulus is a factor, so the cache keeps one entry for all its values.
-            key = gear_key(built, name, reaches[cycle])
+            key = gear_key(model, name, reaches[cycle])
             tasks.setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle]))
     return list(tasks.values())
 
@@ -71,13 +72,13 @@ def in_order_of_sharing(cases: list[Case]) -> list[Case]:
     """The cases with those next to each other that share their contact operators; otherwise as they are."""
     groups: dict[tuple, list[Case]] = {}
     for case in cases:
-        groups.setdefault(cycle_key(model(case.scene)), []).append(case)
+        groups.setdefault(cycle_key(model_of(case.scene)), []).append(case)
     return [case for group in groups.values() for case in group]
 
 
 def condense(task: GearTask, tick: Tick | None = None) -> None:
     """Bring a gear's flank compliance into the cache, and into this process."""
-    own_gear_store().gear(model(task.scene), task.name, task.reach, user_cache())
+    own_gear_store().gear(model_of(task.scene), task.name, task.reach, user_cache())
 
 
 def run_case(task: CaseTask, tick: Tick | None = None) -> Record | Failure:

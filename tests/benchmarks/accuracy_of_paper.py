@@ -14,11 +14,11 @@ from pathlib import Path
 from tests.benchmarks.accuracy_overview import TITLES, overview, overview_picture, overview_section
 from tests.benchmarks.marked_section import write_section
 
-from fenics_gears.progress import LineProgress
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.accuracy import table
 from fenics_gears.studies.accuracy.report import Report, measure
+from fenics_gears.system.progress import LineProgress
 
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE, PICTURES = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md", ROOT / "docs" / "pictures"

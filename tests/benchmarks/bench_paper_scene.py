@@ -12,45 +12,45 @@ from pathlib import Path
 import pytest
 
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation import gear_compliances, mesh_cycle
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.progress import SilentProgress
 
 
 @pytest.fixture(scope="module")
-def built():
+def model():
     compile_kernels(tangential=True)
-    return model(load_scene(Path(__file__).parents[2] / "demos" / "lundvall2004.toml"))
+    return model_of(load_scene(Path(__file__).parents[2] / "demos" / "lundvall2004.toml"))
 
 
 @pytest.fixture(scope="module")
-def compliances(built):
-    return gear_compliances(built, SilentProgress(), None)
+def compliances(model):
+    return gear_compliances(model, SilentProgress(), None)
 
 
-def marched(built, compliances):
+def marched(model, compliances):
     """All 3000 steps, the contact operators of the mesh cycle included."""
-    cycle = mesh_cycle(built, compliances)
-    return Marcher(cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient).run(built.steps, built.contact_steps)
+    cycle = mesh_cycle(model, compliances)
+    return Marcher(cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient).run(model.steps, model.contact_steps)
 
 
-def test_mesh_and_condense_both_gears(benchmark, built):
-    benchmark.pedantic(gear_compliances, args=(built, SilentProgress(), None), rounds=7, warmup_rounds=1)
+def test_mesh_and_condense_both_gears(benchmark, model):
+    benchmark.pedantic(gear_compliances, args=(model, SilentProgress(), None), rounds=7, warmup_rounds=1)
 
 
-def test_contact_operators_of_a_mesh_cycle(benchmark, built, compliances):
+def test_contact_operators_of_a_mesh_cycle(benchmark, model, compliances):
     def build():
-        cycle = mesh_cycle(built, compliances)
+        cycle = mesh_cycle(model, compliances)
         for step in range(cycle.steps):
             cycle.position(step)
 
     benchmark.pedantic(build, rounds=7, warmup_rounds=1)
 
 
-def test_march(benchmark, built, compliances):
-    march = benchmark.pedantic(marched, args=(built, compliances), rounds=7, warmup_rounds=1)
+def test_march(benchmark, model, compliances):
+    march = benchmark.pedantic(marched, args=(model, compliances), rounds=7, warmup_rounds=1)
     benchmark.extra_info["steps a second"] = round(march.steps / benchmark.stats["median"])
     benchmark.extra_info["newton iterations a step"] = march.newton_iterations / march.steps
     print(f"\n{benchmark.extra_info}")

@@ -18,11 +18,11 @@ import numpy as np
 from tests.reference.involute_arms import with_involute_arms
 
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.resolution import EVERY_STEP, ONCE
+from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation import simulate
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.warm_up import compile_kernels
 
 SCENE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 LENGTH = 1.5

@@ -9,11 +9,11 @@ from __future__ import annotations
 import statistics
 from pathlib import Path
 
-from fenics_gears.progress import LineProgress
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.effect_lattice import table
 from fenics_gears.studies.effect_lattice.measured import Report, measure
 from fenics_gears.studies.effect_lattice.subsets import ALL, BARE
+from fenics_gears.system.progress import LineProgress
 
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE, PICTURE = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "performance.md", ROOT / "docs" / "pictures" / "effects.png"

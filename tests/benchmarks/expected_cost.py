@@ -64,15 +64,15 @@ def _without(text: str, *sections: str) -> str:
 def measure(name: str) -> dict[str, float]:
     """Run an example in this process; seconds of condensing and marching, bytes, and what was expected."""
     time.perf_counter = time.process_time
-    from fenics_gears.cost import expected_cost
     from fenics_gears.elasticity.cache import Cache
-    from fenics_gears.model import model
+    from fenics_gears.model.cost import expected_cost
+    from fenics_gears.model.model import model_of
     from fenics_gears.scene.read import scene_from_text
-    from fenics_gears.simulation import simulate
+    from fenics_gears.simulation.simulate import simulate
 
     beside = next((path.parent for path in DEMOS if path.stem == name), ROOT)
     scene = scene_from_text(cases()[name], name, directory=beside)
-    expected = expected_cost(model(scene))
+    expected = expected_cost(model_of(scene))
     with tempfile.TemporaryDirectory() as directory:
         attributes = simulate(scene, cache=Cache(Path(directory))).attrs
     return {

@@ -15,7 +15,7 @@ from tests.hertz_contact import QUANTITIES, SMALLER, HertzContact
 
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.scene.read import load_scene
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.simulation.warm_up import compile_kernels
 
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md"

@@ -19,18 +19,18 @@ from tests.benchmarks.target_pairs import pairs
 from tests.benchmarks.target_reference import Reference, reference
 
 from fenics_gears.errors import GearsError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import load_scene
-from fenics_gears.studies.accuracy.setting import Setting, half_width
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
 from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
-from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.system.progress import SilentProgress
 
 ROOT = Path(__file__).resolve().parents[2]
 TARGETS = (0.05, 0.01, 0.002)
@@ -79,7 +79,7 @@ def true_error(found, known: Reference) -> float:
 def searched(scene: Scene, known: Reference, window: float, kinds=SEARCHED, counts=STEPS) -> list[tuple[float, float, Setting]]:
     """Seconds, true error and setting of all that are searched. Quasi-static and frictionless, fewer steps are some of many steps."""
     unit, gears, found = half_width(scene), shared_gears(2), []
-    length = model(scene).resolution.contact_grid.length
+    length = model_of(scene).resolution.contact_grid.length
     for element, flank, body in kinds:
         spacing = NODE_SPACING if element.endswith("2") else 1.0
         setting = Setting(element, unit / flank, spacing * unit / flank, length, body, counts[-1])
@@ -108,7 +108,7 @@ def in_turns(scene: Scene, settings: tuple[Setting, ...]) -> tuple[Times, ...]:
 
 def rows_of(name: str, scene: Scene, not_reached: list[str]) -> tuple[list[Row], Reference]:
     """All targets of a pair, and the reference that they are judged by; adds to `not_reached` what the program itself says is not."""
-    window = model(scene).resolution.contact_grid.length
+    window = model_of(scene).resolution.contact_grid.length
     known = reference(scene, window, told=lambda words: None)
     print(f"{name}: reference uncertain by {100.0 * max(known.uncertainty.values()):.2g} %", flush=True)
     candidates, rows = searched(scene, known, window), []

@@ -4,13 +4,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.model import model
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.accuracy.setting import Setting, half_width
-from fenics_gears.studies.accuracy.measures import JUDGED, Answer, answer
 from fenics_gears.studies.accuracy.convergence import richardson, together
+from fenics_gears.studies.accuracy.measures import JUDGED, Answer, answer
 from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 
 # Elements in a half-width, contact nodes 0.7 of them apart; body elements in parts of their default; steps in a cycle. What one still
 # adds to the base is measured with few steps where it is not the steps'. The base's flank is fine: on a coarse one small steps find
@@ -51,7 +51,7 @@ class Reference:
 def reference(scene: Scene, window: float, told=print) -> Reference:
     """The reference of a scene whose `[accuracy]` is empty; `window` (mm): that of pressures."""
     unit, gears = half_width(scene), shared_gears(4)
-    length = model(scene).resolution.contact_grid.length
+    length = model_of(scene).resolution.contact_grid.length
 
     def setting(values) -> Setting:
         return Setting("P2", unit / values["flank"], NODE_SPACING * unit / values["flank"], length, values["body"], values["steps"])

@@ -24,9 +24,9 @@ from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.clock import SteadyClock
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import MOST_HALVINGS, Marcher
+from fenics_gears.model.drivetrain import drivetrain
 
 # rung: (seed, nodes, friction, free)
 NEEDED = [

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.coarse import COARSE
 
 from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
@@ -12,9 +13,8 @@ from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.mesh_stiffness import NOTHING_TOUCHES, mesh_stiffness
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.mesh_springs import iso_cycle
-from fenics_gears.model import model
-from tests.coarse import COARSE
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.mesh_springs import iso_cycle
 
 ROTATION_OF_THE_WHEEL = 5
 LOAD = 7e3
@@ -66,9 +66,9 @@ def test_pairs_that_carry(cycle):
 def test_springs_have_the_stiffness_that_they_are_given(quasi_static_scene):
     """ISO 6336-1: of its model of the mesh, c' b (0.75 n + 0.25) with n pairs in mesh, tangent and secant alike."""
     scene = replace(quasi_static_scene, friction=None, shafts=None, bearings=None, accuracy=replace(COARSE, model="ISO 6336-1"))
-    built = model(scene)
-    springs, width = iso_cycle(built), scene.gears.face_width
-    single = pair_stiffness(scene.gears, scene.load.wheel_torque / built.pair.wheel.base_radius / width)
+    model = model_of(scene)
+    springs, width = iso_cycle(model), scene.gears.face_width
+    single = pair_stiffness(scene.gears, scene.load.wheel_torque / model.pair.wheel.base_radius / width)
     for step in (3, 30):
         operator = springs.position(step).operator
         found = mesh_stiffness(operator, statics(operator, LOAD))

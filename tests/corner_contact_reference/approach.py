@@ -15,7 +15,7 @@ from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Accuracy, Scene
 
 WHEEL_ROTATION = 5  # in CENTRE_COORDINATES
@@ -31,17 +31,17 @@ def teeth_alone(scene: Scene, accuracy: Accuracy = Accuracy()) -> Scene:
 
 def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int) -> MeshCycle:
     """Contact operators of a scene's teeth alone on finite elements, the wheel's rotation the only unknown."""
-    built = model(scene)
-    grid, resolution = built.resolution.contact_grid, built.resolution
-    reach = tooth_reach(built.pair, grid, steps, corner=corner)
+    model = model_of(scene)
+    grid, resolution = model.resolution.contact_grid, model.resolution
+    reach = tooth_reach(model.pair, grid, steps, corner=corner)
     compliances = tuple(
         flank_compliance(
             gear, scene.gears.material, element=resolution.element, flank_element_size=resolution.flank_element_size,
             reach=reach,
         )
-        for gear in (built.pair.pinion, built.pair.wheel)
+        for gear in (model.pair.pinion, model.pair.wheel)
     )  # fmt: skip
-    return rigid_hub_cycle(Flanks(built.pair, compliances), grid, steps, corner)
+    return rigid_hub_cycle(Flanks(model.pair, compliances), grid, steps, corner)
 
 
 def rigid_hub_cycle(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None) -> MeshCycle:

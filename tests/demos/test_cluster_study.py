@@ -13,7 +13,7 @@ from demos.cluster_study.picture import draw
 from demos.cluster_study.stopped import done, run
 from tests.studies.conftest import environment
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.studies.study_file import load_study
 
 pytestmark = pytest.mark.ranks

@@ -16,7 +16,7 @@ from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_sector_mesh
 from fenics_gears.elasticity.whole_body.outline import whole_body
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Accuracy
 
 COARSE = Accuracy(element="P2", flank_element_size=0.4, body_element_size=2.0, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
@@ -40,7 +40,7 @@ def test_the_scene_has_the_mesh_that_lies_in_the_repository():
     assert scene.motion.mesh_cycles == scene.motion.recorded_cycles == scene.gears.pinion.teeth == 16
     assert scene.body_meshes.pinion.path.endswith("meshes/cracked_pinion.msh") and scene.body_meshes.pinion.digest
     assert ITS_CYCLE == scene.gears.pinion.teeth - CRACKED_TOOTH
-    assert [words for words in model(scene).warnings if "body_meshes" in words]
+    assert [words for words in model_of(scene).warnings if "body_meshes" in words]
 
 
 @pytest.mark.nightly
@@ -62,7 +62,7 @@ def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_thos
 @pytest.mark.nightly
 def test_the_picture_shows_every_depth_with_its_units(turns, scene):
     """A legend entry for each run; every axis names its quantity and unit; the crack is drawn."""
-    gear = model(healthy(scene)).pair.pinion
+    gear = model_of(healthy(scene)).pair.pinion
     sector = cracked_sector_mesh(gear, element_sizes(gear, ELEMENTS["P2"], 0.4), SHOWN)
     figure = draw(turns, gear, sector, SHOWN)
     panels = {axes.get_title(loc="left"): axes for axes in figure.axes}
@@ -75,8 +75,8 @@ def test_the_picture_shows_every_depth_with_its_units(turns, scene):
 @pytest.mark.nightly
 def test_the_crack_is_open_while_its_tooth_carries_and_closed_while_the_one_before_it_does(scene):
     """README's table, on coarser teeth: along the whole crack, under the whole load."""
-    built = model(healthy(scene))
-    gear, material = built.pair.pinion, scene.gears.material
+    model = model_of(healthy(scene))
+    gear, material = model.pair.pinion, scene.gears.material
     body = CrackedBody(gear, material, element_sizes(gear, ELEMENTS["P2"], 0.8, 2.0), RootCrack(3.0))
     before, own, after = body.openings((CRACKED_TOOTH + 1, CRACKED_TOOTH, CRACKED_TOOTH - 1), 574.1)
     assert before.max() < 0.0 < own.min() and after.min() > 0.0

@@ -9,7 +9,7 @@ from tests.coarse import COARSE
 from fenics_gears.scene.read import load_scene
 from fenics_gears.show.orders import order_spectrum
 from fenics_gears.show.run import Run
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.mark.nightly

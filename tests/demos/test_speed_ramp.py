@@ -9,7 +9,7 @@ from demos.speed_ramp.picture import draw
 from tests.coarse import COARSE
 
 from fenics_gears import load_scene
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
 from fenics_gears.studies.gear_store import GearStore
 
@@ -20,7 +20,7 @@ def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
     assert (up.motion.mesh_frequency, up.speed_ramp.end_frequency) == (down.speed_ramp.end_frequency, down.motion.mesh_frequency) == (150.0, 260.0)
     same = {"title": "", "text": "", "name": "", "motion": down.motion, "speed_ramp": down.speed_ramp}
     assert replace(up, **same) == replace(down, **same)
-    assert model(up).warnings == model(down).warnings == []
+    assert model_of(up).warnings == model_of(down).warnings == []
 
 
 def coarsened(path):

@@ -8,7 +8,7 @@ import re
 
 from tests.docs.markdown import capital, table
 
-from fenics_gears import cli
+from fenics_gears.commands import cli
 from fenics_gears.elasticity.cache import DEFAULT_SIZE
 
 HEADING = """# Commands

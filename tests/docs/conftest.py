@@ -8,7 +8,7 @@ import pytest
 from tests.docs.blocks import ROOT
 from tests.effects.examples import text_of
 
-from fenics_gears import cli
+from fenics_gears.commands import cli
 
 STUDY = """
 scene = "demos/lundvall2004.toml"

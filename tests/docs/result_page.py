@@ -13,7 +13,7 @@ from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, conflicts, effect
 from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 HEADING = """# The result
 

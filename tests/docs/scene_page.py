@@ -12,8 +12,8 @@ from pydantic_core import PydanticUndefined
 from tests.docs.markdown import capital, from_docstring, table
 
 from fenics_gears.effects import EFFECTS, effect
-from fenics_gears.scene import units
-from fenics_gears.scene.fields import Allowed, allowed_in
+from fenics_gears.inputs import units
+from fenics_gears.inputs.fields import Allowed, allowed_in
 from fenics_gears.scene.schema import SceneText
 
 HEADING = """# The scene

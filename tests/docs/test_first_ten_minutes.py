@@ -6,9 +6,9 @@ import pytest
 from tests.docs.blocks import ROOT, blocks
 
 from fenics_gears import results
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
-from fenics_gears.summary import summary_rows
+from fenics_gears.simulation.simulate import simulate
 
 README = ROOT / "README.md"
 DEMO = ROOT / "demos" / "lundvall2004.toml"

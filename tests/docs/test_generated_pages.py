@@ -8,11 +8,11 @@ from tests.coarse import coarse_scene
 from tests.docs import commands_page, result_page, scene_page, write
 from tests.docs.markdown import table
 
+from fenics_gears.inputs.fields import Allowed, Section, allowed_in, quantity
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES, undeclared
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.fields import Allowed, Section, allowed_in, quantity
 from fenics_gears.scene.schema import SceneText
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 import xarray
 from tests.docs.blocks import PAGES, ROOT, in_text, name_of
 
-from fenics_gears.validity import NO_MEANING
+from fenics_gears.results.validity import NO_MEANING
 
 PLACES = ("fenics_gears/", "tests/", "docs/", "demos/", "meshes/", "setup/")
 SUFFIXES = (".py", ".md", ".toml", ".png", ".gif", ".apt", "/")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
-from fenics_gears.dynamics.drivetrain import drivetrain
+from fenics_gears.model.drivetrain import drivetrain
 
 
 def from_twist(coordinates):

@@ -7,15 +7,14 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from fenics_gears.description import describe
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.effects.damping import Damping, Rayleigh
 from fenics_gears.effects.inertia import GearInertia, Inertia
 from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
 from fenics_gears.geometry.section import gear_section
+from fenics_gears.model.description import describe
+from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
 from fenics_gears.scene.read import scene_from_text
 
 J1, J2, J3 = 1.7, 23.0, 410.0

@@ -8,8 +8,8 @@ from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher, Record
+from fenics_gears.model.drivetrain import drivetrain
 
 
 def frictionless(scene, **changes):

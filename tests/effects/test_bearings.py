@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, quasi_static
 
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.effects import effect, result_variables
 from fenics_gears.effects.bearings import Bearings, Support
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 ISOTROPIC = 'stiffness = "0.155e6 N/mm"'

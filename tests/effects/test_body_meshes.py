@@ -8,22 +8,22 @@ import numpy as np
 import pytest
 from tests.effects.examples import MESHES, text_of
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.cracked_gear import cracked_gear_mesh
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.run_stresses import RunStresses
+from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.run_stresses import RunStresses
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.refinement import checked_model
-from fenics_gears.studies.study_file import load_study
 from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.studies.study_file import load_study
 
 TEETH = "tooth_elasticity"
 COARSE = {"element": "P1", "flank_element_size": 0.4, "body_element_size": 3.0}
@@ -40,7 +40,7 @@ def text_with(meshes: str, *sections: str) -> str:
 def healthy(tmp_path_factory):
     """Mesh files of both gears, all teeth whole, as the coarse scene's sectors are meshed."""
     directory = tmp_path_factory.mktemp("meshes")
-    pair = model(scene_from_text(text_of(TEETH))).pair
+    pair = model_of(scene_from_text(text_of(TEETH))).pair
     for name in ("pinion", "wheel"):
         gear = getattr(pair, name)
         sizes = element_sizes(gear, ELEMENTS["P1"], COARSE["flank_element_size"], COARSE["body_element_size"])
@@ -132,8 +132,8 @@ def test_a_gear_store_tells_meshes_apart_by_their_content(tmp_path, healthy, cac
     for content in (None, None, MESHES / "cracked_pinion.msh"):
         if content is not None:
             shutil.copy(content, file)
-        built = model(scene_from_text(text_with(f'pinion = "{file}"')))
-        made.append(simulate(built.scene, preparation=store.prepared, cache=cache).transmission_error.values)
+        model = model_of(scene_from_text(text_with(f'pinion = "{file}"')))
+        made.append(simulate(model.scene, preparation=store.prepared, cache=cache).transmission_error.values)
     assert np.array_equal(made[0], made[1]) and np.abs(made[2] - made[0]).max() > 1e-3 * np.abs(made[0]).max()
 
 
@@ -171,8 +171,8 @@ def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_writte
 
 def test_a_flank_coarser_than_the_contact_asks_for_is_warned_of():
     """The example's 0.38 mm against the scene's 0.12 mm."""
-    built = model(scene_from_text(text_of(TEETH, "body_meshes")))
-    assert any("body_meshes.pinion: elements along its flanks are up to 0.376 mm long, the contact asks for 0.12 mm" in words for words in built.warnings)
+    model = model_of(scene_from_text(text_of(TEETH, "body_meshes")))
+    assert any("body_meshes.pinion: elements along its flanks are up to 0.376 mm long, the contact asks for 0.12 mm" in words for words in model.warnings)
 
 
 def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):

@@ -8,11 +8,11 @@ from tests.coarse import COARSE, teeth_alone
 
 from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.modification import corner
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
+from fenics_gears.model.modification import corner
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")
@@ -52,10 +52,10 @@ def test_edges_that_leave_the_flanks_no_overlap_are_warned_of(paper_scene):
     gears = paper_scene.gears
     short = replace(gears, pinion=replace(gears.pinion, tip_diameter=80.4), wheel=replace(gears.wheel, tip_diameter=116.0))
     sharp = replace(paper_scene, gears=short, corner_contact=CornerContact((0.0, 0.0)))
-    assert not [said for said in model(sharp).warnings if "contact ratio" in said]
+    assert not [said for said in model_of(sharp).warnings if "contact ratio" in said]
     rounded = replace(sharp, corner_contact=CornerContact((1.3, 1.3)))
-    (said,) = [said for said in model(rounded).warnings if "contact ratio" in said]
-    pair = model(sharp).pair
+    (said,) = [said for said in model_of(rounded).warnings if "contact ratio" in said]
+    pair = model_of(sharp).pair
     taken = sum(
         gear.base_radius * (gear.tip_roll_angle - edge.flank_roll)
         for gear, edge in zip((pair.pinion, pair.wheel), corner(rounded, pair).edges)

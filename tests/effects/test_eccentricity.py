@@ -15,7 +15,7 @@ from fenics_gears.effects import without
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.scene.data import Accuracy, Load, Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 DISTANCE, PHASE = 0.01, 0.7
 PERIOD = 48  # mesh cycles until 16 and 24 teeth meet again: three turns of the pinion, two of the wheel

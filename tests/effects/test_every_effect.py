@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.effects import EFFECTS, effect, effects_on, result_variables
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 CHECKOUT = Path(__file__).parents[2]
 SECTIONS = [each.section for each in EFFECTS]
@@ -111,7 +111,7 @@ def imports_of_hooks(section):
 PROGRAM = """
 import json, sys
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 loaded = []
 for text in json.load(sys.stdin):
     simulate(scene_from_text(text))

@@ -14,7 +14,6 @@ from fenics_gears.contact.flank_gaps import FlankGaps, flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import without
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
@@ -22,8 +21,9 @@ from fenics_gears.effects.flank_errors import FlankErrors, GearErrors, Waviness
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations
 from fenics_gears.geometry.involute import roll_angle_at_height
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Accuracy, Load, Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 STEPS, PERIOD = 20, 48
 ERROR = 0.01

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.commands.scene_file import checked_scene
 from fenics_gears.effects.flank_errors import GearErrors
 from fenics_gears.errors import SceneError

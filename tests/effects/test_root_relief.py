@@ -17,10 +17,10 @@ from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
-from fenics_gears.geometry.modification import removals
 from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
+from fenics_gears.model.modification import removals
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 DEPTH = 0.02
 KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, root_reliefs)}

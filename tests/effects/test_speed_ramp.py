@@ -14,7 +14,6 @@ from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.clock import SteadyClock
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
@@ -24,12 +23,14 @@ from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.model.drivetrain import drivetrain
+from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400, 40)
@@ -184,14 +185,14 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     """Known limit: a ramp that takes 400 mesh cycles from 300 to 400 Hz, clear of resonance, has in each cycle the peak-to-peak transmission error
     of a steady run at the cycle's frequency, within 2 %."""
     scene = frictionless(paper_scene)
-    built = model(replace(coarse(scene, 400, 1, start=300.0), speed_ramp=SpeedRamp(400.0)))
-    _, cycle = prepared(built, SilentProgress(), user_cache())
+    model = model_of(replace(coarse(scene, 400, 1, start=300.0), speed_ramp=SpeedRamp(400.0)))
+    _, cycle = prepared(model, SilentProgress(), user_cache())
     # Every step is kept, but without pressures.
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, 0.0, built.pace, built.clock, built.loads)
-    records = marcher.run(built.steps, built.steps + 1).records
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.pace, model.clock, model.loads)
+    records = marcher.run(model.steps, model.steps + 1).records
     states = np.array([record.state.position for record in records])
-    error = built.drivetrain.value(states, "rotation_2") + 16 / 24 * built.drivetrain.value(states, "rotation_1")
-    frequency = np.array([built.clock.mesh_frequency(record.step) for record in records])
+    error = model.drivetrain.value(states, "rotation_2") + 16 / 24 * model.drivetrain.value(states, "rotation_1")
+    frequency = np.array([model.clock.mesh_frequency(record.step) for record in records])
     for number in (100, 200, 300, 390):
         within = slice(40 * number, 40 * (number + 1) + 1)
         steady = simulate(coarse(scene, 60, 1, start=float(frequency[within].mean())))
@@ -242,39 +243,39 @@ def test_warnings_and_steps_go_by_the_range_of_frequencies(paper_scene):
     """Authority: a run's longest step is at its lowest frequency, whichever end that is, and hardly shorter than a steady one there."""
     up = replace(paper_scene, motion=Motion(50.0, 30, 2), speed_ramp=SpeedRamp(500.0), accuracy=replace(COARSE, steps_per_mesh_cycle=None))
     down = replace(up, motion=Motion(500.0, 30, 2), speed_ramp=SpeedRamp(50.0))
-    slow = model(replace(up, speed_ramp=None))
-    assert model(up).resolution.steps_per_mesh_cycle == model(down).resolution.steps_per_mesh_cycle == slow.resolution.steps_per_mesh_cycle
-    for ramp in (model(up), model(down)):
+    slow = model_of(replace(up, speed_ramp=None))
+    assert model_of(up).resolution.steps_per_mesh_cycle == model_of(down).resolution.steps_per_mesh_cycle == slow.resolution.steps_per_mesh_cycle
+    for ramp in (model_of(up), model_of(down)):
         steps = [ramp.clock.duration(step, step + 1) for step in range(ramp.steps)]
         assert ramp.time_step == pytest.approx(max(steps), rel=1e-12)
         assert 0.9 * slow.time_step < ramp.time_step < slow.time_step
     # Inertia does not matter at 0.5 Hz, but it does at the other end.
     crawling = replace(up, motion=Motion(0.5, 30, 2), speed_ramp=None)
-    assert any("inertia hardly matters" in said for said in model(crawling).warnings)
-    assert not any("inertia hardly matters" in said for said in model(replace(crawling, speed_ramp=SpeedRamp(200.0))).warnings)
+    assert any("inertia hardly matters" in said for said in model_of(crawling).warnings)
+    assert not any("inertia hardly matters" in said for said in model_of(replace(crawling, speed_ramp=SpeedRamp(200.0))).warnings)
 
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
     """Authority: the rule of `dynamics.pace`, half the slowest period, on the ramp's true steps; above the frequency that the warning
     names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as its frequency would have."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
-    assert not model(crawl).pace.samples_vibration
-    (said,) = [warning for warning in model(crawl).warnings if "backward Euler" in warning]
+    assert not model_of(crawl).pace.samples_vibration
+    (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]
     needed = float(re.search(r"above ([\d.e+]+) Hz", said)[1])
-    assert model(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).pace.samples_vibration
-    steady = 1.0 / (0.01 * model(crawl).resolution.steps_per_mesh_cycle)
-    assert model(crawl).time_step < 0.01 * steady
+    assert model_of(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).pace.samples_vibration
+    steady = 1.0 / (0.01 * model_of(crawl).resolution.steps_per_mesh_cycle)
+    assert model_of(crawl).time_step < 0.01 * steady
 
 
 def test_without_the_section_there_is_nothing_of_it(paper_scene):
     """House rule 9: no variable, one clock of equal steps, no import."""
-    built = model(paper_scene)
-    assert isinstance(built.clock, SteadyClock) and built.loads == ()
+    model = model_of(paper_scene)
+    assert isinstance(model.clock, SteadyClock) and model.loads == ()
     assert not {variable.name for variable in effect("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
     program = (
-        "import sys; from fenics_gears import load_scene; from fenics_gears.model import model\n"
-        f"built = model(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r})); built.clock, built.loads\n"
-        "import fenics_gears.simulation, fenics_gears.results\n"
+        "import sys; from fenics_gears import load_scene; from fenics_gears.model.model import model_of\n"
+        f"model = model_of(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r})); model.clock, model.loads\n"
+        "import fenics_gears.simulation.simulate, fenics_gears.results\n"
         "assert 'fenics_gears.dynamics.speed_ramp' not in sys.modules\n"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)

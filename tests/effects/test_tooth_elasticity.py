@@ -12,10 +12,10 @@ from fenics_gears.effects import result_variables, without
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.tip_relief import Relief, TipRelief
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.modification import removals
+from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 DEPTH = 0.031
 
@@ -115,7 +115,7 @@ def test_neither_route_imports_the_other(tmp_path):
 import sys
 from fenics_gears import load_scene
 from fenics_gears.effects import without
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 scene = without(load_scene("demos/lundvall2004.toml"), "tooth_elasticity", "friction", "inertia", "damping")
 simulate(scene)
 assert "fenics_gears.contact.rigid_cycle" in sys.modules

@@ -12,14 +12,14 @@ from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Record
 from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.errors import SceneError
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 ORDER = 24.0  # of the wheel's turn: once a mesh cycle
@@ -222,10 +222,10 @@ def test_work_done_on_the_load_is_that_of_the_couple(paper_scene):
 def test_without_the_section_its_module_is_not_imported():
     """House rule 9: a run without the section does not load what computes it."""
     program = (
-        "import sys; from dataclasses import replace; from fenics_gears import load_scene; from fenics_gears.model import model\n"
-        f"built = model(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r}))\n"
-        "assert built.loads == () and built.clock.duration(0, 1) > 0\n"
-        "import fenics_gears.simulation, fenics_gears.results\n"
+        "import sys; from dataclasses import replace; from fenics_gears import load_scene; from fenics_gears.model.model import model_of\n"
+        f"model = model_of(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r}))\n"
+        "assert model.loads == () and model.clock.duration(0, 1) > 0\n"
+        "import fenics_gears.simulation.simulate, fenics_gears.results\n"
         "assert 'fenics_gears.dynamics.torque_ripple' not in sys.modules and 'fenics_gears.dynamics.speed_ramp' not in sys.modules\n"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)

@@ -6,7 +6,7 @@ import time
 import numpy as np
 import pytest
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import DIRECTORY_VARIABLE, LONGEST_WRITING, SIZE_VARIABLE, Cache, content_key, user_cache
 from fenics_gears.errors import SceneError
 

@@ -17,7 +17,6 @@ from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
 from fenics_gears.errors import ComputationError
 
-
 BOTH = Reach(2, (-2, 2))
 
 

@@ -11,17 +11,18 @@ from tests.contact.laws_of_contact import law_residual
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.operator import rigid_rows
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.simulation import Compliances, mesh_cycle, rigid_cycle
+from fenics_gears.simulation.elastic_route import Compliances, mesh_cycle
+from fenics_gears.simulation.rigid_route import rigid_cycle
 
 
 @dataclass(frozen=True)
 class Run:
     """A march with all of its steps, and the contact that they were solved on; `failure` where a step did not converge."""
 
-    built: Model
+    model: Model
     marcher: Marcher
     records: list
     result: xr.Dataset
@@ -30,28 +31,28 @@ class Run:
     @property
     def friction(self) -> float:
         """Coefficient of friction, 0 without."""
-        return self.built.scene.friction.coefficient if self.built.scene.friction else 0.0
+        return self.model.scene.friction.coefficient if self.model.scene.friction else 0.0
 
 
 # Not numbers by design: contact nodes that do not stand, and the shares of rigid pairs that touch together.
 NODES_OF_THEIR_OWN, SHARES = ("contact_offset", "contact_roll_angle", "_opening"), ("pair_normal_force", "pair_coast_normal_force")
 
 
-def run_of(built: Model, compliances: Compliances | None) -> Run:
+def run_of(model: Model, compliances: Compliances | None) -> Run:
     """March a scene on given gears (None: rigid ones) and keep every step; its result is made too, and is of numbers where it can be."""
-    cycle = rigid_cycle(built) if compliances is None else mesh_cycle(built, compliances)
+    cycle = rigid_cycle(model) if compliances is None else mesh_cycle(model, compliances)
     without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
-    friction = built.scene.friction.coefficient if built.scene.friction else 0.0
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, friction, built.pace, built.clock, built.loads)
-    recorder = Recorder(built, cycle)
+    friction = model.scene.friction.coefficient if model.scene.friction else 0.0
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.pace, model.clock, model.loads)
+    recorder = Recorder(model, cycle)
     try:
-        march, failure = marcher.run(built.steps, built.steps + 1, observe=recorder.take), None
+        march, failure = marcher.run(model.steps, model.steps + 1, observe=recorder.take), None
     except ContactNotConverged as failed:
         march, failure = failed.partial, failed
     result = dataset(recorder, march)
     for name, variable in result.data_vars.items():
         assert np.all(np.isfinite(variable)) or name.endswith(without_number), name
-    return Run(built, marcher, list(march.records), result, failure)
+    return Run(model, marcher, list(march.records), result, failure)
 
 
 def worst_of(run: Run) -> dict[str, float]:
@@ -78,7 +79,7 @@ def step_residuals(run: Run, before, record) -> dict[str, float]:
     displacement = operator.rigid @ record.state.position - operator.compliance @ forces
     slip_before = None if before is None else _slip_before(operator, before)
     laws = law_residual(forces, displacement, operator.gap, slip_before, run.friction)
-    load = float(np.abs(run.built.drivetrain.load).max())
+    load = float(np.abs(run.model.drivetrain.load).max())
     force = max(float(np.abs(forces).max(initial=0.0)), load, 1e-3)
     terms = (operator.gap, record.state.position, operator.compliance @ forces)
     length = max(float(np.abs(each).max(initial=0.0)) for each in terms)
@@ -104,7 +105,7 @@ def _slip_before(operator, before) -> np.ndarray | None:
 
 def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, float]:
     """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero, whatever the forces are."""
-    pair = run.built.pair
+    pair = run.model.pair
     (radius_1, radius_2), frictional = operator.base_radii, len(forces) > operator.nodes
     rows = rigid_rows(operator.pairs, operator.base_radii, operator.normal_arms, tangential=frictional)
     on_pinion, on_wheel = -(rows.T @ forces)[:3], -(rows.T @ forces)[3:6]
@@ -124,7 +125,7 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
 
 def _equilibrium(run: Run, record, force: float) -> dict[str, float]:
     """Without masses springs, load and contact balance at every step."""
-    train = run.built.drivetrain
+    train = run.model.drivetrain
     if train.mass is not None:
         return {}
     operator = record.position.operator

@@ -9,7 +9,7 @@ from tests.hard_cases.random_effects import decades, random_effects
 from tests.random_pairs import valid_pairs
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 
@@ -42,20 +42,20 @@ def valid_scenes(draw, torques=decades(1e-4, 1e2)) -> Scene:
     text = "\n\n".join(sections) + "\n"
     scene = scene_from_text(text)
     try:
-        assume(_speed_changes_slowly(model(scene), MOST_LOAD * USUAL_LOAD * module * width))
+        assume(_speed_changes_slowly(model_of(scene), MOST_LOAD * USUAL_LOAD * module * width))
     except GeometryError:  # a contact ratio at its limit, lost in the text's degrees; reliefs of more than the flank, or off it
         assume(False)
     return scene
 
 
-def _speed_changes_slowly(built, most: float) -> bool:
+def _speed_changes_slowly(model, most: float) -> bool:
     """Whether the inertia of a changing speed asks no more than `most` (N) of the teeth, and does not pull the wheel off them at the start;
     with coast flanks it may."""
-    if built.scene.speed_ramp is None:
+    if model.scene.speed_ramp is None:
         return True
-    loads = np.array([sum((load(step) for load in built.loads), built.drivetrain.load) for step in (-1, 0, 1)])
-    wheel = loads[:, built.drivetrain.coordinates.index("rotation_2")]
-    return np.abs(loads).max() <= most and (built.scene.coast_flanks is not None or wheel.min() > 0.0)
+    loads = np.array([sum((load(step) for load in model.loads), model.drivetrain.load) for step in (-1, 0, 1)])
+    wheel = loads[:, model.drivetrain.coordinates.index("rotation_2")]
+    return np.abs(loads).max() <= most and (model.scene.coast_flanks is not None or wheel.min() > 0.0)
 
 
 def _gears(pair, width: float, elastic: bool) -> str:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.scene import units
-from fenics_gears.scene.fields import Allowed, AllowedEither, AllowedList, allowed_in
+from fenics_gears.inputs import units
+from fenics_gears.inputs.fields import Allowed, AllowedEither, AllowedList, allowed_in
 from fenics_gears.scene.schema import SceneText
 from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
 

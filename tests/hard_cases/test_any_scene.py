@@ -14,9 +14,9 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears.contact.errors import MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.simulation import gear_compliances, tooth_reach
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.elastic_route import gear_compliances, tooth_reach
+from fenics_gears.system.progress import SilentProgress
 
 # Row, words, limit and unit of each residual of `invariants.step_residuals`.
 LAWS = {
@@ -41,8 +41,8 @@ class Tally:
 
     def judge(self, scene, compliances_of):
         """Run a scene and hold every step against the laws."""
-        built = model(scene)
-        run = run_of(built, compliances_of(built))
+        model = model_of(scene)
+        run = run_of(model, compliances_of(model))
         self.scenes, self.steps, self.failed = self.scenes + 1, self.steps + len(run.records), self.failed + (run.failure is not None)
         event("converged" if run.failure is None else run.failure.reason)
         residuals = worst_of(run)
@@ -69,17 +69,17 @@ def is_right(failure, scene) -> bool:
     return scene.friction is not None and isinstance(failure, (SelfLocking, MoreThanOneSolution))
 
 
-def on_stand_ins(built):
+def on_stand_ins(model):
     """Teeth without finite elements; None for rigid ones."""
-    if built.scene.tooth_elasticity is None:
+    if model.scene.tooth_elasticity is None:
         return None
-    reach, coast = tooth_reach(built).farthest, built.scene.coast_flanks is not None
-    return tuple(stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (built.pair.pinion, built.pair.wheel))
+    reach, coast = tooth_reach(model).farthest, model.scene.coast_flanks is not None
+    return tuple(stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (model.pair.pinion, model.pair.wheel))
 
 
 def on_elements(cache):
     """The real teeth, coarse."""
-    return lambda built: None if built.scene.tooth_elasticity is None else gear_compliances(built, SilentProgress(), cache)
+    return lambda model: None if model.scene.tooth_elasticity is None else gear_compliances(model, SilentProgress(), cache)
 
 
 def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes()):

@@ -7,7 +7,7 @@ import pytest
 from tests.hard_cases.invariants import run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS, on_elements
 
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
 
 FOUND = sorted(Path(__file__).with_name("found_scenes").glob("*.toml"))
@@ -15,13 +15,13 @@ FOUND = sorted(Path(__file__).with_name("found_scenes").glob("*.toml"))
 
 def checked(file, cache):
     """Every step of a scene, converged and obeying the laws."""
-    built = model(load_scene(file))
-    run = run_of(built, on_elements(cache)(built))
+    model = model_of(load_scene(file))
+    run = run_of(model, on_elements(cache)(model))
     assert run.failure is None
-    assert len(run.records) == built.steps + 1
+    assert len(run.records) == model.steps + 1
     for name, value in worst_of(run).items():
         # Without load there is no direction to speak of where friction acts.
-        assert value <= LAWS[name][2] or (built.scene.load.wheel_torque == 0.0 and name in ("wrong_way", "dissipation")), name
+        assert value <= LAWS[name][2] or (model.scene.load.wheel_torque == 0.0 and name in ("wrong_way", "dissipation")), name
     return run
 
 
@@ -30,7 +30,7 @@ def test_a_scene_without_load_that_failed_once_converges(file, suite_cache):
     """Row 16: without load there is no force; nothing may be asked of the friction at nodes that carry no more than round-off."""
     run = checked(file, suite_cache)
     spurious = max(np.abs(record.solution.forces).max(initial=0.0) for record in run.records)
-    assert run.built.scene.load.wheel_torque == 0.0 and spurious <= 1e-8
+    assert run.model.scene.load.wheel_torque == 0.0 and spurious <= 1e-8
 
 
 @pytest.mark.parametrize("file", [file for file in FOUND if "no_load" not in file.stem], ids=lambda file: file.stem)

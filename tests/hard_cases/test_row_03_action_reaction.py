@@ -9,7 +9,7 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 SCENES = {
     "quasi-static, friction": quasi_static,

@@ -13,7 +13,7 @@ from fenics_gears.dynamics.march import Record
 from fenics_gears.effects.friction import Friction
 from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 def march(marcher, record, steps):

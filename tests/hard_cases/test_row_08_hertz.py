@@ -19,10 +19,10 @@ from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.model import model
-from fenics_gears.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 NIGHTLY = pytest.mark.nightly
 LIMITS = {2: 0.04, 4: 0.01, 8: 0.005}
@@ -34,7 +34,7 @@ LOADS, SHIFTS = np.linspace(1.0, 1.25, 6) ** 2, (0.0, 0.3)
 def errors(paper_scene):
     """Errors of peak (nodal, averaged) and half-width over all loads and positions, (cases, 3), for an element and b/h."""
     scene = teeth_alone(paper_scene)
-    pair, material = model(scene).pair, scene.gears.material
+    pair, material = model_of(scene).pair, scene.gears.material
     nominal = scene.load.wheel_torque / pair.wheel.base_radius
     modulus = plane_contact_modulus(scene)
 
@@ -111,7 +111,7 @@ def test_first_order_elements(element, errors, measured):
 def test_peak_that_a_run_reports(paper_scene, measured):
     """The same through a whole run at the default accuracy, b/h = 4.6 at the pitch point: what the result's attribute is made of."""
     scene = frictionless(teeth_alone(replace(paper_scene, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))))
-    pair, result = model(scene).pair, simulate(scene)
+    pair, result = model_of(scene).pair, simulate(scene)
     phases = (pair.pitch_point - pair.path_start) / pair.base_pitch
     step = [int(np.argmin(np.abs(result.mesh_phase.values - phases)))]
     at = result.isel(time=step, contact_time=step)

@@ -16,9 +16,10 @@ from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 PHASES = np.linspace(0.013, 0.987, 25)
 
@@ -57,8 +58,8 @@ def test_any_start_angle(make, start, scene, measured):
     """Quasi-static gears forget where they began: after two mesh cycles the same transmission error at the same angle."""
     scene = make(quasi_static(replace(scene, motion=replace(scene.motion, mesh_cycles=3, recorded_cycles=1))))
 
-    def begun_later(built, progress, cache):
-        gears, cycle = prepared(built, SilentProgress(), cache)
+    def begun_later(model, progress, cache):
+        gears, cycle = prepared(model, SilentProgress(), cache)
         plain, between, number = cycle.position, cycle.between, cycle.pair_number
         cycle.position = lambda step: plain(step + start)
         cycle.between = lambda step, before: between(step + start, before + start)
@@ -87,8 +88,8 @@ def test_finer_steps_stand_at_the_same_angles(scene, measured):
 @pytest.mark.parametrize("element", ["P1", "P2"])
 def test_gears_swapped(element, relieved, scene, measured):
     """Exact identity: turned by half a turn the pair is the wheel driving the pinion backwards; xi becomes L - xi."""
-    built = model(teeth_alone(frictionless(scene)))
-    pair, grid, force = built.pair, built.resolution.contact_grid, built.drivetrain.load[-1]
+    model = model_of(teeth_alone(frictionless(scene)))
+    pair, grid, force = model.pair, model.resolution.contact_grid, model.drivetrain.load[-1]
     swapped = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
     reliefs = (lambda roll: 0.02 * np.maximum(roll - 0.5, 0.0), lambda roll: 0.03 * np.maximum(roll - 0.4, 0.0))
     removal = reliefs if relieved else (None, None)
@@ -110,8 +111,8 @@ def test_mirrored_pair(element, scene, measured):
     flanks do at another phase, and the wheel gives way as far the other way."""
     pair = gear_pair(scene.gears)
     pair = replace(pair, centre_distance=pair.centre_distance_without_backlash)
-    built = model(teeth_alone(frictionless(scene)))
-    grid, force = built.resolution.contact_grid, built.drivetrain.load[-1]
+    model = model_of(teeth_alone(frictionless(scene)))
+    grid, force = model.resolution.contact_grid, model.drivetrain.load[-1]
     if element == "stand-in":
         gears = tuple(stand_in_compliance(gear, offsets=5, coast_flank=True) for gear in (pair.pinion, pair.wheel))
     else:

@@ -7,7 +7,8 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
 from fenics_gears.effects.friction import Friction
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 
 SCENES = {"quasi-static": quasi_static, "200 Hz": lambda scene: scene}
 COEFFICIENTS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
@@ -33,11 +34,11 @@ def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
 
 def test_frictionless_scene_has_nothing_tangential(paper_scene, measured):
     """From the task: no unknowns, no arrays, no result variables, no off-line-of-action motion at all."""
-    from fenics_gears.model import model
-    from fenics_gears.progress import SilentProgress
+    from fenics_gears.model.model import model_of
+    from fenics_gears.system.progress import SilentProgress
 
     scene = frictionless(coarse_scene(paper_scene))
-    _, cycle = prepared(model(scene), SilentProgress(), None)
+    _, cycle = prepared(model_of(scene), SilentProgress(), None)
     operators = [cycle.position(step).operator for step in range(cycle.steps)]
     result = simulate(scene)
     surplus = max(len(operator.compliance) - operator.nodes for operator in operators)

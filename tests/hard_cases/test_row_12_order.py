@@ -11,7 +11,7 @@ from tests.permuted_cycle import solved_in_other_order
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 SCENES = {
     "quasi-static, friction": quasi_static,
@@ -58,13 +58,13 @@ def test_order_of_mesh_nodes_and_cells(name, measured):
 
 def test_pinion_and_wheel_alike_respond_alike(paper_scene, measured):
     """Exact identity: of two equal gears either is the pinion; both have the same compliance, bit for bit."""
-    from fenics_gears.model import model
-    from fenics_gears.progress import SilentProgress
-    from fenics_gears.simulation import gear_compliances
+    from fenics_gears.model.model import model_of
+    from fenics_gears.simulation.elastic_route import gear_compliances
+    from fenics_gears.system.progress import SilentProgress
 
     scene = coarse_scene(paper_scene)
     gears = replace(scene.gears, wheel=scene.gears.pinion, centre_distance=74.5)
-    first, second = gear_compliances(model(replace(scene, gears=gears)), SilentProgress(), None)
+    first, second = gear_compliances(model_of(replace(scene, gears=gears)), SilentProgress(), None)
     difference = np.abs(first.blocks - second.blocks).max()
     measured("equal gears: difference of their compliance", difference, "0", "mm per N/mm")
     assert difference == 0.0

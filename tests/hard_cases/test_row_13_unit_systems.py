@@ -11,7 +11,7 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 def in_units(scene, length, force, time):

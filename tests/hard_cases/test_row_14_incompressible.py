@@ -14,8 +14,8 @@ from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import canonical_normal
-from fenics_gears.model import model
-from fenics_gears.simulation import simulate
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.simulate import simulate
 
 ALLOWED = {"Q2": "0.1 %", "Q1 incompatible": "0.5 %"}
 SECOND_ORDER, FIRST_ORDER = ("P2", "Q2"), ("P1", "Q1")
@@ -69,10 +69,10 @@ def test_elements_that_lock_are_named(name, paper_scene, measured):
     scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
     gears = replace(scene.gears, material=replace(scene.gears.material, poissons_ratio=0.499))
     soft = replace(scene, gears=gears, accuracy=replace(scene.accuracy, element=name))
-    found = [warning for warning in model(soft).warnings if "locks in a nearly incompressible material" in warning]
+    found = [warning for warning in model_of(soft).warnings if "locks in a nearly incompressible material" in warning]
     measured(f"{name} at nu 0.499", f"{'named' if found else 'not named'}", "first order named")
     assert len(found) == (name in FIRST_ORDER)
     assert all(name in warning and "0.499" in warning and "P2 or Q2" in warning for warning in found)
     assert ("locks in a nearly" in simulate(soft).attrs["warnings"]) == (name in FIRST_ORDER)
     steel = replace(scene, accuracy=replace(scene.accuracy, element=name))
-    assert not any("locks" in warning for warning in model(steel).warnings)
+    assert not any("locks" in warning for warning in model_of(steel).warnings)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 
-from fenics_gears.model import model
-from fenics_gears.simulation import simulate
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +53,7 @@ def test_no_load_no_force(coarse, measured):
 def test_contact_narrower_than_a_node_spacing_carries_the_load(coarse, measured):
     """Exact identity: T = rb2 sum p with one closed node a pair or two; and the scene is told that it does not resolve contact."""
     scene = frictionless(teeth_alone(replace(coarse, load=replace(coarse.load, wheel_torque=10.0))))
-    resolution, result = model(scene).resolution, simulate(scene)
+    resolution, result = model_of(scene).resolution, simulate(scene)
     force = 10.0 / result.attrs["base_radius_wheel"]
     difference = np.abs(result.normal_force.values / force - 1.0).max()
     closed = int(result.closed_nodes.max())

@@ -11,14 +11,16 @@ from tests.frozen_gears import frozen_marcher
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.model.model import model_of
 from fenics_gears.results import dataset, shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.forces import pair_forces
 from fenics_gears.show.run import Run
-from fenics_gears.simulation import gear_compliances, mesh_cycle, prepared, simulate
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 FINE = replace(COARSE, steps_per_mesh_cycle=200)
 
@@ -35,12 +37,12 @@ def backwards(scene):
 
 def with_torque(scene, part):
     """The result of a scene whose load is multiplied by `part(step)` during the run; it starts in equilibrium under the whole load."""
-    built = model(scene)
-    _, cycle = prepared(built, SilentProgress(), user_cache())
-    change = (lambda step: (part(step) - 1.0) * built.drivetrain.load,)
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, 0.0, built.pace, built.clock, change)
-    recorder = Recorder(built, cycle, loads=change)
-    return dataset(recorder, marcher.run(built.steps, 1, observe=recorder.take))
+    model = model_of(scene)
+    _, cycle = prepared(model, SilentProgress(), user_cache())
+    change = (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.pace, model.clock, change)
+    recorder = Recorder(model, cycle, loads=change)
+    return dataset(recorder, marcher.run(model.steps, 1, observe=recorder.take))
 
 
 @pytest.mark.parametrize("absent", [("shafts", "bearings"), ()], ids=["teeth alone", "whole drivetrain"])
@@ -80,9 +82,9 @@ def test_coast_flanks_stand_a_backlash_apart(both_flanks, paper_pair, measured):
     """Exact: with the centres fixed the openings of drive and coast flanks sum to the geometry's backlash. At the contact nodes the hat
     average adds to that the flanks' curvature over a node spacing, which falls as its square."""
     scene, excess = replace(quasi_static(both_flanks), shafts=None, bearings=None), []
-    compliances = gear_compliances(model(scene), SilentProgress(), user_cache())
+    compliances = gear_compliances(model_of(scene), SilentProgress(), user_cache())
     for nodes in (26, 51, 101):
-        cycle = mesh_cycle(model(replace(scene, accuracy=replace(COARSE, contact_nodes=nodes))), compliances)
+        cycle = mesh_cycle(model_of(replace(scene, accuracy=replace(COARSE, contact_nodes=nodes))), compliances)
         operators = [cycle.position(step).operator for step in range(20)]
         sums = [sum(operator.gap[operator.on_drive_flanks == drive].min() for drive in (True, False)) for operator in operators]
         excess.append(np.mean(sums) - paper_pair.backlash)
@@ -109,7 +111,7 @@ def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):
     first = result.attrs["contact_loss_first"]
     measured("first loss after the reversal at 10 ms", first, "within 2 ms", "s")
     assert 0.010 < first < 0.012
-    assert result.attrs["contact_loss_longest"] >= 0.9 * 480 * model(scene).time_step
+    assert result.attrs["contact_loss_longest"] >= 0.9 * 480 * model_of(scene).time_step
     assert "no meaning" not in result.attrs["warnings"]
 
 

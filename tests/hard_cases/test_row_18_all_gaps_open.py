@@ -13,8 +13,8 @@ from fenics_gears.contact.ladder import solve_step
 from fenics_gears.contact.mesh_cycle import MeshCycle, Position
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher, Record
+from fenics_gears.model.drivetrain import drivetrain
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])

@@ -12,9 +12,10 @@ from fenics_gears.contact.operator import CompliancePairing, contact_operator
 from fenics_gears.contact.rank import dependent_rows
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 ROTATION_2 = [5]
 
@@ -25,13 +26,13 @@ def scene(paper_scene):
 
 
 @pytest.fixture(scope="module")
-def built(scene):
-    return model(scene)
+def model(scene):
+    return model_of(scene)
 
 
 @pytest.fixture(scope="module")
-def flanks(built):
-    return prepared(built, SilentProgress(), None)[1].flanks
+def flanks(model):
+    return prepared(model, SilentProgress(), None)[1].flanks
 
 
 def pressed(operator, force):
@@ -55,12 +56,12 @@ def only(operator, node):
     )
 
 
-def test_one_contact_node(built, flanks, measured):
+def test_one_contact_node(model, flanks, measured):
     """Exact: it carries T/rb2, and the wheel gives way by its gap and C_11 T/rb2."""
-    pair, force = flanks.pair, built.drivetrain.load[-1]
+    pair, force = flanks.pair, model.drivetrain.load[-1]
     place = drive_place(pair, 0, pair.pitch_point)
     operator = contact_operator(
-        flanks, CompliancePairing(flanks), (tooth_pair(flanks, built.resolution.contact_grid, place),), coordinates=ROTATION_2
+        flanks, CompliancePairing(flanks), (tooth_pair(flanks, model.resolution.contact_grid, place),), coordinates=ROTATION_2
     )
     errors = []
     for node in (0, operator.nodes // 2, operator.nodes - 1):
@@ -72,10 +73,10 @@ def test_one_contact_node(built, flanks, measured):
     assert max(errors) <= 1e-14
 
 
-def test_coincident_contact_nodes_share_alike(built, flanks, measured):
+def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     """Exact by symmetry: the same nodes twice carry half each, together what they carry once; the lost rank is counted."""
-    pair, force = flanks.pair, built.drivetrain.load[-1]
-    nodes = tooth_pair(flanks, built.resolution.contact_grid, drive_place(pair, 0, pair.pitch_point))
+    pair, force = flanks.pair, model.drivetrain.load[-1]
+    nodes = tooth_pair(flanks, model.resolution.contact_grid, drive_place(pair, 0, pair.pitch_point))
     once, twice = (
         contact_operator(flanks, CompliancePairing(flanks), pairs, coordinates=ROTATION_2) for pairs in ((nodes,), (nodes, nodes))
     )
@@ -94,7 +95,7 @@ def test_coincident_contact_nodes_share_alike(built, flanks, measured):
 
 
 @pytest.mark.parametrize(("element", "nodes"), [("P1", 101), ("P1", 201), ("P2", 101), ("P2", 201)])
-def test_nodes_closer_than_elements_are_reported(element, nodes, scene, built, measured):
+def test_nodes_closer_than_elements_are_reported(element, nodes, scene, model, measured):
     """From the task: rank checked, never silent. The force is carried to round-off; what becomes of the transmission error is on record."""
     dense = replace(scene, accuracy=replace(scene.accuracy, element=element, contact_nodes=nodes))
     usual, result = simulate(replace(scene, accuracy=replace(scene.accuracy, element=element))), simulate(dense)

@@ -7,10 +7,11 @@ from tests.coarse import coarse_scene, quasi_static
 from tests.hard_cases.invariants import run_of, worst_of
 
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.simulation import gear_compliances, simulate
-from fenics_gears.summary import summary_rows
+from fenics_gears.model.model import model_of
+from fenics_gears.results.summary import summary_rows
+from fenics_gears.simulation.elastic_route import gear_compliances
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 WORDS = ("self-locking", "more than one solution")
 ABSENT = [(), ("bearings",), ("shafts", "bearings")]
@@ -30,8 +31,8 @@ def with_friction(scene, coefficient, absent=()):
 
 def marched(scene):
     """A run with all its steps."""
-    built = model(scene)
-    return run_of(built, gear_compliances(built, SilentProgress(), user_cache()))
+    model = model_of(scene)
+    return run_of(model, gear_compliances(model, SilentProgress(), user_cache()))
 
 
 def outcome(run):

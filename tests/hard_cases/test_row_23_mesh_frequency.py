@@ -13,9 +13,9 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 CYCLES = 3
 TIP_RELIEF = TipRelief(pinion=Relief(0.031, None), wheel=Relief(0.031, None))
@@ -64,11 +64,11 @@ def test_difference_to_quasi_static_vanishes_with_the_frequency(coarse, measured
 def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coarse, measured):
     """Nyquist: two steps in a period and more hold a vibration; the method changes there and nowhere else."""
     for mesh_frequency in np.geomspace(0.01, 20e3, 40):
-        built = model(at(coarse, mesh_frequency))
-        steps = built.vibrations[0].steps_per_period(built.time_step)
-        marcher = Marcher(_AnyCycle(built.pair), built.drivetrain, built.time_step, 0.1, built.pace)
+        model = model_of(at(coarse, mesh_frequency))
+        steps = model.vibrations[0].steps_per_period(model.time_step)
+        marcher = Marcher(_AnyCycle(model.pair), model.drivetrain, model.time_step, 0.1, model.pace)
         assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
-    slowest = model(coarse).vibrations[0].frequency
+    slowest = model_of(coarse).vibrations[0].frequency
     measured("mesh frequency below which backward Euler steps, 40 steps a cycle", 2.0 * slowest / 40, "2 f0/steps", "Hz")
 
 

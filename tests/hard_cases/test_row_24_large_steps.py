@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, quasi_static
 
-from fenics_gears.description import describe
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
 from fenics_gears.dynamics.guidance import resolved_frequency, steps_to_resolve
-from fenics_gears.model import model
+from fenics_gears.model.description import describe
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")
@@ -47,18 +47,18 @@ def test_large_steps_are_finite_bounded_and_named(coarse, name, damped, measured
     assert np.all(np.isfinite(result.transmission_error.values))
     assert ratio <= 2.0
     said = [line for line in result.attrs["warnings"].splitlines() if f"within {PERIOD_ERROR:.0%} up to" in line]
-    assert len(said) == 1 and f"up to {resolved_frequency(model(scene).time_step):.4g} Hz" in said[0]
+    assert len(said) == 1 and f"up to {resolved_frequency(model_of(scene).time_step):.4g} Hz" in said[0]
     assert said[0] in [words for _, words, _ in dict(describe(scene).sections)["Warnings"]]
 
 
 def test_the_remedy_is_a_remedy(coarse):
     """With the steps that the warning asks for it has nothing more to say."""
     undamped = replace(coarse, damping=None)
-    frequencies = [vibration.frequency for vibration in model(undamped).vibrations]
+    frequencies = [vibration.frequency for vibration in model_of(undamped).vibrations]
     needed = steps_to_resolve(frequencies[-1], 200.0)
     for steps, silent in ((needed, True), (needed - 2, False)):
         scene = replace(undamped, accuracy=replace(COARSE, steps_per_mesh_cycle=steps))
-        said = [words for words in model(scene).warnings if "does not resolve" in words]
+        said = [words for words in model_of(scene).warnings if "does not resolve" in words]
         assert (not said) == silent
         if said:
             assert f"steps_per_mesh_cycle = {needed} instead of {steps}" in said[0]
@@ -83,13 +83,13 @@ def test_inertia_that_does_not_matter_is_named_and_its_effect_is_of_the_size_sai
     from fenics_gears.dynamics.guidance import effect_of_inertia
 
     scene = replace(coarse, friction=None, accuracy=replace(COARSE, steps_per_mesh_cycle=1000), motion=Motion(1.0, 2, 1))
-    (said,) = [words for words in model(scene).warnings if "inertia hardly matters" in words]
+    (said,) = [words for words in model_of(scene).warnings if "inertia hardly matters" in words]
     assert "leave out [inertia] and [damping]" in said
     labels = [label for label, _, _ in dict(describe(scene).sections)["Expected cost (about)"]]
     assert {"quasi-static instead: marching", "quasi-static instead: memory"} <= set(labels)
     dynamic, static = simulate(scene).transmission_error.values, simulate(quasi_static(scene)).transmission_error.values
     difference = np.sqrt(np.mean((dynamic - static) ** 2)) / np.ptp(static)
-    expected = effect_of_inertia(model(scene).vibrations[0], 1.0)
+    expected = effect_of_inertia(model_of(scene).vibrations[0], 1.0)
     measured("1 Hz: difference to quasi-static of its peak-to-peak value", difference, f"{expected:.2g} expected")
     assert 0.1 <= difference / expected <= 10.0
-    assert not any("inertia hardly" in words for words in model(replace(scene, motion=Motion(100.0, 2, 1))).warnings)
+    assert not any("inertia hardly" in words for words in model_of(replace(scene, motion=Motion(100.0, 2, 1))).warnings)

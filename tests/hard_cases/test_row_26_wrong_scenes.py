@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from tests.hard_cases.scene_fields import DEMO, UNITS, Field, fields, scene_with
 from tests.studies.conftest import ACCURACY
 
-import fenics_gears.simulation
-from fenics_gears.cli import main
+import fenics_gears.simulation.simulate
+from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
@@ -35,7 +35,7 @@ def outcome(tmp_path, monkeypatch, capsys):
     def compute(scene, **options):
         raise Computed
 
-    monkeypatch.setattr(fenics_gears.simulation, "simulate", compute)
+    monkeypatch.setattr(fenics_gears.simulation.simulate, "simulate", compute)
 
     def run(text):
         file = tmp_path / "pair.toml"
@@ -172,7 +172,7 @@ def bounds_of(field: Field) -> list[str]:
 
 
 def scale(field: Field) -> float:
-    from fenics_gears.scene.units import quantity
+    from fenics_gears.inputs.units import quantity
 
     return quantity(f"1 {field.unit}")[0]
 

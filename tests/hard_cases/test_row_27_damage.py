@@ -22,7 +22,7 @@ from tests.studies.test_run_study import FOUR, load
 
 import fenics_gears
 from fenics_gears import results
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache, content_key
 from fenics_gears.errors import ComputationError
 

@@ -17,7 +17,7 @@ from tests.studies.conftest import command, environment, folder, write_study  # 
 from tests.studies.test_run_study import FOUR, load
 
 from fenics_gears import results
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
 
 

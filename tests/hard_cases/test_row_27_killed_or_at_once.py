@@ -19,7 +19,7 @@ from tests.studies.conftest import command, environment, folder, gears, stamps, 
 from tests.studies.test_run_study import FOUR, SIX, load, stopped_in_the_middle
 
 from fenics_gears import results
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.studies.case_files import sole_writer
 

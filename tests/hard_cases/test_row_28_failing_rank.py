@@ -12,7 +12,7 @@ import pytest
 from tests.studies.conftest import command, environment, folder, gears, mpirun, stamps, write_study  # noqa: F401
 from tests.studies.test_run_study import SIX, THREE, load, stopped_in_the_middle
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.studies.study_file import load_study
 
 pytestmark = pytest.mark.ranks

@@ -11,7 +11,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import involute_arms, rigid_rows
-from fenics_gears.reference_route import remeshed
+from fenics_gears.simulation.reference_route import reference_route
 
 
 class InvoluteArms(Cycle):
@@ -29,7 +29,7 @@ class InvoluteArms(Cycle):
         return replace(position, operator=replace(operator, rigid=np.ascontiguousarray(rigid), normal_arms=arms))
 
 
-def with_involute_arms(built, progress, cache):
+def with_involute_arms(model, progress, cache):
     """A `preparation` for `simulate`."""
-    gears, cycle = remeshed(built, progress, cache)
-    return gears, InvoluteArms(cycle, built.drivetrain.indices)
+    gears, cycle = reference_route(model, progress, cache)
+    return gears, InvoluteArms(cycle, model.drivetrain.indices)

@@ -12,11 +12,11 @@ from fenics_gears.contact.published_newton import BETA, GAMMA, MOST_HALVINGS, Eq
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.reference_route import remeshed
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import Accuracy
+from fenics_gears.simulation.reference_route import reference_route
+from fenics_gears.system.progress import SilentProgress
 
 NODES, CENTRE = 7, 3
 SEEDS = [pytest.param(seed, marks=pytest.mark.nightly if seed > 3 else ()) for seed in range(25)]
@@ -109,17 +109,17 @@ def test_coast_flanks_are_refused(paper_cases):
     """Message: the reference route has no nodes on the coast flanks and says so before it meshes."""
     scene = replace(paper_cases["static"], coast_flanks=CoastFlanks(), accuracy=Accuracy(condensation=EVERY_STEP))
     with pytest.raises(SceneError, match="coast_flanks"):
-        remeshed(model(scene), SilentProgress(), None)
+        reference_route(model_of(scene), SilentProgress(), None)
 
 
 def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, reference_cache):
     """Message: a load that pulls the flanks apart has no static equilibrium; the error lists the published method first, then the ladder."""
     accuracy = Accuracy("P2", 0.3, 1.5, 8, 2, EVERY_STEP)
-    built = model(replace(paper_cases["static frictionless"], accuracy=accuracy))
-    cycle = remeshed(built, SilentProgress(), reference_cache)[1]
-    pulled = replace(built.drivetrain, load=-built.drivetrain.load)
+    model = model_of(replace(paper_cases["static frictionless"], accuracy=accuracy))
+    cycle = reference_route(model, SilentProgress(), reference_cache)[1]
+    pulled = replace(model.drivetrain, load=-model.drivetrain.load)
     with pytest.raises(ContactNotConverged, match="no equilibrium") as caught:
-        Marcher(cycle, pulled, built.time_step, 0.0).run(2, 2)
+        Marcher(cycle, pulled, model.time_step, 0.0).run(2, 2)
     attempts = caught.value.attempts
     assert [name for name, *_ in attempts][:2] == [PUBLISHED, "newton"]
     assert all(np.all(np.isfinite(history)) for _, _, history, _ in attempts)

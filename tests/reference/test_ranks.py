@@ -9,7 +9,7 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.remeshing import remeshed_stiffness
 from fenics_gears.errors import ComputationError
 from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 pytestmark = pytest.mark.ranks
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from fenics_gears import environment
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
+from fenics_gears.system import environment
 
 environment.prepare()
 

@@ -6,7 +6,7 @@ from matplotlib.image import imread
 from tests.report.browser import CHROMIUM, Browser
 from tests.report.pages import seen
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 
 pytestmark = [pytest.mark.nightly, pytest.mark.skipif(CHROMIUM is None, reason="no chromium")]
 

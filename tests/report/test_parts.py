@@ -16,9 +16,9 @@ from fenics_gears.show.orders import spectrum
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.geometry import geometry
+from fenics_gears.show.report.interactive import figure
 from fenics_gears.show.report.overview import counted, digits, summary
 from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
-from fenics_gears.show.report.interactive import figure
 from fenics_gears.show.run import Run
 from fenics_gears.show.thinning import thinned
 

@@ -1,7 +1,7 @@
 """The report on a run: which sections it has, what they say, and that it is one well-formed file that loads nothing."""
 
-import csv
 import base64
+import csv
 import re
 import subprocess
 import sys
@@ -15,11 +15,11 @@ from tests.report.conftest import scene_text
 from tests.report.pages import seen
 
 from fenics_gears import results
+from fenics_gears.commands.cli import main
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.cli import main
 from fenics_gears.show.report.effects import effects
-from fenics_gears.show.run import Run
 from fenics_gears.show.report.stress import stress
+from fenics_gears.show.run import Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[2]
@@ -283,7 +283,7 @@ def test_the_page_goes_where_it_is_asked_to_and_replaces_an_earlier_one(run, tmp
 
 def test_other_commands_load_neither_plotly_nor_jinja():
     """They are needed by the report alone."""
-    code = "import sys, fenics_gears.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if name in sys.modules])"
+    code = "import sys, fenics_gears.commands.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if name in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=CHECKOUT, check=True).stdout.strip() == "[]"
 
 

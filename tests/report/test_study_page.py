@@ -8,11 +8,11 @@ import pytest
 import xarray as xr
 from tests.report.pages import seen
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.show.cases import Cases
-from fenics_gears.show.study_charts import over_parameter, result_charts
 from fenics_gears.show.report.interactive import figure, height
 from fenics_gears.show.report.study_page import _summary, standing_out
+from fenics_gears.show.study_charts import over_parameter, result_charts
 from fenics_gears.studies.combine import load_combined, save_study
 
 SECTIONS = ["summary", "failures", "warnings", "results", "outstanding", "cases", "effort", "versions", "study", "scene"]

@@ -8,12 +8,12 @@ from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth
 
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.model import model
-from fenics_gears.resolution import plane_contact_modulus
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import plane_contact_modulus
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.key_numbers import HARMONIC_NAMES, STUDIED
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +26,7 @@ def static(paper_scene):
 def test_mesh_stiffness_beside_iso_6336(static, paper_scene):
     """ISO 6336-1, method B: c_gamma within 3 %, and c' of one pair between the standard's c', which 0.8 brings down to measurements, and c'th."""
     theoretical, single = single_stiffness(paper_scene.gears)
-    assert static.attrs["mean_mesh_stiffness"] == pytest.approx(single * mesh_factor(model(paper_scene).pair.contact_ratio), rel=0.03)
+    assert static.attrs["mean_mesh_stiffness"] == pytest.approx(single * mesh_factor(model_of(paper_scene).pair.contact_ratio), rel=0.03)
     assert single < static.attrs["single_pair_stiffness"] < theoretical
 
 
@@ -37,13 +37,13 @@ def test_mesh_stiffness_is_load_over_deflection(paper_scene):
     """
     scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
     result = simulate(replace(scene, accuracy=replace(COARSE, contact_length=2.0, contact_nodes=101, steps_per_mesh_cycle=20)))
-    deflection = result.transmission_error.values * model(scene).pair.wheel.base_radius
+    deflection = result.transmission_error.values * model_of(scene).pair.wheel.base_radius
     assert result.mesh_stiffness.values == pytest.approx(result.normal_force.values / deflection, rel=1e-3)
 
 
 def test_peak_pressure_is_that_of_hertz(static, paper_scene):
     """Hertz: at the place that the result names, p = sqrt(F' E*/(pi rho)) under the pair's force then, within 2 %."""
-    attributes, pair = static.attrs, model(paper_scene).pair
+    attributes, pair = static.attrs, model_of(paper_scene).pair
     at = static.sel(time=attributes["peak_contact_pressure_time"])
     force = at.pair_normal_force.values[at.pair_number.values == attributes["peak_contact_pressure_pair"]].item()
     first = np.sqrt((0.5 * attributes["peak_contact_pressure_diameter"]) ** 2 - pair.pinion.base_radius**2)

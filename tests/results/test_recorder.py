@@ -15,13 +15,14 @@ from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
+from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.pairs import contact_times, lives
 from fenics_gears.results.recorder import AT_ONCE, Recorder
 from fenics_gears.scene.data import Motion, Output
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import SilentProgress
 
 FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_roll_angle")
 
@@ -29,16 +30,16 @@ FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_rol
 @pytest.fixture(scope="module")
 def marched(paper_scene):
     """A run of four mesh cycles, more steps than are gone over at once, with all of its records."""
-    built = model(replace(coarse_scene(paper_scene), coast_flanks=CoastFlanks(), motion=Motion(200.0, 4, 2)))
-    _, cycle = prepared(built, SilentProgress(), user_cache())
-    recorder = Recorder(built, cycle)
-    marcher = Marcher(cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient, built.pace, built.clock)
-    march = marcher.run(built.steps, built.steps + 1, observe=recorder.take)
-    assert built.steps > AT_ONCE
-    return built, cycle, march.records, results.dataset(recorder, march)
+    model = model_of(replace(coarse_scene(paper_scene), coast_flanks=CoastFlanks(), motion=Motion(200.0, 4, 2)))
+    _, cycle = prepared(model, SilentProgress(), user_cache())
+    recorder = Recorder(model, cycle)
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient, model.pace, model.clock)
+    march = marcher.run(model.steps, model.steps + 1, observe=recorder.take)
+    assert model.steps > AT_ONCE
+    return model, cycle, march.records, results.dataset(recorder, march)
 
 
-def in_old_layout(built, cycle, records) -> xr.Dataset:
+def in_old_layout(model, cycle, records) -> xr.Dataset:
     """A result as versions before slots had it, by pair counted through the run, written out of the records one by one: brute force."""
     numbers = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
     shape = (len(records), len(numbers), cycle.grid.nodes)
@@ -50,7 +51,7 @@ def in_old_layout(built, cycle, records) -> xr.Dataset:
             nodes = slice(start, start + len(pair.offsets))
             start, row = nodes.stop, numbers.index(int(cycle.pair_number(record.step, pair.place.index)))
             normal, tangential = record.solution.forces[:count][nodes], record.solution.forces[count:][nodes]
-            coast, area = bool(pair.place.flank), pair.lengths * built.pair.face_width
+            coast, area = bool(pair.place.flank), pair.lengths * model.pair.face_width
             values = (normal / area, tangential / area, pair.offsets, pair.pinion_roll)
             for name, each in zip(FIELDS, values):
                 fields[f"coast_{name}" if coast else name][i, row, : len(each)] = each
@@ -61,31 +62,31 @@ def in_old_layout(built, cycle, records) -> xr.Dataset:
     variables = {name: (("time", "pair"), force) for name, force in forces.items()}
     variables |= {name: (("time", "pair", "contact_node"), field) for name, field in fields.items()}
     variables["transmission_error"] = ("time", np.cos(steps))
-    coordinates = {"time": steps * built.time_step, "mesh_phase": ("time", steps / cycle.steps), "pair": numbers}
+    coordinates = {"time": steps * model.time_step, "mesh_phase": ("time", steps / cycle.steps), "pair": numbers}
     return xr.Dataset(variables, coordinates, {"scene": "", "complete": 1})
 
 
 def test_slots_hold_what_pairs_held(marched):
     """Brute force: forces of all steps and fields of the last cycles, pair by pair, from the march's own records."""
-    built, cycle, records, result = marched
-    old = in_old_layout(built, cycle, list(records))
+    model, cycle, records, result = marched
+    old = in_old_layout(model, cycle, list(records))
     first = result["pair_number"].attrs["number_at_phase_0"]
     assert result["pair_number"].values.max() == old["pair"].values.max() + first and result["pair_number"].values[0].min() >= 0
     assert 1 in result["pair_number"].values[0]
     for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force"):
         found = results.by_pair(result[name], absent=0.0)
         np.testing.assert_allclose(found.values, old[name].sel(pair=found["pair"].values - first).values, rtol=1e-12, atol=1e-9)
-    assert result.sizes["contact_time"] == built.contact_steps == 2 * cycle.steps + 1 < result.sizes["time"] == built.steps + 1
+    assert result.sizes["contact_time"] == model.contact_steps == 2 * cycle.steps + 1 < result.sizes["time"] == model.steps + 1
     for name in [name for name in old.data_vars if "contact_" in name]:
         found = results.by_pair(result[name], absent=np.nan if name.endswith(("offset", "angle")) else 0.0)
-        expected = old[name].sel(pair=found["pair"].values - first).values[-built.contact_steps :]
+        expected = old[name].sel(pair=found["pair"].values - first).values[-model.contact_steps :]
         np.testing.assert_allclose(found.values, expected, rtol=1e-12)
 
 
 def test_a_file_of_before_slots_is_read_as_one_of_now(marched, tmp_path):
     """Round trip: a file in the old layout, made by brute force, has the same curves and fields pair by pair when it is read."""
-    built, cycle, records, result = marched
-    old = in_old_layout(built, cycle, list(records)[-built.contact_steps :])
+    model, cycle, records, result = marched
+    old = in_old_layout(model, cycle, list(records)[-model.contact_steps :])
     results.save(old, tmp_path / "run.nc")
     read = results.load(tmp_path / "run.nc")
     assert "pair" not in read.dims and read.sizes["slot"] == result.sizes["slot"]
@@ -100,9 +101,9 @@ def test_a_file_of_before_slots_is_read_as_one_of_now(marched, tmp_path):
 
 def test_the_account_goes_on_from_block_to_block(marched):
     """Identity: energies and works gathered while marching are those of all records at once, and nothing is left but round-off."""
-    built, cycle, records, result = marched
-    energies = energy_variables(built.scene, built.drivetrain, list(records))
-    works = work_variables(built.scene, cycle, built.drivetrain, built.clock, built.loads, list(records), energies["energy"])
+    model, cycle, records, result = marched
+    energies = energy_variables(model.scene, model.drivetrain, list(records))
+    works = work_variables(model.scene, cycle, model.drivetrain, model.clock, model.loads, list(records), energies["energy"])
     for name, values in (energies | works).items():
         np.testing.assert_allclose(result[name].values, values, rtol=1e-9, atol=1e-9 * np.abs(result["work_input"].values).max())
     assert np.abs(result["energy_defect"].values).max() <= 1e-10 * np.abs(result["work_input"].values).max()
@@ -126,7 +127,7 @@ def test_memory_is_as_it_was_counted(paper_scene, coast, friction, root_stress):
     scene = replace(quasi_static(coarse_scene(paper_scene)), coast_flanks=CoastFlanks() if coast else None, output=Output(root_stress=root_stress))
     result = simulate(scene if friction else frictionless(scene))
     held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
-    assert held == model(scene if friction else frictionless(scene)).stored_bytes
+    assert held == model_of(scene if friction else frictionless(scene)).stored_bytes
 
 
 def test_a_long_ramp_is_stored_as_curves(paper_scene):

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, quasi_static
 
-from fenics_gears.description import describe
 from fenics_gears.effects import common_period
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.model import model
+from fenics_gears.model.description import describe
+from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settled
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
-from fenics_gears.summary import summary_rows
+from fenics_gears.simulation.simulate import simulate
 
 # z = 23 and 47, no common factor: every tooth has met every other after 1081 mesh cycles.
 PAIR = """
@@ -105,13 +105,13 @@ def test_a_ripple_repeats_after_whole_turns_of_its_order(paper_scene, order, cyc
 
 def test_the_start_has_died_down_to_a_hundredth(paper_scene):
     """Exponential decay of the slowest mode: exp(-zeta omega t) = 0.01 at the first step that counts, or none before the last cycles."""
-    built = model(coarse_scene(paper_scene, cycles=30))
-    slowest = min((each.damping_ratio * 2 * pi * each.frequency for each in built.vibrations if each.excited and each.damping_ratio < 1), default=0)
-    a_cycle = built.resolution.steps_per_mesh_cycle
-    calm = ceil(log(100.0) / slowest / built.time_step)
-    expected = built.steps - (built.steps - calm) // a_cycle * a_cycle
-    assert settled(built, built.steps) == type(settled(built, built.steps))(expected)
-    short = model(coarse_scene(paper_scene, cycles=2))
+    model = model_of(coarse_scene(paper_scene, cycles=30))
+    slowest = min((each.damping_ratio * 2 * pi * each.frequency for each in model.vibrations if each.excited and each.damping_ratio < 1), default=0)
+    a_cycle = model.resolution.steps_per_mesh_cycle
+    calm = ceil(log(100.0) / slowest / model.time_step)
+    expected = model.steps - (model.steps - calm) // a_cycle * a_cycle
+    assert settled(model, model.steps) == type(settled(model, model.steps))(expected)
+    short = model_of(coarse_scene(paper_scene, cycles=2))
     found = settled(short, short.steps)
     assert found.first == a_cycle and "has not died down" in found.warning
     assert f"motion.mesh_cycles = {ceil(calm * short.time_step * 200.0 + 1)}" in found.warning
@@ -119,12 +119,12 @@ def test_the_start_has_died_down_to_a_hundredth(paper_scene):
 
 def test_without_damping_the_start_never_dies_down(paper_scene):
     """Conservation: nothing takes the vibration's energy; the result says so, of a ramp too."""
-    built = model(replace(coarse_scene(paper_scene, cycles=30), damping=None))
-    assert "nothing damps" in settled(built, built.steps).warning
+    model = model_of(replace(coarse_scene(paper_scene, cycles=30), damping=None))
+    assert "nothing damps" in settled(model, model.steps).warning
 
 
 def test_all_of_a_quasi_static_run_counts(paper_scene):
     """Definition: without masses nothing rings."""
     scene = replace(quasi_static(coarse_scene(paper_scene)), motion=Motion(200.0, 3, 1))
-    built = model(scene)
-    assert settled(built, built.steps).first == 0 and not settled(built, built.steps).warning
+    model = model_of(scene)
+    assert settled(model, model.steps).first == 0 and not settled(model, model.steps).warning

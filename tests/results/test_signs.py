@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
-from fenics_gears.model import model
-from fenics_gears.simulation import simulate
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.simulate import simulate
 
 
 def test_signs_of_forces_torques_and_rotations(paper_scene):
     """Statics: without friction and inertia F = T/rb2; action and reaction on both shafts; the load holds the wheel back."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
-    result, pair = simulate(scene), model(scene).pair
+    result, pair = simulate(scene), model_of(scene).pair
     force = scene.load.wheel_torque / pair.wheel.base_radius
     last = result.isel(time=-1)
     assert float(last.normal_force) == pytest.approx(force, rel=1e-9)

@@ -9,10 +9,10 @@ from tests.rexs import paper_model as rexs
 from tests.rexs.test_paper_pair import imported
 
 from fenics_gears.errors import SceneError
-from fenics_gears.scene.data import Motion
-from fenics_gears.geometry.modification import removals
 from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.model.modification import removals
 from fenics_gears.rexs.imported import Choice
+from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 
 GEARS = (rexs.PINION, rexs.WHEEL)

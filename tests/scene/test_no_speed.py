@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.stand_in import stand_in_compliance
 
-from fenics_gears.description import describe
+from fenics_gears.model.description import describe
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import mesh_cycle, simulate
-from tests.stand_in import stand_in_compliance
+from fenics_gears.simulation.elastic_route import mesh_cycle
+from fenics_gears.simulation.simulate import simulate
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 
@@ -50,10 +51,10 @@ def run(text):
     return simulate(scene_from_text(text), preparation=on_stand_ins)
 
 
-def on_stand_ins(built, progress, cache):
+def on_stand_ins(model, progress, cache):
     """Contact operators on teeth without finite elements."""
-    gears = [replace(stand_in_compliance(gear), timings=dict.fromkeys(TIMES, 0.0)) for gear in (built.pair.pinion, built.pair.wheel)]
-    return gears, mesh_cycle(built, gears)
+    gears = [replace(stand_in_compliance(gear), timings=dict.fromkeys(TIMES, 0.0)) for gear in (model.pair.pinion, model.pair.wheel)]
+    return gears, mesh_cycle(model, gears)
 
 
 def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():

@@ -9,7 +9,7 @@ import fenics_gears
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene import data
 from fenics_gears.scene.read import load_scene, scene_from_text
 
@@ -131,13 +131,13 @@ def test_cycles_that_are_not_alike_are_all_recorded(cycles, section, recorded):
 def test_contact_fields_of_cycles_that_a_result_cannot_hold_are_left_out():
     """Authority: the same; the run says so. So many that are asked for by number are refused."""
     text = DEMO.replace("mesh_cycles = 30 ", "mesh_cycles = 30000 ") + RAMP
-    built = model(scene_from_text(text.replace("recorded_cycles = 2\n", "")))
-    assert built.contact_steps == built.contact_cycles * built.resolution.steps_per_mesh_cycle + 1
-    assert 2 < built.contact_cycles < 30000 and 0.9e9 < built.stored_bytes <= 1e9
-    assert f"of the last {built.contact_cycles} of 30000 mesh cycles only" in built.warnings[0]
-    assert not any("contact fields" in words for words in model(scene_from_text(text)).warnings)
+    model = model_of(scene_from_text(text.replace("recorded_cycles = 2\n", "")))
+    assert model.contact_steps == model.contact_cycles * model.resolution.steps_per_mesh_cycle + 1
+    assert 2 < model.contact_cycles < 30000 and 0.9e9 < model.stored_bytes <= 1e9
+    assert f"of the last {model.contact_cycles} of 30000 mesh cycles only" in model.warnings[0]
+    assert not any("contact fields" in words for words in model_of(scene_from_text(text)).warnings)
     with pytest.raises(SceneError, match="the result would hold"):
-        model(scene_from_text(text.replace("recorded_cycles = 2\n", "recorded_cycles = 30000\n")))
+        model_of(scene_from_text(text.replace("recorded_cycles = 2\n", "recorded_cycles = 30000\n")))
 
 
 @pytest.mark.parametrize(

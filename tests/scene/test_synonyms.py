@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from fenics_gears.errors import SceneError
+from fenics_gears.inputs.synonyms import SYNONYMS, meant
 from fenics_gears.scene.problems import _all_fields
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.scene.schema import SceneText
-from fenics_gears.scene.synonyms import SYNONYMS, meant
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 FIELDS = {".".join(path) for path in _all_fields(SceneText)}

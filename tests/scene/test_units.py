@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fenics_gears.scene.units import AN_ANGULAR_SPEED, QuantityError, of_kind, quantity, unit_of
+from fenics_gears.inputs.units import AN_ANGULAR_SPEED, QuantityError, of_kind, quantity, unit_of
 
 ROUND_OFF = 4e-16
 

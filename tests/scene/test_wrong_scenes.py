@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.read import scene_from_text
 

@@ -2,7 +2,7 @@
 
 import os
 
-from fenics_gears import environment
+from fenics_gears.system import environment
 
 
 def prepared(**given):

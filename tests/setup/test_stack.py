@@ -8,7 +8,7 @@ import pytest
 
 # DOLFINx by the program's adapter first, VTK after it: the order that aborts where nobody takes care of it.
 PICTURE = """
-from fenics_gears import environment
+from fenics_gears.system import environment
 environment.prepare()
 from fenics_gears.elasticity import dolfinx_adapter
 environment.provide_display()
@@ -31,7 +31,7 @@ with xarray.open_dataset(sys.argv[1], engine="h5netcdf") as read:
 """
 
 TWO_RANKS = """
-from fenics_gears import environment
+from fenics_gears.system import environment
 environment.prepare()
 import os
 from mpi4py import MPI
@@ -69,7 +69,7 @@ def test_result_file_is_written_and_read_beside_dolfinx(tmp_path):
 @pytest.mark.ranks
 def test_two_ranks_meet_with_one_thread_each():
     """mpirun works as any user, root included, and each rank finds the other."""
-    from fenics_gears import environment
+    from fenics_gears.system import environment
 
     environment.prepare()
     assert run(TWO_RANKS, launcher=("mpirun", "--oversubscribe", "-n", "2")).split() == ["1", "1"]

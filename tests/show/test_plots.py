@@ -97,5 +97,5 @@ def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):
 
 def test_the_command_starts_without_matplotlib():
     """Authority: the start-up time of the command; matplotlib is for those who draw."""
-    code = "import sys, fenics_gears.cli; sys.exit('matplotlib' in sys.modules)"
+    code = "import sys, fenics_gears.commands.cli; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -9,10 +9,11 @@ import pytest
 from matplotlib.image import imread
 from tests.coarse import coarse_scene
 
-from fenics_gears import environment, results
-from fenics_gears.cli import main
+from fenics_gears import results
+from fenics_gears.commands.cli import main
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.stress_picture import _place_of_name, _time
+from fenics_gears.system import environment
 
 environment.prepare()
 
@@ -20,7 +21,7 @@ environment.prepare()
 @pytest.fixture(scope="module")
 def run(paper_scene, tmp_path_factory):
     """A run's directory: the paper's pair on a coarse mesh, its scene in the file as a user's would be."""
-    from fenics_gears.simulation import simulate
+    from fenics_gears.simulation.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
     text = paper_scene.text[: paper_scene.text.index("[accuracy]")].replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
@@ -96,10 +97,10 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
 
 def test_no_tooth_is_missing(run):
     """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
-    from fenics_gears.run_stresses import RunStresses
     from fenics_gears.show.drawn_scale import outer_loop
     from fenics_gears.show.run_scene import scene_of
     from fenics_gears.show.stress_grid import shown_points
+    from fenics_gears.simulation.run_stresses import RunStresses
 
     dataset = results.load(run / "run.nc")
     with RunStresses(dataset, scene_of(dataset)) as stresses:
@@ -203,6 +204,6 @@ def test_no_such_run_is_refused(tmp_path, capsys):
 
 def test_command_line_does_not_load_vtk():
     """Rule of the platform: neither the package nor its command line imports pyvista; only a picture does."""
-    code = "import sys, fenics_gears, fenics_gears.cli; from fenics_gears.commands import picture; print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
+    code = "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture; print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "False"]

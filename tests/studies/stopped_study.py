@@ -8,7 +8,7 @@ import os
 import signal
 import sys
 
-from fenics_gears import cli
+from fenics_gears.commands import cli
 from fenics_gears.studies import run_study, work
 
 done = 0

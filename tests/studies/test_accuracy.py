@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from tests.effects.examples import scene_of, text_of
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy import refinement, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
@@ -59,7 +59,7 @@ def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
     span = run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]
     again = reports.answer(run, 3.0)
     assert again[SPAN][0] == pytest.approx(span) and reference > 0.0
-    assert own_setting(scene).flank == model(scene).resolution.flank_element_size == SETTINGS.flank_element_size
+    assert own_setting(scene).flank == model_of(scene).resolution.flank_element_size == SETTINGS.flank_element_size
     assert own_setting(scene).grid.nodes == SETTINGS.contact_nodes
 
 

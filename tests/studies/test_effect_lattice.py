@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from tests.effects.examples import scene_of, text_of, with_needs
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.effects import EFFECTS
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.effect_lattice import measured, table
 from fenics_gears.studies.effect_lattice.cost_model import StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, NOTHING, lattice

@@ -16,7 +16,7 @@ from tests.benchmarks.growth.point import Point
 from tests.benchmarks.growth.report import MEBI, column, exponents, section, write_csv
 from tests.benchmarks.marked_section import replaced
 
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 
 MACHINE = {"processor": "a machine", "load": "0.1", "threads": "1", "versions": "0"}
 
@@ -78,10 +78,10 @@ def test_every_axis_spans_two_decades_of_scenes_that_can_be_run(axis):
     """Authority: issue 6; and each scene is checked as a user's is. One thing alone is counted along an axis."""
     assert max(axis.values) / min(axis.values) >= 99.0
     for value in (min(axis.values), max(axis.values)):
-        built = model(axis.scene(value))
+        model = model_of(axis.scene(value))
         counted = {
-            "contact_nodes": built.resolution.contact_grid.nodes, "teeth": built.pair.wheel.teeth, "steps": built.resolution.steps_per_mesh_cycle,
-            "cycles": built.scene.motion.mesh_cycles,
+            "contact_nodes": model.resolution.contact_grid.nodes, "teeth": model.pair.wheel.teeth, "steps": model.resolution.steps_per_mesh_cycle,
+            "cycles": model.scene.motion.mesh_cycles,
         }  # fmt: skip
         if axis.counted in counted:
             assert counted[axis.counted] == value
@@ -91,7 +91,7 @@ def test_a_point_has_all_that_theory_speaks_of():
     """Authority: identity; every quantity of every axis is measured and positive, and both routes through the ring are timed where asked for."""
     scene = paper()
     scene = replace(scene, accuracy=replace(scene.accuracy, flank_element_size=0.5, contact_nodes=9, steps_per_mesh_cycle=4))
-    point = Point(model(scene), set(), compares_rings=True).measured()
+    point = Point(model_of(scene), set(), compares_rings=True).measured()
     for axis in AXES:
         assert point[axis.counted] > 0.0
         assert all(point[column(quantity)] > 0.0 for quantity in axis.theory if not quantity.endswith("peak"))

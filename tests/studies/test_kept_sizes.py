@@ -3,7 +3,7 @@
 import pytest
 from tests.studies.conftest import write_study
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
 

@@ -8,7 +8,7 @@ import pytest
 from tests.studies.conftest import command, environment, gears, write_study
 from tests.studies.test_run_study import FOUR, load
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.studies.ranks import Alone
 
 pytestmark = pytest.mark.ranks
@@ -66,7 +66,7 @@ def test_both_of_two_ranks_compute(folder):
 def test_alone_mpi_is_never_touched(folder):
     """Authority: a study alone must run where MPI is absent or broken."""
     study = write_study(folder, FOUR)
-    program = "import sys; sys.modules['mpi4py'] = None; from fenics_gears.cli import main; sys.exit(main(sys.argv[1:]))"
+    program = "import sys; sys.modules['mpi4py'] = None; from fenics_gears.commands.cli import main; sys.exit(main(sys.argv[1:]))"
     main(["study", str(study), "--output", "first", "--quiet"])  # gears in the cache: no DOLFINx, which brings mpi4py
     ended = subprocess.run(
         [sys.executable, "-c", program, "study", str(study), "--output", "here"],

@@ -8,9 +8,9 @@ import numpy as np
 from tests.studies.conftest import command, environment, stamps, write_study
 
 from fenics_gears import results
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies import work
 from fenics_gears.studies.study_file import load_study
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.studies.conftest import DEMO, write_study
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.studies import fields
 from fenics_gears.studies.study_file import load_study
 

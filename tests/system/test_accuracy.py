@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fenics_gears.model import model
-from fenics_gears.resolution import hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +37,7 @@ def relative_change(value, reference):
 def test_halving_everything_moves_mean_and_peak_to_peak_by_less_than_half_a_per_cent(name, request):
     """Asked for: flank elements, contact spacing and time step halved; also without the drivetrain's share of the mean."""
     scene = request.getfixturevalue(name)
-    result, resolution = simulate(scene), model(scene).resolution
+    result, resolution = simulate(scene), model_of(scene).resolution
     finer = replace(
         scene,
         accuracy=Accuracy(
@@ -54,7 +54,7 @@ def test_halving_everything_moves_mean_and_peak_to_peak_by_less_than_half_a_per_
 
 def test_a_longer_window_changes_nothing_at_any_phase(bare_scene, bare):
     """model.md section 1: lengthening the default window moves no phase by more than the 0.1 % ripple of the grid; 0.8 mm cuts hand-over off."""
-    grid = model(bare_scene).resolution.contact_grid
+    grid = model_of(bare_scene).resolution.contact_grid
     change = {}
     for nodes in (grid.nodes + 40, round(0.8 / grid.spacing) + 1):
         accuracy = Accuracy(contact_length=(nodes - 1) * grid.spacing, contact_nodes=nodes)
@@ -66,7 +66,7 @@ def test_a_longer_window_changes_nothing_at_any_phase(bare_scene, bare):
 
 def test_result_does_not_depend_on_where_the_contact_grid_lies(bare_scene, bare):
     """Shifting the nodes by half a spacing moves the transmission error by 0.1 %: the ripple that model.md section 2 gives for b/h = 4."""
-    grid = model(bare_scene).resolution.contact_grid
+    grid = model_of(bare_scene).resolution.contact_grid
     shifted = replace(
         bare_scene, accuracy=Accuracy(contact_length=grid.length + grid.spacing, contact_nodes=grid.nodes + 1)
     )

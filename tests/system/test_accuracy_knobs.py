@@ -9,13 +9,13 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATIONS
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
 from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.reference_route import remeshed
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import GearData, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.reference_route import reference_route
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import cycle_key, gear_key
+from fenics_gears.system.progress import SilentProgress
 
 
 @pytest.fixture
@@ -58,7 +58,7 @@ def test_teeth_that_feel_each_other(error_of, paper_scene):
     pinion, wheel = (GearData(z, 0.0, module * (z + 2.7), module * (z - 3.2), 0.7 * module * (z - 3.2), 0.2) for z in teeth)
     gears = replace(scene.gears, centre_distance=0.5 * module * sum(teeth) + 0.1, pinion=pinion, wheel=wheel)
     high = replace(scene, gears=gears)
-    assert model(high).pair.contact_ratio > 2.0
+    assert model_of(high).pair.contact_ratio > 2.0
     expected = error_of(high)
     errors = [np.abs(error_of(high, elastic_teeth=teeth) - expected).max() / expected.mean() for teeth in (1, 2, 3)]
     assert errors[0] > 0.1
@@ -94,9 +94,9 @@ def test_collocation_takes_values_at_points(order):
 def test_studies_keep_apart_what_differs(change, paper_scene):
     """From the task: what changes the operators changes the keys under which a study keeps them."""
     scene = coarse_scene(paper_scene)
-    built, other = model(scene), model(replace(scene, accuracy=replace(scene.accuracy, **change)))
-    assert cycle_key(built) != cycle_key(other)
-    assert (gear_key(built, "pinion", 2) == gear_key(other, "pinion", 2)) == ("interpolation" in change)
+    model, other = model_of(scene), model_of(replace(scene, accuracy=replace(scene.accuracy, **change)))
+    assert cycle_key(model) != cycle_key(other)
+    assert (gear_key(model, "pinion", 2) == gear_key(other, "pinion", 2)) == ("interpolation" in change)
 
 
 @pytest.mark.parametrize("line", ['interpolation = "collocated"', "elastic_teeth = 2"])
@@ -116,8 +116,8 @@ def test_remeshed_bodies_take_the_size_too(paper_scene):
     )  # fmt: skip
 
     def stiffness(size):
-        built = model(replace(scene, accuracy=replace(accuracy, body_element_size=size)))
-        return remeshed(built, SilentProgress(), None)[0][0].positions[0]
+        model = model_of(replace(scene, accuracy=replace(accuracy, body_element_size=size)))
+        return reference_route(model, SilentProgress(), None)[0][0].positions[0]
 
     default, fine = stiffness(None), stiffness(1.0)
     assert default.shape == fine.shape

@@ -10,11 +10,11 @@ from tests.coarse import coarse_scene, quasi_static
 from fenics_gears import simulate
 from fenics_gears.contact.operator import CompliancePairing, own_directions
 from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.iso_6336 import pair_stiffness
-from fenics_gears.resolution import resolve
 from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.model.drivetrain import drivetrain
+from fenics_gears.model.resolution import resolve
 from fenics_gears.scene.data import Accuracy, Material
 from fenics_gears.scene.read import scene_from_text
 

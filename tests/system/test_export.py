@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 
 from fenics_gears import results
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 
 
 @pytest.fixture

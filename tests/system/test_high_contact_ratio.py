@@ -7,7 +7,7 @@ import pytest
 
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Material
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import pytest
 from tests.conftest import DEMOS
 from tests.rexs import paper_model as rexs
 
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.scene.read import load_scene
 
 

@@ -14,7 +14,7 @@ import pytest
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Material
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.simulate import simulate
 
 BORE = 0.7
 

@@ -12,14 +12,16 @@ from fenics_gears.contact.stiffness_table import LOADS
 from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.mesh_springs import table_cycle
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import deviating, gear_compliances, mesh_cycle, simulate
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.mesh_springs import table_cycle
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.studies.gear_store import GearStore, cycle_key
 from fenics_gears.studies.study import Case
 from fenics_gears.studies.work import gear_tasks, in_order_of_sharing
-from fenics_gears.studies.gear_store import GearStore, cycle_key
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
 
@@ -54,10 +56,10 @@ def table_between_loads(scene, torque: float, loads) -> float:
     """Distance of a table made at the scene's torque from the full model at another one (in parts of it)."""
     loaded = replace(scene, load=replace(scene.load, wheel_torque=torque * scene.load.wheel_torque))
 
-    def preparation(built, progress, cache):
-        at_own_load = model(scene)
-        gears, cycle = table_cycle(at_own_load, gear_compliances(built, progress, cache), loads)
-        return gears, deviating(built, cycle)
+    def preparation(model, progress, cache):
+        at_own_load = model_of(scene)
+        gears, cycle = table_cycle(at_own_load, gear_compliances(model, progress, cache), loads)
+        return gears, deviating(model, cycle)
 
     return distance(simulate(by(loaded, STIFFNESS_TABLE), preparation=preparation), simulate(loaded))
 
@@ -128,9 +130,9 @@ def test_friction_of_mesh_springs_does_not_bend_the_teeth(paper_scene):
     what it lacks besides is that bending, a sixth of the transmission error's variation on this pair."""
     scene = quasi_static(coarse_scene(paper_scene))
 
-    def without_bending(built, progress, cache):
-        gears = gear_compliances(built, progress, cache)
-        return gears, WithoutBending(mesh_cycle(built, gears))
+    def without_bending(model, progress, cache):
+        gears = gear_compliances(model, progress, cache)
+        return gears, WithoutBending(mesh_cycle(model, gears))
 
     table, full, unbent = simulate(by(scene, STIFFNESS_TABLE)), simulate(scene), simulate(scene, preparation=without_bending)
     assert unlike(table, unbent) <= 0.04
@@ -153,14 +155,14 @@ def test_friction_force_is_that_of_its_pairs(paper_scene):
 def test_iso_deflection(static):
     """Exact: teeth alone give way by F/(c' b) where one pair is in mesh, and the mean stiffness is c_gamma = c' (0.75 eps + 0.25)."""
     scene = by(replace(static, shafts=None, bearings=None), ISO_6336, steps_per_mesh_cycle=1000)
-    built, result = model(scene), simulate(scene)
-    force = scene.load.wheel_torque / built.pair.wheel.base_radius
-    stiffness = force / (result.transmission_error.values[:-1] * built.pair.wheel.base_radius)
+    model, result = model_of(scene), simulate(scene)
+    force = scene.load.wheel_torque / model.pair.wheel.base_radius
+    stiffness = force / (result.transmission_error.values[:-1] * model.pair.wheel.base_radius)
     single = pair_stiffness(scene.gears, force / scene.gears.face_width)
     alone = (result.pair_normal_force.values[:-1] > 0.0).sum(axis=1) == 1
     assert stiffness[alone] == pytest.approx(np.full(alone.sum(), single), rel=1e-9)
     assert stiffness[~alone] == pytest.approx(np.full((~alone).sum(), 1.75 * single), rel=1e-9)
-    assert stiffness.mean() == pytest.approx(single * mesh_factor(built.pair.contact_ratio), rel=2e-3)
+    assert stiffness.mean() == pytest.approx(single * mesh_factor(model.pair.contact_ratio), rel=2e-3)
 
 
 def test_iso_below_full_line_load(static):
@@ -181,13 +183,13 @@ def test_rigid_teeth_are_those_of_a_scene_without_material(static):
 def test_friction_of_rigid_teeth(paper_scene):
     """Exact statics: with the pair's force N at arm x2 of the wheel, N rb2 + mu s N x2 = T, s the sense of sliding, shares even."""
     scene = by(quasi_static(coarse_scene(paper_scene)), RIGID_TEETH)
-    built, result = model(scene), simulate(scene)
+    model, result = model_of(scene), simulate(scene)
     normal, friction = result.pair_normal_force.values, result.pair_friction_force.values
     assert np.abs(friction) == pytest.approx(0.1 * normal, abs=1e-9 * normal.max())
     assert result.reaction_couple.sel(gear="wheel").values == pytest.approx(np.full(len(result.time), -437e3), rel=1e-9)
-    pair = built.pair
-    steps = np.arange(len(result.time)) % built.resolution.steps_per_mesh_cycle
-    xi = pair.path_start + steps * pair.base_pitch / built.resolution.steps_per_mesh_cycle
+    pair = model.pair
+    steps = np.arange(len(result.time)) % model.resolution.steps_per_mesh_cycle
+    xi = pair.path_start + steps * pair.base_pitch / model.resolution.steps_per_mesh_cycle
     alone = ((normal > 0.0).sum(axis=1) == 1) & (xi > pair.path_end - pair.base_pitch * 0.99)
     assert alone.sum() > 5
     slides = np.sign(xi - pair.pitch_point)
@@ -233,11 +235,11 @@ start = "HPSTC"
 
 def test_a_gear_store_keeps_them_apart(static):
     """From the task: what changes the operators changes their key; a table belongs to its load."""
-    keys = {cycle_key(model(by(static, name))) for name in (None, *MODELS)}
+    keys = {cycle_key(model_of(by(static, name))) for name in (None, *MODELS)}
     assert len(keys) == 4
     other = replace(static, load=replace(static.load, wheel_torque=1e5))
-    assert cycle_key(model(by(static, STIFFNESS_TABLE))) != cycle_key(model(by(other, STIFFNESS_TABLE)))
-    assert cycle_key(model(static)) == cycle_key(model(other))
+    assert cycle_key(model_of(by(static, STIFFNESS_TABLE))) != cycle_key(model_of(by(other, STIFFNESS_TABLE)))
+    assert cycle_key(model_of(static)) == cycle_key(model_of(other))
     store = GearStore()
     for name in MODELS:
         kept = simulate(by(static, name), preparation=store.prepared)
@@ -262,7 +264,7 @@ def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
 
 def test_other_models_are_not_loaded():
     """Rule of the house: a scene that does not ask for them does not import them."""
-    code = "import sys, fenics_gears.simulation; print([m for m in sys.modules if 'spring' in m or 'stiffness_table' in m or 'iso_6336' in m])"
+    code = "import sys, fenics_gears.simulation.simulate; print([m for m in sys.modules if 'spring' in m or 'stiffness_table' in m or 'iso_6336' in m])"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert said.strip() == "[]"
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from fenics_gears import results
-from fenics_gears.cli import main
+from fenics_gears.commands.cli import main
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.run_stresses import RunStresses
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.stress_animation import frame_steps
 from fenics_gears.show.stress_grid import in_tooth_order
+from fenics_gears.simulation.run_stresses import RunStresses
 
 pyvista = pytest.importorskip("pyvista")
 
@@ -22,7 +22,7 @@ pyvista = pytest.importorskip("pyvista")
 @pytest.fixture(scope="module")
 def run(paper_scene, tmp_path_factory):
     """A run of two stored mesh cycles, four steps each, and its scene as it is in the file."""
-    from fenics_gears.simulation import simulate
+    from fenics_gears.simulation.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
     head = paper_scene.text[: paper_scene.text.index("[shafts]")].replace("mesh_cycles = 30", "mesh_cycles = 2")

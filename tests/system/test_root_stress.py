@@ -22,13 +22,13 @@ from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
-from fenics_gears.dynamic_factor import quasi_static as without_inertia
 from fenics_gears.results.settled import of_settled
-from fenics_gears.results.stored_forces import stored_forces
-from fenics_gears.run_stresses import RunStresses
 from fenics_gears.scene.data import Load, Motion, Output
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.dynamic_factor import quasi_static as without_inertia
+from fenics_gears.simulation.run_stresses import RunStresses
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.stored_forces import stored_forces
 
 FACTORS = ("dynamic_factor_by_force", "dynamic_factor_by_stress")
 
@@ -51,10 +51,10 @@ def test_rows_give_what_the_full_recovery_gives(run):
     scene, result = run
     with RunStresses(result, scene) as stresses:
         for index in (0, 7, 21, 40):
-            stored = stored_forces(result, stresses.built, stresses.cycle, index)
+            stored = stored_forces(result, stresses.model, stresses.cycle, index)
             step = round(float(result["mesh_phase"].values[index]) * stresses.cycle.steps)
             for gear, recovery in enumerate(stresses.recoveries):
-                moved = recovery.recovered(stored.on_flanks(stresses.built, gear)).displacement
+                moved = recovery.recovered(stored.on_flanks(stresses.model, gear)).displacement
                 rows = fillet_rows(fillet_curve(recovery.gear.of_module_one), recovery.interior, recovery.nodal_stress)
                 for tooth in {pair.place.index for pair in stored.pairs}:
                     pair = int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]

@@ -15,13 +15,13 @@ from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.results.stored_forces import stored_forces, stored_index
-from fenics_gears.run_stresses import RunStresses, hub_motion, standing
 from fenics_gears.scene.data import Load
 from fenics_gears.show.drawn_scale import automatic_scale, overlap
 from fenics_gears.show.loaded_contact import loaded_contact
 from fenics_gears.show.stress_grid import in_tooth_order, save_vtu, upright
-from fenics_gears.simulation import simulate
+from fenics_gears.simulation.run_stresses import RunStresses, hub_motion, standing
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.stored_forces import stored_forces, stored_index
 
 
 @pytest.fixture(scope="module", params=["friction and inertia", "driven from the wheel on coast flanks"])
@@ -44,9 +44,9 @@ def test_flanks_touch_where_the_pressure_is(run, stresses):
     and leaves none open that is negative elsewhere. Nothing of the run's own displacements is used, only its forces and hubs."""
     scene, result = run
     for index in (0, 13, 29):
-        stored = stored_forces(result, stresses.built, stresses.cycle, index)
+        stored = stored_forces(result, stresses.model, stresses.cycle, index)
         assert any(np.any(force) for force in stored.forces)
-        pair = stresses.built.pair
+        pair = stresses.model.pair
         radii = (pair.pinion.base_radius, pair.wheel.base_radius)
         arms = tuple(np.full(sum(len(each.offsets) for each in stored.pairs), radius) for radius in radii)
         motion = hub_motion(result, index)
@@ -57,7 +57,7 @@ def test_flanks_touch_where_the_pressure_is(run, stresses):
             nodes = slice(start, start + len(touching.offsets))
             start = nodes.stop
             for gear, recovery in enumerate(stresses.recoveries):
-                body = recovery.recovered(stored.on_flanks(stresses.built, gear))
+                body = recovery.recovered(stored.on_flanks(stresses.model, gear))
                 side = "coast" if touching.place.flank == COAST else "flank"
                 moved = body.displacement[sector_of(gear, touching) % len(body.displacement)][recovery.interior.flank_nodes(side)]
                 if side == "coast":
@@ -89,7 +89,7 @@ def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(run, 
 
 def test_a_tooth_pair_later_is_the_same_position(run, stresses):
     """Periodicity: after one mesh cycle the gears stand as before, one tooth on."""
-    pair = stresses.built.pair
+    pair = stresses.model.pair
     for gear, sense in ((0, 1), (1, -1)):
         centre, first = standing(pair, gear, 0.0)
         after = standing(pair, gear, 1.0)[1]

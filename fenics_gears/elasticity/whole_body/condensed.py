@@ -26,7 +26,7 @@ from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.scene.data import Material
+from fenics_gears.geometry.gear_data import Material
 
 # To be raised by one whenever the same inputs give other numbers, or other arrays.
 WHOLE_BODY_VERSION = 2

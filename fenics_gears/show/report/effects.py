@@ -6,8 +6,8 @@ import csv
 import math
 from pathlib import Path
 
-from fenics_gears.description import effect_states
 from fenics_gears.effects import effects_on
+from fenics_gears.model.description import effect_states
 from fenics_gears.show.report.page import Block, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS, MICRO, MILLI, in_percent

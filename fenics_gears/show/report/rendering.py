@@ -8,11 +8,11 @@ import re
 from functools import cache
 from importlib import resources
 
-from fenics_gears.console import number_text
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import still
 from fenics_gears.show.report.interactive import figure, height
 from fenics_gears.show.report.page import Beside, Block, Fold, Page
+from fenics_gears.system.console import number_text
 
 TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
 

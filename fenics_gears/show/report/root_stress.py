@@ -43,7 +43,7 @@ def _over_time(run: Run) -> list[Chart]:
     envelope = [(gear, _largest(values[:, place]), PALETTE[place]) for place, gear in enumerate(gears)]
     together = np.concatenate([each for _, each, _ in envelope])
     plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
-    for place, gear in enumerate(gears):
+    for gear in gears:
         curves = [(words, each, PALETTE[number % len(PALETTE)]) for words, each, number in run.of_pairs("root_stress_maximum", "MPa", gear=gear)]
         plots.append(
             over_time(

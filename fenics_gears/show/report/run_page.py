@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.show.report.curves import forces, motion, pressure, spectra
 from fenics_gears.show.report.effects import effects
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.geometry import geometry
-from fenics_gears.show.report.origin import made_by, scene_section, version_section
 from fenics_gears.show.report.numbers import numbers
+from fenics_gears.show.report.origin import made_by, scene_section, version_section
 from fenics_gears.show.report.overview import summary, warnings
 from fenics_gears.show.report.page import Page
 from fenics_gears.show.report.root_stress import root_stress
-from fenics_gears.show.run import Run
 from fenics_gears.show.report.solver import solver
 from fenics_gears.show.report.stress import stress
+from fenics_gears.show.run import Run
 from fenics_gears.show.run_scene import conditions
-from fenics_gears.validity import NO_MEANING
+from fenics_gears.system.progress import Progress, SilentProgress
 
 SECTIONS = (summary, warnings, numbers, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from fenics_gears.description import describe
 from fenics_gears.errors import GearsError
+from fenics_gears.model.description import describe
+from fenics_gears.results.summary import solver_rows, stage_rows
 from fenics_gears.show.chart import over_time
 from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.report.page import Beside, Block, Facts, Section, Table, Words
 from fenics_gears.show.run import Run
-from fenics_gears.summary import solver_rows, stage_rows
 
 # What `gears check` says of a scene that is not said elsewhere on the page.
 DESCRIBED = ("Model", "Accuracy", "Natural frequencies")

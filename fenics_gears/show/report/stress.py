@@ -9,9 +9,9 @@ import xarray as xr
 
 from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.results.stored_forces import stored_index
 from fenics_gears.show.report.page import Picture, Section, Words
 from fenics_gears.show.run import NO_SCENE, Run
+from fenics_gears.simulation.stored_forces import stored_index
 
 HEADING = "Stress in the gears"
 
@@ -51,9 +51,9 @@ def _most_loaded(dataset: xr.Dataset) -> int:
 
 
 def _drawn(run: Run, index: int) -> bytes:
-    from fenics_gears.run_stresses import RunStresses
     from fenics_gears.show.drawn_scale import automatic_scale
     from fenics_gears.show.stress_picture import colour_limit, save_picture, stress_picture
+    from fenics_gears.simulation.run_stresses import RunStresses
 
     with RunStresses(run.dataset, run.scene) as stresses:
         mesh = stresses.at(index)

@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.results.summary import summary_rows
+from fenics_gears.show.cases import LISTED_CASES, STATES, Cases
 from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.cases import LISTED_CASES, STATES, Cases
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
 from fenics_gears.show.report.overview import counted, digits
 from fenics_gears.show.report.page import Block, Cell, Facts, Fold, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.study_charts import effort_charts, result_charts
-from fenics_gears.summary import summary_rows
+from fenics_gears.system.progress import Progress, SilentProgress
 
 # A browser sorts and lays out this many rows at once.
 MOST_ROWS = 2000

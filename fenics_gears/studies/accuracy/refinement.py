@@ -7,8 +7,8 @@ from math import inf
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
-from fenics_gears.model import Model, model
-from fenics_gears.resolution import EVERY_STEP, ONCE
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings
 
@@ -63,16 +63,16 @@ class Refinement:
 
 def checked_model(scene: Scene) -> Model:
     """The model of a scene whose accuracy can be looked into. Raises SceneError for others."""
-    built = model(scene)
+    model = model_of(scene)
     if not scene.resolves_contact:
         raise SceneError("gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out accuracy.model")
-    if built.resolution.condensation == EVERY_STEP:
+    if model.resolution.condensation == EVERY_STEP:
         raise SceneError('accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once", or leave it out.')
     if scene.body_meshes is not None:
         raise SceneError("[body_meshes]: a mesh that is given cannot be refined, and its error not be measured. Leave the section out.")
     if not scene.load.wheel_torque:
         raise SceneError("load.wheel_torque is 0: without load nothing gives way and there is no error to measure. Give a torque.")
-    return built
+    return model
 
 
 def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
@@ -88,7 +88,7 @@ def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
 def fine(scene: Scene, quick: bool = False) -> Setting:
     """The setting in which one at a time is refined."""
     values, unit = QUICK_FINE if quick else FINE, half_width(scene)
-    length = model(without_settings(scene)).resolution.contact_grid.length
+    length = model_of(without_settings(scene)).resolution.contact_grid.length
     return Setting("P2", unit / values["flank elements"], unit / values["contact nodes"], length, values["body elements"], values["steps"])
 
 
@@ -136,12 +136,12 @@ def _order_of_nodes(scene: Scene) -> tuple[float, str]:
 
 
 def _order_in_time(scene: Scene) -> tuple[float, str]:
-    built = model(scene)
+    model = model_of(scene)
     if scene.friction is not None:
         return 1.0, "slip over a step stands for the rate of slip, and reverses a step late: h"
-    if built.drivetrain.mass is None:
+    if model.drivetrain.mass is None:
         return 1.5, "straight lines across the kinks where pairs come and go: h^1.5 in L2"
-    return (2.0, "average acceleration: h^2") if built.pace.averages_acceleration else (1.0, "backward Euler: h")
+    return (2.0, "average acceleration: h^2") if model.pace.averages_acceleration else (1.0, "backward Euler: h")
 
 
 def _levels(base: Setting, field: str, values, unit: float) -> tuple[Level, ...]:

@@ -9,9 +9,9 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError
-from fenics_gears.progress import Progress, SilentProgress
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import Limit, last_of, richardson, together
 from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, distance, distances, judged
@@ -20,7 +20,7 @@ from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting
 from fenics_gears.studies.effect_lattice.machine import machine
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS, QUICK_ROUNDS = 5, 1
 # What repeating single settings for their times may take, s, unless the user gives more; their answers need one run.

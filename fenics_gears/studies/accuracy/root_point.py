@@ -13,10 +13,10 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.model import model
-from fenics_gears.results.stored_forces import StoredForces, stored_forces
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Material, Scene
-from fenics_gears.simulation import tooth_reach
+from fenics_gears.simulation.elastic_route import tooth_reach
+from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 
 PINION = 0
 
@@ -26,15 +26,15 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
 
     run: of `scene`, with contact nodes on the flanks; cycle: the one that it had.
     """
-    built = model(scene)
-    resolution = built.resolution
+    model = model_of(scene)
+    resolution = model.resolution
     rows = _rows(
-        built.pair.pinion, scene.gears.material_of("pinion"), resolution.element, resolution.flank_element_size, resolution.body_element_size,
-        tooth_reach(built).farthest + 1, scene.coast_flanks is not None,
+        model.pair.pinion, scene.gears.material_of("pinion"), resolution.element, resolution.flank_element_size, resolution.body_element_size,
+        tooth_reach(model).farthest + 1, scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
     steps = range(run.sizes["contact_time"] - cycle.steps, run.sizes["contact_time"])
-    stresses = [_stress(point, stored_forces(run, built, cycle, index), built) for index in steps]
+    stresses = [_stress(point, stored_forces(run, model, cycle, index), model) for index in steps]
     return max(stresses, default=0.0)
 
 
@@ -45,9 +45,9 @@ def point_rows(rows: RootStressRows) -> np.ndarray:
     return rows.rows[:, [place, points + place]]
 
 
-def _stress(point: np.ndarray, stored: StoredForces, built) -> float:
+def _stress(point: np.ndarray, stored: StoredForces, model) -> float:
     """Larger stress (MPa) of both sides of the loaded teeth at a stored step; 0 where none is loaded."""
-    forces, reach = stored.on_flanks(built, PINION), len(point) // 2
+    forces, reach = stored.on_flanks(model, PINION), len(point) // 2
     of_teeth = [sum(point[reach + tooth - loaded] @ force for loaded, force in forces.items()) for tooth in forces]
     return float(np.max(of_teeth, initial=0.0))
 

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.model import Model
-from fenics_gears.progress import Progress, SilentProgress
+from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation import prepared, simulate
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.system.progress import Progress, SilentProgress
 
 STAGES = ("mesh", "condense", "march")
 
@@ -52,7 +53,7 @@ class Times:
 
 def run_afresh(scene: Scene) -> tuple[xr.Dataset, Cycle]:
     """A run that takes nothing from the cache and leaves nothing there, and its mesh cycle. Ctrl-C in its march ends all."""
-    return _run(scene, lambda built: prepared(built, SilentProgress(), None))
+    return _run(scene, lambda model: prepared(model, SilentProgress(), None))
 
 
 def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
@@ -60,7 +61,7 @@ def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None
 
     KeyboardInterrupt from `progress` ends all.
     """
-    return _run(scene, lambda built: gears.prepared(built, SilentProgress(), None), progress)
+    return _run(scene, lambda model: gears.prepared(model, SilentProgress(), None), progress)
 
 
 def shared_gears(most: int | None = None) -> GearStore:
@@ -72,8 +73,8 @@ def _run(scene: Scene, prepare: Callable[[Model], tuple], progress: Progress | N
     """A complete run of a scene whose gears and mesh cycle `prepare(model)` makes."""
     cycles = []
 
-    def preparation(built: Model, progress, cache):
-        gears, cycle = prepare(built)
+    def preparation(model: Model, progress, cache):
+        gears, cycle = prepare(model)
         cycles.append(cycle)
         return gears, cycle
 

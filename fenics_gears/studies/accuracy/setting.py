@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
-from fenics_gears.model import model
-from fenics_gears.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP, ONCE
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Scene
 
 
@@ -69,12 +69,12 @@ class Setting:
 
 def half_width(scene: Scene) -> float:
     """The half-width (mm) that sizes go by: Hertz's, within the program's bounds, for a vanishing load has none."""
-    return model(without_settings(scene)).resolution.flank_element_size * ELEMENTS_PER_HALF_WIDTH
+    return model_of(without_settings(scene)).resolution.flank_element_size * ELEMENTS_PER_HALF_WIDTH
 
 
 def own_setting(scene: Scene) -> Setting:
     """The setting that the scene has, its defaults included."""
-    resolution = model(scene).resolution
+    resolution = model_of(scene).resolution
     grid, size = resolution.contact_grid, resolution.body_element_size
     order = 2 if resolution.element.endswith("2") else 1
     body = 1.0 if size is None else size / (DEFAULT_SIZES[order].body * scene.gears.module)

@@ -6,10 +6,10 @@ import csv
 from math import isnan
 from pathlib import Path
 
-from fenics_gears.studies.accuracy.report import RefinementResult, Report, WholeResult
-from fenics_gears.studies.accuracy.measures import MEASURES, judged
-from fenics_gears.studies.accuracy.runs import STAGES, Times
 from fenics_gears.studies.accuracy.convergence import largest_part
+from fenics_gears.studies.accuracy.measures import MEASURES, judged
+from fenics_gears.studies.accuracy.report import RefinementResult, Report, WholeResult
+from fenics_gears.studies.accuracy.runs import STAGES, Times
 
 # Measures whose orders are told.
 ORDERED = ("T_E", "T_EPP", "root stress")

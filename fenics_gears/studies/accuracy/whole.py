@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import ceil
 
-from fenics_gears.cost import operator_bytes
-from fenics_gears.model import model
+from fenics_gears.model.cost import operator_bytes
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.refinement import LENGTH, Refinement
@@ -82,5 +82,5 @@ def _thinned(found: list[Setting]) -> list[Setting]:
 
 def fits(scene: Scene, setting: Setting) -> bool:
     """Whether the contact operators of a mesh cycle can be held."""
-    rows = ceil(model(scene).pair.contact_ratio) * setting.grid.nodes * (1 if scene.friction is None else 2)
+    rows = ceil(model_of(scene).pair.contact_ratio) * setting.grid.nodes * (1 if scene.friction is None else 2)
     return operator_bytes(setting.steps, rows, scene.friction is not None) <= MOST_BYTES

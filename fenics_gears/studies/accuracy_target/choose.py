@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.progress import Progress
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.convergence import SAFETY, ErrorCurve, largest_part, total_error
 from fenics_gears.studies.accuracy.measures import distance
 from fenics_gears.studies.accuracy.setting import Setting
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
 from fenics_gears.studies.accuracy_target.trial_runs import BODY, FLANK, STEPS, Sizes, TrialRuns
+from fenics_gears.system.progress import Progress
 
 # Sizes that are searched stand this factor apart: fine enough to cost no more than a tenth.
 RATIO = 2.0**0.25

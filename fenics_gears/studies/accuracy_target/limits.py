@@ -9,9 +9,9 @@ import numpy as np
 
 from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
 from fenics_gears.errors import ComputationError
-from fenics_gears.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
-from fenics_gears.model import MOST_STORED_BYTES, Model, model
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.model.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
+from fenics_gears.model.model import MOST_STORED_BYTES, Model, model_of
+from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.schema import MOST_CONTACT_NODES
@@ -31,26 +31,26 @@ class Limits:
     """Of a scene whose `[accuracy]` is empty; sizes are of flank elements (mm), body elements (parts of their default), steps (mesh cycles)."""
 
     def __init__(self, scene: Scene, element: str):
-        self._built: Model = model(scene)
+        self._model: Model = model_of(scene)
         self._element, self._order = element, 2 if element.endswith("2") else 1
         self._friction, self._module = scene.friction is not None, scene.gears.module
-        self._pairs = loaded_pairs(self._built)
+        self._pairs = loaded_pairs(self._model)
 
     def cost(self, flank: Size, body: Size, step: Size, length: float) -> Size:
         """Of the whole run; see ``run_cost``."""
-        return run_cost(self._built, self._element, flank, body, step, self._nodes(flank, length))
+        return run_cost(self._model, self._element, flank, body, step, self._nodes(flank, length))
 
     def bytes_of(self, flank: Size, step: Size, length: float) -> Size:
         """Memory of contact operators over one mesh cycle, and of both gears."""
         rows = self._pairs * self._nodes(flank, length) * (2 if self._friction else 1)
-        gears = (self._built.pair.pinion, self._built.pair.wheel)
+        gears = (self._model.pair.pinion, self._model.pair.wheel)
         return operator_bytes(1.0 / step, rows, self._friction) + sum(flank_bytes(flank_unknowns(gear, self._order, flank)) for gear in gears)
 
     def stored_bytes(self, flank: Size, step: Size, length: float) -> Size:
         """Size of the scene's own result: curves of all steps, and the contact fields that it stores."""
-        grid, steps = self._built.resolution.contact_grid, self._built.resolution.steps_per_mesh_cycle
-        curves = replace(self._built, contact_cycles=0).stored_bytes
-        fields = self._built.stored_bytes - curves
+        grid, steps = self._model.resolution.contact_grid, self._model.resolution.steps_per_mesh_cycle
+        curves = replace(self._model, contact_cycles=0).stored_bytes
+        fields = self._model.stored_bytes - curves
         return (curves + fields * self._nodes(flank, length) / grid.nodes) / (step * steps)
 
     def too_fine(self, flank: Size, body: Size, length: float) -> Size:

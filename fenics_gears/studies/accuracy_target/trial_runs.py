@@ -10,8 +10,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from fenics_gears.errors import ComputationError, GearsError
-from fenics_gears.model import model
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import NODE_SPACING
+from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.studies.accuracy.convergence import ErrorCurve, error_curve
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
@@ -20,7 +21,6 @@ from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, without_settings
 from fenics_gears.studies.accuracy_target.limits import Limits, Size, TargetNotReached
 from fenics_gears.studies.work import Ticking
-from fenics_gears.validity import WINDOW_REACHED
 
 ELEMENT = "P2"
 FLANK = "flank elements and contact nodes"
@@ -48,14 +48,14 @@ class TrialRuns:
         self.scene = replace(without_settings(scene), output=Output(), motion=replace(scene.motion, recorded_cycles=1))
         self._begun, self._tick, self._gears = begun, tick, shared_gears(KEPT_GEARS)
         self._limits = Limits(without_settings(scene), ELEMENT)
-        self._unit, built = half_width(self.scene), model(self.scene)
-        self.length = built.resolution.contact_grid.length
+        self._unit, model = half_width(self.scene), model_of(self.scene)
+        self.length = model.resolution.contact_grid.length
         orders = expected_orders(self.scene)
         # Of flank elements and contact nodes the lower order counts, the nodes'.
         self._expected = {FLANK: orders[NODES][0], BODY: orders[BODY][0], STEPS: orders[STEPS][0]}
         # Without friction and inertia a step knows nothing of the one before: a run's every other step is a run of half as many, and one
         # level more of steps costs less than a run.
-        self._steps_stand_alone = scene.friction is None and built.drivetrain.mass is None
+        self._steps_stand_alone = scene.friction is None and model.drivetrain.mass is None
         self._levels = {**dict.fromkeys(NAMES, LEVELS), STEPS: LEVELS + self._steps_stand_alone}
         self._known: dict[Setting, Answer] = {}
         self._cut: dict[float, bool] = {}
@@ -109,7 +109,7 @@ class TrialRuns:
     @property
     def _why_slow(self) -> str:
         """What makes errors fall slowly, or begin high, in words; empty where nothing is known to."""
-        width = model(self.scene).resolution.half_width
+        width = model_of(self.scene).resolution.half_width
         if width < 0.5 * self._unit:
             return f", because the contact's half-width under this load is only {width:.2g} mm"
         if self.scene.tip_relief is not None:

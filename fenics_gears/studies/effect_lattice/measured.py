@@ -13,17 +13,19 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import ComputationError, GearsError, SceneError
-from fenics_gears.model import Model, model
-from fenics_gears.progress import Progress, SilentProgress
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation import gear_compliance, mesh_cycle, prepared, simulate, tooth_reach
+from fenics_gears.simulation.elastic_route import gear_compliance, mesh_cycle, tooth_reach
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.machine import machine
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
 from fenics_gears.studies.gear_store import GEARS, gear_key
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS = 5
 TIMED_STEPS = 1000
@@ -126,7 +128,7 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
 
 def at_one_accuracy(scene: Scene) -> Scene:
     """The scene with every accuracy setting written out, so that all subsets have the mesh and the steps of the scene as a whole."""
-    resolution = model(scene).resolution
+    resolution = model_of(scene).resolution
     if resolution.condensation == EVERY_STEP:
         raise SceneError('accuracy.condensation = "every step": the effects are measured on the fast route. Take "once", or leave it out.')
     grid = resolution.contact_grid
@@ -148,15 +150,15 @@ class Gears:
     def __init__(self):
         self._kept, self._models, self._seconds = {}, {}, {}
 
-    def of(self, built: Model) -> tuple:
+    def of(self, model: Model) -> tuple:
         """Flank compliances of pinion and wheel."""
-        reach = tooth_reach(built)
-        return tuple(self._gear(built, name, reach) for name in GEARS)
+        reach = tooth_reach(model)
+        return tuple(self._gear(model, name, reach) for name in GEARS)
 
-    def seconds(self, built: Model) -> float:
+    def seconds(self, model: Model) -> float:
         """Median time to mesh and condense both gears; compiling does not count."""
-        reach = tooth_reach(built)
-        return sum(statistics.median(self._seconds[gear_key(built, name, reach)]) for name in GEARS)
+        reach = tooth_reach(model)
+        return sum(statistics.median(self._seconds[gear_key(model, name, reach)]) for name in GEARS)
 
     def condense_again(self) -> None:
         """Repeat all condensations in turn for their time, where they do not take too long."""
@@ -166,10 +168,10 @@ class Gears:
             for key, arguments in self._models.items():
                 self._seconds[key].append(_condensing(gear_compliance(*arguments, None)))
 
-    def _gear(self, built: Model, name: str, reach: Reach):
-        key = gear_key(built, name, reach)
+    def _gear(self, model: Model, name: str, reach: Reach):
+        key = gear_key(model, name, reach)
         if key not in self._kept:
-            self._kept[key], self._models[key] = gear_compliance(built, name, reach, None), (built, name, reach)
+            self._kept[key], self._models[key] = gear_compliance(model, name, reach, None), (model, name, reach)
             self._seconds[key] = [_condensing(self._kept[key])]
         return self._kept[key]
 
@@ -183,7 +185,7 @@ class Bench:
 
     def __init__(self, subset: Subset, gears: Gears):
         self.subset, self._gears = subset, gears
-        self._built = model(subset.scene)
+        self._model = model_of(subset.scene)
         self._cycle, self._operators = self._build()
         self._whole = self._run(subset.scene, self._cycle)
         self._step_times: list[float] = []
@@ -193,17 +195,17 @@ class Bench:
 
     def _build(self) -> tuple[Cycle, float]:
         """The contact operators of a mesh cycle, all of them, and the seconds they took."""
-        elastic = self._built.scene.resolves_contact
-        compliances = self._gears.of(self._built) if elastic else ()
+        elastic = self._model.scene.resolves_contact
+        compliances = self._gears.of(self._model) if elastic else ()
         begun = time.perf_counter()
-        cycle = mesh_cycle(self._built, compliances) if elastic else prepared(self._built, SilentProgress(), None)[1]
+        cycle = mesh_cycle(self._model, compliances) if elastic else prepared(self._model, SilentProgress(), None)[1]
         for step in range(cycle.steps):
             cycle.position(step)
         return cycle, time.perf_counter() - begun
 
     def _run(self, scene: Scene, cycle: Cycle) -> xr.Dataset:
-        compliances = self._gears.of(self._built) if self._built.scene.resolves_contact else ()
-        result = simulate(scene, preparation=lambda built, progress, cache: (compliances, cycle))
+        compliances = self._gears.of(self._model) if self._model.scene.resolves_contact else ()
+        result = simulate(scene, preparation=lambda model, progress, cache: (compliances, cycle))
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
         return result
@@ -214,16 +216,16 @@ class Bench:
 
     def time_steps(self) -> None:
         """One more timed run, of the scene's first mesh cycles."""
-        motion = self._built.scene.motion
-        cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._built.resolution.steps_per_mesh_cycle)))
+        motion = self._model.scene.motion
+        cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
         shorter = replace(self.subset.scene, motion=replace(motion, mesh_cycles=cycles, recorded_cycles=1))
         self._timed = self._run(shorter, self._cycle if self._cycle is not None else self._build()[0])
         self._step_times.append(self._timed.attrs["time_march"] / self._timed.attrs["steps"])
 
     def row(self) -> Row:
         """What was measured."""
-        run, coordinates = self._whole, len(self._built.drivetrain.coordinates)
-        closed, scene = float(run.closed_nodes.mean()), self._built.scene
+        run, coordinates = self._whole, len(self._model.drivetrain.coordinates)
+        closed, scene = float(run.closed_nodes.mean()), self._model.scene
         iterations = self._timed.attrs["newton_iterations_total"] / self._timed.attrs["steps"]
         return Row(
             subset=self.subset,
@@ -236,7 +238,7 @@ class Bench:
                 coordinates, self._contact_rows, closed, iterations, scene.inertia is not None, scene.friction is not None, _varying(scene)
             ),
             step_times=tuple(self._step_times),
-            condense=self._gears.seconds(self._built) if scene.resolves_contact else 0.0,
+            condense=self._gears.seconds(self._model) if scene.resolves_contact else 0.0,
             operators=self._operators,
             transmission_error=run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"],
             peak_force=largest_normal_force(run),

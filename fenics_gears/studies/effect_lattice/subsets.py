@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from fenics_gears.effects import EFFECTS, effect, effects_on, without
+from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import broken_rules
-from fenics_gears.scene.written import WrittenFloat
 
 NOTHING, BARE, ALONE, LEFT_OUT, ALL = "nothing", "bare", "alone", "left out", "all"
 # What all other effects act on: a scene that has it is bare with it and nothing else.

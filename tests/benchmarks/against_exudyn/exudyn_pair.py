@@ -13,8 +13,17 @@ import sys
 import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import (
-    CoordinateSpringDamper, LoadCoordinate, MarkerBodyRigid, MarkerNodeCoordinate, Mass1D, Node1D, NodePointGround, NodeRigidBody2D,
-    ObjectRigidBody2D, SensorNode, SpringDamper,
+    CoordinateSpringDamper,
+    LoadCoordinate,
+    MarkerBodyRigid,
+    MarkerNodeCoordinate,
+    Mass1D,
+    Node1D,
+    NodePointGround,
+    NodeRigidBody2D,
+    ObjectRigidBody2D,
+    SensorNode,
+    SpringDamper,
 )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Accuracy, GearData, Motion, Scene
 from fenics_gears.scene.read import load_scene
 
@@ -68,7 +68,7 @@ def _accuracy(scene: Scene, **changes) -> Scene:
 def of_flank_elements(elements: float) -> Scene:
     """So many elements along the pinion's flank."""
     scene = paper()
-    pinion = model(scene).pair.pinion
+    pinion = model_of(scene).pair.pinion
     length = 0.5 * pinion.base_radius * (pinion.tip_roll_angle**2 - pinion.form_roll_angle**2)
     return _accuracy(scene, flank_element_size=length / elements)
 

@@ -22,10 +22,10 @@ from fenics_gears.elasticity import condensation, gear_compliance, ring
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.model import Model, model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.simulation import gear_compliances, mesh_cycle
-from fenics_gears.warm_up import compile_kernels
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.progress import SilentProgress
 
 ROUNDS, MOST_SECONDS = 5, 4.0
 # With more dofs on a cut than this the Fourier transform over the sectors takes minutes.
@@ -36,8 +36,8 @@ GEARS = ("pinion", "wheel")
 class Point:
     """The stages of one scene, measured; `repeated`: those that are timed more than once; `compares_rings`: by both routes."""
 
-    def __init__(self, built: Model, repeated: set[str], compares_rings: bool = False):
-        self.built, self.repeated, self.compares_rings = built, repeated, compares_rings
+    def __init__(self, model: Model, repeated: set[str], compares_rings: bool = False):
+        self.model, self.repeated, self.compares_rings = model, repeated, compares_rings
         gc.collect()
         self.found = {"idle_bytes": resident()}
 
@@ -49,7 +49,7 @@ class Point:
             self._transformed(compliances)
         cycle = self._stage("operators", lambda: self._operators(compliances), _bytes_of_cycle)
         march = self._stage("solving", lambda: self._march(cycle), lambda march: array_bytes([(each.state, each.solution) for each in march.records]))
-        grid, teeth = self.built.resolution.contact_grid, self.built.pair.wheel.teeth
+        grid, teeth = self.model.resolution.contact_grid, self.model.pair.wheel.teeth
         return self.found | {
             "flank_nodes": compliances[0].nodes, "contact_nodes": grid.nodes, "teeth": teeth, "steps": cycle.steps,
             "cycles": march.steps / cycle.steps, "unknowns": sum(gear.timings["unknowns"] for gear in compliances),
@@ -80,10 +80,10 @@ class Point:
         self.found |= {f"{name}_peak_bytes": most, f"{name}_above_idle_bytes": max(most - self.found["idle_bytes"], 0), f"{name}_array_bytes": held}
 
     def _mesh(self):
-        scene, resolution = self.built.scene, self.built.resolution
+        scene, resolution = self.model.scene, self.model.resolution
         element = element_named(resolution.element)
         meshes = []
-        for gear in (getattr(self.built.pair, name) for name in GEARS):
+        for gear in (getattr(self.model.pair, name) for name in GEARS):
             sizes = element_sizes(gear, element, resolution.flank_element_size, resolution.body_element_size)
             meshes.append(sector_mesh(gear.of_module_one, replace(sizes, both_flanks=scene.coast_flanks is not None).in_modules_of(gear)))
         return meshes
@@ -97,7 +97,7 @@ class Point:
         parts = {"assemble": [], "schur": [], "ring": []}
 
         def run():
-            gears = gear_compliances(self.built, SilentProgress(), None)
+            gears = gear_compliances(self.model, SilentProgress(), None)
             for part, found in parts.items():
                 found.append(sum(gear.timings[f"time_{part}"] for gear in gears))
             return gears
@@ -115,22 +115,22 @@ class Point:
             return
         chosen, ring.chain_is_quicker = ring.chain_is_quicker, lambda teeth, reach: False
         try:
-            self.found["fourier_s"] = sum(gear.timings["time_ring"] for gear in gear_compliances(self.built, SilentProgress(), None))
+            self.found["fourier_s"] = sum(gear.timings["time_ring"] for gear in gear_compliances(self.model, SilentProgress(), None))
         finally:
             ring.chain_is_quicker = chosen
 
     def _operators(self, compliances):
-        cycle = mesh_cycle(self.built, compliances)
+        cycle = mesh_cycle(self.model, compliances)
         for step in range(cycle.steps):
             cycle.position(step)
         return cycle
 
     def _march(self, cycle):
-        built = self.built
+        model = self.model
         marcher = Marcher(
-            cycle, built.drivetrain, built.time_step, built.scene.friction.coefficient, built.pace, built.clock, built.loads,
+            cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient, model.pace, model.clock, model.loads,
         )  # fmt: skip
-        return marcher.run(built.steps, built.contact_steps)
+        return marcher.run(model.steps, model.contact_steps)
 
 
 def _bytes_of_cycle(cycle) -> int:
@@ -143,7 +143,7 @@ def warmed_up() -> None:
     compile_kernels(tangential=True)
     small = paper()
     small = replace(small, accuracy=replace(small.accuracy, flank_element_size=0.5, contact_nodes=9, steps_per_mesh_cycle=4))
-    Point(model(small), set()).measured()
+    Point(model_of(small), set()).measured()
 
 
 def main() -> None:
@@ -153,7 +153,7 @@ def main() -> None:
         module.perf_counter = time.process_time
     warmed_up()
     axis = axis_named(name)
-    print(json.dumps(Point(model(axis.scene(value)), axis.stages, "fourier" in axis.theory).measured()))
+    print(json.dumps(Point(model_of(axis.scene(value)), axis.stages, "fourier" in axis.theory).measured()))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import pytest
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.elasticity.whole_body.parts import crack_faces
-from fenics_gears.model import model
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
 from meshes.cracked_gear import main
 
@@ -29,7 +29,7 @@ def cracked_tooth(mesh, gear) -> int:
 
 def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked():
     """Authority: what the demonstration says of it: 3 mm in tooth 8."""
-    pair = model(load_scene(SCENE)).pair
+    pair = model_of(load_scene(SCENE)).pair
     mesh = whole_body(read_body_mesh(ROOT / "meshes" / "cracked_pinion.msh"), pair.pinion, "mesh").mesh
     assert cracked_tooth(mesh, pair.pinion) == 8
     around = np.unique(mesh.cells[np.concatenate(crack_faces(mesh))])
@@ -46,7 +46,7 @@ def test_a_mesh_is_written_for_either_gear(gear, tooth, depth, found, tmp_path, 
     file = tmp_path / "gear.msh"
     words = [str(SCENE), str(file), "--gear", gear, "--tooth", str(tooth), "--flank-size", "0.8 mm"]
     assert main(words + (["--depth", depth] if depth else [])) == 0
-    said, body = capsys.readouterr().out, getattr(model(load_scene(SCENE)).pair, gear)
+    said, body = capsys.readouterr().out, getattr(model_of(load_scene(SCENE)).pair, gear)
     mesh = whole_body(read_body_mesh(file), body, "mesh").mesh
     assert f"{len(mesh.points)} points, {len(mesh.cells)} triangles, 0.8 mm along the drive flanks" in said
     assert cracked_tooth(mesh, body) == found

@@ -9,24 +9,23 @@ import numpy as np
 import pytest
 from tests.coarse import teeth_alone
 
-from fenics_gears.cli import main
-from fenics_gears.cost import expected_cost
-from fenics_gears.errors import SceneError
-from fenics_gears.model import model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.resolution import NODE_SPACING
+from fenics_gears.commands.cli import main
 from fenics_gears.effects.friction import Friction
+from fenics_gears.errors import SceneError
+from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import NODE_SPACING
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation import simulate
-from fenics_gears.studies.accuracy.setting import Setting, half_width
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
+from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target import choose as choosing
-from fenics_gears.studies.accuracy_target import limits
-from fenics_gears.studies.accuracy_target import trial_runs
+from fenics_gears.studies.accuracy_target import limits, trial_runs
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
-from fenics_gears.summary import summary_rows
+from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
 TEXT_TARGET = '\n[accuracy]\ntarget = "10 %"\n'
@@ -136,9 +135,9 @@ def test_the_cost_of_any_sizes_is_that_of_the_scene_with_them(scene):
     ratios = []
     for sizes in (fine, {**fine, "flank": 0.08}, {**fine, "step": 0.005}):
         setting = Setting("P2", sizes["flank"], NODE_SPACING * sizes["flank"], 3.0, 1.0, round(1.0 / sizes["step"]))
-        built = model(setting.of(scene))
-        expected = expected_cost(built)
-        assert bounds.stored_bytes(sizes["flank"], sizes["step"], 3.0) == pytest.approx(built.stored_bytes, rel=0.1)
+        model = model_of(setting.of(scene))
+        expected = expected_cost(model)
+        assert bounds.stored_bytes(sizes["flank"], sizes["step"], 3.0) == pytest.approx(model.stored_bytes, rel=0.1)
         ratios.append(bounds.cost(**sizes, length=3.0) / (expected.condensing + expected.marching))
     assert ratios == pytest.approx([1.0] * 3, rel=0.2)
     plain = dict(**fine, length=3.0)

@@ -5,32 +5,32 @@ from __future__ import annotations
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
-from fenics_gears.model import Model
-from fenics_gears.progress import Progress
+from fenics_gears.model.model import Model
 from fenics_gears.results.root_stress_variables import RootStress
-from fenics_gears.simulation import tooth_reach
+from fenics_gears.simulation.elastic_route import tooth_reach
+from fenics_gears.system.progress import Progress
 
 
-def root_stress(built: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
+def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
     """The root stress of both gears at the steps of a cycle, ready to be taken at each."""
     rows = []
     for name in ("pinion", "wheel"):
         progress.stage(f"root stress of the {name}")
-        rows.append(gear_rows(built, name, cache))
-    return RootStress(built.pair, cycle, (rows[0], rows[1]))
+        rows.append(gear_rows(model, name, cache))
+    return RootStress(model.pair, cycle, (rows[0], rows[1]))
 
 
-def gear_rows(built: Model, name: str, cache: Cache | None) -> RootStressRows:
+def gear_rows(model: Model, name: str, cache: Cache | None) -> RootStressRows:
     """Root stress rows of the "pinion" or the "wheel", on the mesh of its compliance."""
-    resolution = built.resolution
+    resolution = model.resolution
     return root_stress_rows(
-        getattr(built.pair, name),
-        built.scene.gears.material_of(name),
+        getattr(model.pair, name),
+        model.scene.gears.material_of(name),
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         body_element_size=resolution.body_element_size,
         # Pairs are numbered by their drive flanks' teeth; the wheel's tooth of a coast pair stands one beside.
-        reach=tooth_reach(built).farthest + 1,
-        coast_flank=built.scene.coast_flanks is not None,
+        reach=tooth_reach(model).farthest + 1,
+        coast_flank=model.scene.coast_flanks is not None,
         cache=cache,
     )

@@ -5,38 +5,40 @@ Slow; the published method, and the yardstick of the fast route, with which it s
 
 from __future__ import annotations
 
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.remeshed_cycle import RemeshedCycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
 from fenics_gears.errors import SceneError
-from fenics_gears.model import Model
-from fenics_gears.progress import Progress
-from fenics_gears.resolution import EVERY_STEP, ONCE
+from fenics_gears.model.model import Model
+from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.system.progress import Progress
 
 
-def remeshed(
-    built: Model, progress: Progress, cache: Cache | None, comm=None
-) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], RemeshedCycle]:
+def reference_route(
+    model: Model, progress: Progress, cache: Cache | None, comm=None
+) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], Cycle]:
     """Stiffness of pinion and wheel at every position, and the contact equations of a mesh cycle on them.
 
     comm: MPI communicator over which the positions are shared out; every rank calls this, only rank 0 can use the result.
     None: this process does all, and needs no MPI. Raises SceneError where the scene has coast flanks.
     """
-    if built.scene.coast_flanks is not None:
+    if model.scene.coast_flanks is not None:
         raise SceneError(
-            f'{built.scene.name}: condensation = "{EVERY_STEP}" meshes nodes for the drive flanks only. '
+            f'{model.scene.name}: condensation = "{EVERY_STEP}" meshes nodes for the drive flanks only. '
             f'Leave [coast_flanks] out, or choose condensation = "{ONCE}".'
         )
-    resolution = built.resolution
+    resolution = model.resolution
     cycle = RemeshedCycle(
-        built.pair,
-        built.removal,
+        model.pair,
+        model.removal,
         resolution.contact_grid,
         element_named(resolution.element).order,
         resolution.steps_per_mesh_cycle,
-        built.drivetrain.indices,
-        tangential=built.scene.friction is not None,
+        model.drivetrain.indices,
+        tangential=model.scene.friction is not None,
     )
     teeth = [cycle.teeth(index) for index in range(cycle.steps)]
     gears = []
@@ -44,8 +46,8 @@ def remeshed(
         progress.stage(f"remesh {name}")
         gears.append(
             remeshed_stiffness(
-                getattr(built.pair, name),
-                built.scene.gears.material_of(name),
+                getattr(model.pair, name),
+                model.scene.gears.material_of(name),
                 [both[number] for both in teeth],
                 element=resolution.element,
                 flank_element_size=resolution.flank_element_size,
@@ -56,4 +58,4 @@ def remeshed(
             )
         )
     cycle.stiffness = list(zip(*(gear.positions for gear in gears)))
-    return tuple(gears), cycle
+    return tuple(gears), deviating(model, cycle)

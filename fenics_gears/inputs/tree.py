@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from fenics_gears.scene import units
-from fenics_gears.scene.names import nearest
-from fenics_gears.scene.problem import Path, Problem
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs import units
+from fenics_gears.inputs.names import nearest
+from fenics_gears.inputs.problem import Path, Problem
+from fenics_gears.inputs.written import as_written
 
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")

@@ -17,7 +17,8 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus, mesh_stiffness
+from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus
+from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 DEFAULT_ELEMENT = "P2"
@@ -130,7 +131,7 @@ def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
 
 def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: float, size: float) -> float:
     """Window (mm) outside which nothing touches: there the flanks' own curvature opens more than the teeth deflect."""
-    deflection = line_load / (LEAST_PAIR_STIFFNESS * mean_youngs_modulus(scene.gears))
+    deflection = line_load / (LEAST_PAIR_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity))
     middle = 0.5 * pair.line_of_action_length
     widest = max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end)))
     wanted = 2.0 * (sqrt(2.0 * widest * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 
-from fenics_gears.environment import RANK_COUNTS
 from fenics_gears.errors import ComputationError
+from fenics_gears.system.environment import RANK_COUNTS
 
 
 def communicator():

@@ -12,16 +12,16 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
 from fenics_gears.dynamics.clock import Clock, SteadyClock
-from fenics_gears.dynamics.drivetrain import Drivetrain, drivetrain
+from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.modification import corner, removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
-from fenics_gears.resolution import Resolution, locking_warnings, resolution_warnings, resolve
-from fenics_gears.storage import counted_bytes, sizes, stored_arrays
+from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
+from fenics_gears.model.modification import corner, removals
+from fenics_gears.model.resolution import Resolution, locking_warnings, resolution_warnings, resolve
+from fenics_gears.model.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
 if TYPE_CHECKING:
@@ -77,9 +77,11 @@ class Model:
 
     @cached_property
     def slots(self) -> int:
-        """Tooth pairs, one after the other, that can touch at once."""
+        """Tooth pairs, one after the other, that can touch at once; one more where too many steps to look at each."""
         grid, steps, coast = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None
-        return pairs_at_once(pair_places(self.pair, grid, step / steps, coast, self.corner) for step in range(steps))
+        seen = min(steps, MOST_STEPS_SEEN)
+        found = pairs_at_once(pair_places(self.pair, grid, step / seen, coast, self.corner) for step in range(seen))
+        return found if seen == steps else found + 1
 
     @property
     def stored_bytes(self) -> int:
@@ -150,10 +152,12 @@ class Model:
         ]
 
 
+# Positions of a mesh cycle at which tooth pairs in reach are counted.
+MOST_STEPS_SEEN = 1000
 # Of a result; less where a scene does not say how much is to be stored.
 MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 
-def model(scene: Scene) -> Model:
+def model_of(scene: Scene) -> Model:
     """Everything about a scene that needs no computing to speak of.
 
     Raises GeometryError for impossible gears, SceneError for a result too large to be held, or for files that do not fit the scene.
@@ -161,15 +165,15 @@ def model(scene: Scene) -> Model:
     pair = gear_pair(scene.gears)
     check_files(scene, pair)
     shafts = drivetrain(scene, pair)
-    built = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
+    model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
     cycles = scene.motion.recorded_cycles if scene.output.contact_fields and scene.resolves_contact else 0
-    whole = replace(built, contact_cycles=cycles)
+    whole = replace(model, contact_cycles=cycles)
     if cycles and scene.motion.fewer_where_too_large and whole.stored_bytes > MOST_UNASKED_BYTES:
-        of_one = (whole.stored_bytes - built.stored_bytes) / cycles
-        fitting = int((MOST_UNASKED_BYTES - built.stored_bytes) / of_one)
-        whole = replace(built, contact_cycles=max(fitting, min(LAST_CYCLES, scene.motion.mesh_cycles)))
+        of_one = (whole.stored_bytes - model.stored_bytes) / cycles
+        fitting = int((MOST_UNASKED_BYTES - model.stored_bytes) / of_one)
+        whole = replace(model, contact_cycles=max(fitting, min(LAST_CYCLES, scene.motion.mesh_cycles)))
     if whole.stored_bytes > MOST_STORED_BYTES:
-        raise SceneError(_too_large(built, whole))
+        raise SceneError(_too_large(model, whole))
     return whole
 
 

@@ -14,9 +14,9 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic_core import PydanticCustomError
 
-from fenics_gears.scene import units
-from fenics_gears.scene.names import did_you_mean
-from fenics_gears.scene.written import as_written
+from fenics_gears.inputs import units
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.written import as_written
 
 
 @dataclass(frozen=True)

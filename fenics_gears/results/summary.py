@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 
 from fenics_gears.contact.ladder import LADDER, PUBLISHED
-from fenics_gears.progress import seconds_in_words
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
 from fenics_gears.results.key_numbers import HARMONIC_NAMES
-from fenics_gears.validity import FEWER_THAN_THE_PERIOD, NO_MEANING
+from fenics_gears.results.validity import FEWER_THAN_THE_PERIOD, NO_MEANING
+from fenics_gears.system.progress import seconds_in_words
 
 MICROMETRES = 1e3
 KILO = 1e3

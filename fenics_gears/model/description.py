@@ -7,13 +7,13 @@ from math import inf, lcm
 
 import numpy as np
 
-from fenics_gears.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.sliding import sliding_speed
-from fenics_gears.model import Model, model
+from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.scene.data import Scene
 
 Rows = list[tuple[str, object, str]]
@@ -53,42 +53,42 @@ def effect_states(scene: Scene) -> list[EffectState]:
 
 def describe(scene: Scene) -> Description:
     """Describe a scene: geometry, model, accuracy, natural frequencies, cost. Raises GeometryError for impossible gears."""
-    built = model(scene)
-    sections = [("Gear pair", characteristics(built.pair)), ("Model", _model_rows(built)), ("Accuracy", _accuracy_rows(built))]
-    if built.drivetrain.mass is not None:
-        sections.append(("Inertia", _inertia_rows(built)))
-        sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(built)))
-    sections.append(("Expected cost (about)", _cost_rows(built)))
-    if built.warnings:
-        sections.append(("Warnings", [("", warning, "") for warning in built.warnings]))
+    model = model_of(scene)
+    sections = [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
+    if model.drivetrain.mass is not None:
+        sections.append(("Inertia", _inertia_rows(model)))
+        sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(model)))
+    sections.append(("Expected cost (about)", _cost_rows(model)))
+    if model.warnings:
+        sections.append(("Warnings", [("", warning, "") for warning in model.warnings]))
     return Description(tuple(sections))
 
 
-def _model_rows(built: Model) -> Rows:
-    grid = built.resolution.contact_grid
-    each = "normal and tangential force" if built.scene.friction is not None else "normal force"
-    touching = f"each with a {each} where flanks touch" if built.scene.tooth_elasticity is not None else "the first to touch carries all"
-    pinion, wheel = built.pair.face_widths
-    widths: Rows = [] if pinion == wheel else [("face width in common", built.pair.face_width, f"mm: pinion {pinion:g} mm, wheel {wheel:g} mm")]
+def _model_rows(model: Model) -> Rows:
+    grid = model.resolution.contact_grid
+    each = "normal and tangential force" if model.scene.friction is not None else "normal force"
+    touching = f"each with a {each} where flanks touch" if model.scene.tooth_elasticity is not None else "the first to touch carries all"
+    pinion, wheel = model.pair.face_widths
+    widths: Rows = [] if pinion == wheel else [("face width in common", model.pair.face_width, f"mm: pinion {pinion:g} mm, wheel {wheel:g} mm")]
     return [
         *widths,
-        ("motions of the gears that are unknown", f"{len(built.drivetrain.coordinates)}:", ", ".join(built.drivetrain.coordinates)),
+        ("motions of the gears that are unknown", f"{len(model.drivetrain.coordinates)}:", ", ".join(model.drivetrain.coordinates)),
         ("contact nodes of a tooth pair", f"{grid.nodes},", touching),
-        ("equations in time", _method(built), ""),
-        *([] if built.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
-        ("nominal force along the line of action", built.scene.load.wheel_torque / built.pair.wheel.base_radius, "N"),
-        *(_speed_rows(built) if built.scene.motion.speed_given else []),
+        ("equations in time", _method(model), ""),
+        *([] if model.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
+        ("nominal force along the line of action", model.scene.load.wheel_torque / model.pair.wheel.base_radius, "N"),
+        *(_speed_rows(model) if model.scene.motion.speed_given else []),
     ]
 
 
-def _speed_rows(built: Model) -> Rows:
+def _speed_rows(model: Model) -> Rows:
     """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the run."""
-    pair, highest = built.pair, built.scene.mesh_frequencies[1]
+    pair, highest = model.pair, model.scene.mesh_frequencies[1]
     turns = highest / pair.pinion.teeth
     ends = np.array([pair.path_start, pair.path_end])
     sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
     pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
-    when = "" if built.scene.speed_ramp is None else ", at the ramp's highest speed"
+    when = "" if model.scene.speed_ramp is None else ", at the ramp's highest speed"
     return [
         ("nominal speeds", f"{60.0 * turns:.6g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.6g} rpm wheel", when.lstrip(", ")),
         ("pitch line velocity", float(pitch), "m/s" + when),
@@ -96,36 +96,36 @@ def _speed_rows(built: Model) -> Rows:
     ]
 
 
-def _inertia_rows(built: Model) -> Rows:
+def _inertia_rows(model: Model) -> Rows:
     """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the line of action."""
-    from fenics_gears.dynamics.gear_inertia import lumped_gears
+    from fenics_gears.model.drivetrain import lumped_gears
 
     rows: Rows = []
     along = []
-    for name, lumped in lumped_gears(built.scene, built.pair).items():
-        given = built.scene.inertia.of(name)
+    for name, lumped in lumped_gears(model.scene, model.pair).items():
+        given = model.scene.inertia.of(name)
         kinds = (("mass", "kg"), ("moment_of_inertia", "kg mm^2"))
         for field, unit in kinds:
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
-        along.append(lumped.moment_of_inertia / getattr(built.pair, name).base_radius ** 2)
-    load = built.scene.inertia.shaft_end if built.scene.shafts is not None else built.scene.inertia.load
+        along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
+    load = model.scene.inertia.shaft_end if model.scene.shafts is not None else model.scene.inertia.load
     if load is not None:
-        rows.append(("load moment of inertia", 1e3 * load, "kg mm^2, " + ("far end of the output shaft" if built.scene.shafts is not None else "with the wheel")))
+        rows.append(("load moment of inertia", 1e3 * load, "kg mm^2, " + ("far end of the output shaft" if model.scene.shafts is not None else "with the wheel")))
     rows.append(("reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)", 1e3 * along[0] * along[1] / sum(along), "kg, of both gears along the line of action"))
     return rows
 
 
-def _method(built: Model) -> str:
-    if built.drivetrain.mass is None:
+def _method(model: Model) -> str:
+    if model.drivetrain.mass is None:
         return "quasi-static"
-    if built.pace.averages_acceleration:
+    if model.pace.averages_acceleration:
         return "average acceleration"
-    return "backward Euler, " + ("forces of rigid flanks being impulsive" if built.pace.impulsive else "no vibration being sampled")
+    return "backward Euler, " + ("forces of rigid flanks being impulsive" if model.pace.impulsive else "no vibration being sampled")
 
 
-def _accuracy_rows(built: Model) -> Rows:
-    resolution, asked = built.resolution, built.scene.accuracy
+def _accuracy_rows(model: Model) -> Rows:
+    resolution, asked = model.resolution, model.scene.accuracy
 
     def origin(value) -> str:
         return "" if value is None else ", from the scene"
@@ -142,52 +142,52 @@ def _accuracy_rows(built: Model) -> Rows:
     return [
         *([("target", f"{asked.target:.3%}:", "a run chooses settings first, by six to twelve test runs; what follows is without a target")] if asked.target else []),
         *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
-        *(elastic if built.resolution.element in SECTOR_UNKNOWNS else []),
+        *(elastic if model.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
         ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
-        *(condensation if built.scene.tooth_elasticity is not None else []),
+        *(condensation if model.scene.tooth_elasticity is not None else []),
         ("steps per mesh cycle", f"{resolution.steps_per_mesh_cycle}{origin(asked.steps_per_mesh_cycle)}", ""),
-        ("time step" if built.scene.speed_ramp is None else "time step, the longest", built.time_step, "s"),
-        ("steps", f"{built.steps}, {_contact_fields(built)}", ""),
-        *_period_rows(built),
+        ("time step" if model.scene.speed_ramp is None else "time step, the longest", model.time_step, "s"),
+        ("steps", f"{model.steps}, {_contact_fields(model)}", ""),
+        *_period_rows(model),
     ]
 
 
-def _contact_fields(built: Model) -> str:
+def _contact_fields(model: Model) -> str:
     """Of how many steps contact fields are stored."""
-    if not built.scene.resolves_contact:
+    if not model.scene.resolves_contact:
         return "curves of all are stored"
-    return f"curves of all are stored, contact fields of the last {built.contact_steps}" if built.contact_steps else "curves of all are stored, no contact fields"
+    return f"curves of all are stored, contact fields of the last {model.contact_steps}" if model.contact_steps else "curves of all are stored, no contact fields"
 
 
-def _period_rows(built: Model) -> Rows:
+def _period_rows(model: Model) -> Rows:
     """How many mesh cycles pass until all that differs between them has been gone through."""
-    period, gears = common_period(built.scene), built.scene.gears
+    period, gears = common_period(model.scene), model.scene.gears
     if period == inf:
         return [("mesh cycles of the common period", "none", "no two cycles are alike")]
     whole = period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth)
     return [("mesh cycles of the common period", period, "every tooth has met every other" if whole else "all cycles are alike" if period == 1 else "")]
 
 
-def _frequency_rows(built: Model) -> Rows:
+def _frequency_rows(model: Model) -> Rows:
     """Each natural frequency with the steps that a period has, and the limits of what a step resolves and samples."""
     rows: Rows = []
-    for number, vibration in enumerate(built.vibrations, 1):
-        steps, unmoved = vibration.steps_per_period(built.time_step), "" if vibration.excited else ", not excited by the mesh"
+    for number, vibration in enumerate(model.vibrations, 1):
+        steps, unmoved = vibration.steps_per_period(model.time_step), "" if vibration.excited else ", not excited by the mesh"
         damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
         rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps a period{damped}{unmoved}"))
-    rows.append(("highest frequency that is resolved", resolved_frequency(built.time_step), f"Hz: by the time step, periods right within {PERIOD_ERROR:.0%}"))
-    rows.append(("highest frequency that is sampled", 0.5 / built.time_step, "Hz: two steps a period"))
+    rows.append(("highest frequency that is resolved", resolved_frequency(model.time_step), f"Hz: by the time step, periods right within {PERIOD_ERROR:.0%}"))
+    rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps a period"))
     return rows
 
 
-def _cost_rows(built: Model) -> Rows:
+def _cost_rows(model: Model) -> Rows:
     """Expected cost; where inertia hardly matters also that of the quasi-static scene, at its own number of steps."""
-    rows = _cost(built)
-    slowest = next((vibration for vibration in built.vibrations if vibration.excited), None)
-    if slowest is None or effect_of_inertia(slowest, built.scene.mesh_frequencies[1]) >= NOTABLE:
+    rows = _cost(model)
+    slowest = next((vibration for vibration in model.vibrations if vibration.excited), None)
+    if slowest is None or effect_of_inertia(slowest, model.scene.mesh_frequencies[1]) >= NOTABLE:
         return rows
-    static = model(replace(built.scene, inertia=None, damping=None, speed_ramp=None))
+    static = model_of(replace(model.scene, inertia=None, damping=None, speed_ramp=None))
     cost = {label: (value, unit) for label, value, unit in _cost(static)}
     return rows + [
         ("quasi-static instead: steps per mesh cycle", static.resolution.steps_per_mesh_cycle, ""),
@@ -195,8 +195,8 @@ def _cost_rows(built: Model) -> Rows:
     ]
 
 
-def _cost(built: Model) -> Rows:
-    cost = expected_cost(built)
+def _cost(model: Model) -> Rows:
+    cost = expected_cost(model)
     condensing = [] if cost.condensing is None else [("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s")]
     return [
         *((f"unknowns of {words}", f"{count:.0f}", "") for words, count in cost.unknowns),

@@ -12,11 +12,11 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.dynamics.drivetrain import drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
-from fenics_gears.model import model
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.drivetrain import drivetrain
+from fenics_gears.model.model import model_of
+from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
@@ -45,16 +45,16 @@ def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float |
     In their place a reason where the quasi-static scene has no solution, so that they are not defined, or where cycles differ and a march
     as long as the run's own is not asked for by root stress.
     """
-    built, cycle = recorder.built, recorder.cycle
-    scene = quasi_static(built.scene)
+    model, cycle = recorder.model, recorder.cycle
+    scene = quasi_static(model.scene)
     if common_period(scene) != 1 and recorder.stress is None:
         return {"dynamic_factor_unknown": DIFFERENT_CYCLES}
     # Where cycles differ all of their period is gone through that was run, else one is as good as any.
-    period = min(common_period(scene), built.scene.motion.mesh_cycles)
+    period = min(common_period(scene), model.scene.motion.mesh_cycles)
     motion = replace(scene.motion, mesh_cycles=period, recorded_cycles=1)
-    still = model(replace(scene, motion=motion, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=cycle.steps)))
+    still = model_of(replace(scene, motion=motion, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=cycle.steps)))
     friction = scene.friction.coefficient if scene.friction else 0.0
-    marcher = Marcher(cycle, drivetrain(scene, built.pair), still.time_step, friction, loads=still.loads)
+    marcher = Marcher(cycle, drivetrain(scene, model.pair), still.time_step, friction, loads=still.loads)
     reference = Recorder(still, cycle, stress=recorder.stress)
     try:
         march = marcher.run(still.steps, 1, observe=reference.take)

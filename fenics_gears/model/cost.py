@@ -14,8 +14,8 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import pair_places, tooth_reach
 from fenics_gears.effects import effects_on
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.model import Model
-from fenics_gears.resolution import EVERY_STEP
+from fenics_gears.model.model import Model
+from fenics_gears.model.resolution import EVERY_STEP
 
 Number = float | np.ndarray
 
@@ -47,16 +47,16 @@ class ExpectedCost:
     unknowns: tuple[tuple[str, float], ...] = ()
 
 
-def loaded_pairs(built: Model) -> float:
+def loaded_pairs(model: Model) -> float:
     """Pairs of flanks in contact windows, on the average over the mesh cycle."""
-    grid = built.resolution.contact_grid
-    pairs = [len(pair_places(built.pair, grid, phase / 16, built.scene.coast_flanks is not None, built.corner)) for phase in range(16)]
+    grid = model.resolution.contact_grid
+    pairs = [len(pair_places(model.pair, grid, phase / 16, model.scene.coast_flanks is not None, model.corner)) for phase in range(16)]
     return sum(pairs) / len(pairs)
 
 
-def contact_rows(built: Model) -> float:
+def contact_rows(model: Model) -> float:
     """Rows of the contact operator, normal and tangential, on the average over the mesh cycle."""
-    return (2 if built.scene.friction is not None else 1) * built.resolution.contact_grid.nodes * loaded_pairs(built)
+    return (2 if model.scene.friction is not None else 1) * model.resolution.contact_grid.nodes * loaded_pairs(model)
 
 
 def operator_bytes(positions: Number, rows: Number, friction: bool) -> Number:
@@ -75,16 +75,16 @@ def flank_bytes(unknowns: Number) -> Number:
     return BYTES_OF_A_NUMBER * MATRICES_OF_A_FLANK * unknowns**2
 
 
-def expected_cost(built: Model) -> ExpectedCost:
+def expected_cost(model: Model) -> ExpectedCost:
     """What a run of a scene costs, gears not being in the cache."""
-    resolution, scene = built.resolution, built.scene
+    resolution, scene = model.resolution, model.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
-        return ExpectedCost(None, _marching(built, 0.0), PROGRAM + built.stored_bytes)
-    gears = [_condensed(built, name) for name in ("pinion", "wheel")]
+        return ExpectedCost(None, _marching(model, 0.0), PROGRAM + model.stored_bytes)
+    gears = [_condensed(model, name) for name in ("pinion", "wheel")]
     cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
-    condensing, marching, memory = cost(built, gears)
+    condensing, marching, memory = cost(model, gears)
     unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
-    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + built.stored_bytes + memory, unknowns)
+    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + model.stored_bytes + memory, unknowns)
 
 
 @dataclass(frozen=True)
@@ -100,16 +100,16 @@ class _Gear:
     inverses: float = 1.0
 
 
-def _condensed(built: Model, name: str) -> _Gear:
-    resolution, gear = built.resolution, getattr(built.pair, name)
+def _condensed(model: Model, name: str) -> _Gear:
+    resolution, gear = model.resolution, getattr(model.pair, name)
     order = 2 if resolution.element.endswith("2") else 1
     body, per_node = SECTOR_UNKNOWNS[resolution.element]
-    dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(built, name)
+    dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
         return _Gear(f"the whole {name}", meshed, dofs, 3.0 * gear.teeth, 3.0, gear.teeth)
     reach = tooth_reach(
-        built.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, built.scene.coast_flanks is not None, built.corner
+        model.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.scene.coast_flanks is not None, model.corner
     )
     if reach.across is None:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, 2 * reach.same + 1)
@@ -118,44 +118,44 @@ def _condensed(built: Model, name: str) -> _Gear:
     return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, reach.same + 1 + across, 2 * (2 * reach.same + 1 + across), BOTH_FLANKS_INVERSES)
 
 
-def _meshed(built: Model, name: str) -> int | None:
+def _meshed(model: Model, name: str) -> int | None:
     """Unknowns of a gear that an effect has a mesh of its own for; None for a ring of sectors."""
-    for effect in effects_on(built.scene):
+    for effect in effects_on(model.scene):
         if effect.unknowns_of is not None:
-            return effect.unknowns_of(getattr(built.scene, effect.section), built, name)
+            return effect.unknowns_of(getattr(model.scene, effect.section), model, name)
     return None
 
 
-def _positions(built: Model) -> int:
+def _positions(model: Model) -> int:
     """Positions of the run that have contact operators of their own."""
-    teeth = [getattr(built.pair, name).teeth for name in ("pinion", "wheel") if _meshed(built, name) is not None]
+    teeth = [getattr(model.pair, name).teeth for name in ("pinion", "wheel") if _meshed(model, name) is not None]
     unlike = min(lcm(*teeth), UNLIKE_CYCLES ** len(teeth))
-    return min(unlike * built.resolution.steps_per_mesh_cycle, built.steps + 2)
+    return min(unlike * model.resolution.steps_per_mesh_cycle, model.steps + 2)
 
 
-def _marching(built: Model, rows: float) -> float:
+def _marching(model: Model, rows: float) -> float:
     """Seconds of marching with so many contact rows a position."""
-    pairs = loaded_pairs(built)
-    nodes = rows / (2 if built.scene.friction is not None else 1)
-    return _positions(built) * (PAIR * pairs + NODES_SQUARE * nodes**2) + built.steps * (STEP + ROWS_SQUARE * rows**2)
+    pairs = loaded_pairs(model)
+    nodes = rows / (2 if model.scene.friction is not None else 1)
+    return _positions(model) * (PAIR * pairs + NODES_SQUARE * nodes**2) + model.steps * (STEP + ROWS_SQUARE * rows**2)
 
 
-def _condensed_once_cost(built: Model, gears: list[_Gear]) -> tuple[float, float, float]:
+def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float]:
     """Seconds of condensing and of marching, bytes."""
-    rows = contact_rows(built)
+    rows = contact_rows(model)
     condensing = sum(
         GEAR + UNKNOWN * gear.unknowns + gear.inverses * FLANK_CUBE * gear.flank_dofs**3 + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
     held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
-    return condensing, _marching(built, rows), operator_bytes(_positions(built), rows, built.scene.friction is not None) + held
+    return condensing, _marching(model, rows), operator_bytes(_positions(model), rows, model.scene.friction is not None) + held
 
 
-def _remeshed_cost(built: Model, gears: list[_Gear]) -> tuple[float, float, float]:
+def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float]:
     """The same where every loaded sector is meshed anew at every position."""
-    order = 2 if built.resolution.element.endswith("2") else 1
-    positions, nodes, pairs = built.resolution.steps_per_mesh_cycle, built.resolution.contact_grid.nodes, loaded_pairs(built)
+    order = 2 if model.resolution.element.endswith("2") else 1
+    positions, nodes, pairs = model.resolution.steps_per_mesh_cycle, model.resolution.contact_grid.nodes, loaded_pairs(model)
     rows = 2.0 * pairs * (order * (nodes - 1) + 1)
     condensing = positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears)
-    marching = built.steps * (5.0 * STEP + ROW_CUBE * rows**3)
+    marching = model.steps * (5.0 * STEP + ROW_CUBE * rows**3)
     return condensing, marching, BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2

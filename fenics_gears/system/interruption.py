@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import threading
 
-from fenics_gears.progress import Progress
+from fenics_gears.system.progress import Progress
 
 
 class Interruption:

@@ -7,79 +7,94 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle, Springs
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, coast_place, drive_place, facing_points
-from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.geometry.rough_stiffness import mesh_stiffness
-from fenics_gears.model import Model
+from fenics_gears.model.drivetrain import mesh_stiffness
+from fenics_gears.model.model import Model
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
+from fenics_gears.system.progress import Progress
 
 # A table has at most so many phases, and is linear between them.
 MOST_PHASES = 200
 # Where a scene has no load a table's loads are parts of that which bends a pair by this part of the module.
 DEFLECTION_WITHOUT_LOAD = 1e-3
-Compliances = tuple[FlankCompliance, FlankCompliance]
 
 
-def table_cycle(built: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS) -> tuple[Compliances, SpringCycle]:
+def table_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[Compliances, Cycle]:
+    """Flank compliance of both gears, and the springs that a table of their full contact gives."""
+    compliances = gear_compliances(model, progress, cache)
+    progress.stage("tabulate the mesh stiffness")
+    compliances, cycle = table_cycle(model, compliances)
+    return compliances, deviating(model, cycle)
+
+
+def iso_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[tuple, Cycle]:
+    """No compliance, and the springs of ISO 6336-1."""
+    return (), deviating(model, iso_cycle(model))
+
+
+def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS) -> tuple[Compliances, SpringCycle]:
     """The mesh cycle of a stiffness table of the full contact; the compliances' `time_condense` has what the table took.
 
     `loads`: in parts of the force that the scene transmits.
     """
-    begun, resolution = perf_counter(), built.resolution
+    begun, resolution = perf_counter(), model.resolution
     full = MeshCycle(
-        Flanks(built.pair, compliances, built.removal),
+        Flanks(model.pair, compliances, model.removal),
         resolution.contact_grid,
         min(resolution.steps_per_mesh_cycle, MOST_PHASES),
         [CENTRE_COORDINATES.index("rotation_2")],
         tangential=False,
-        corner=built.corner,
+        corner=model.corner,
     )
-    force = abs(built.scene.load.wheel_torque) / built.pair.wheel.base_radius
-    force = force or DEFLECTION_WITHOUT_LOAD * built.scene.gears.module * mesh_stiffness(built.scene)
+    force = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius
+    force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene)
     table = stiffness_table(full, 0, force, loads)
     first, second = compliances
     spent = first.timings["time_condense"] + perf_counter() - begun
     first = replace(first, timings={**first.timings, "time_condense": spent})
-    return (first, second), _cycle(built, table.springs, len(loads) - 1)
+    return (first, second), _cycle(model, table.springs, len(loads) - 1)
 
 
-def iso_cycle(built: Model) -> SpringCycle:
+def iso_cycle(model: Model) -> SpringCycle:
     """The mesh cycle of pairs as stiff as ISO 6336-1 has them, on the theoretical path of contact: two levels, by how many pairs are on it.
 
     Of n pairs in mesh each has c' (0.75 n + 0.25)/n, so that the mean over the path is c_gamma_alpha. Material removed from the flanks
     opens the pairs.
     """
-    line_load = abs(built.scene.load.wheel_torque) / built.pair.wheel.base_radius / built.scene.gears.face_width
-    single = pair_stiffness(built.scene.gears, line_load)
-    flanks = (DRIVE, COAST) if built.scene.coast_flanks is not None else (DRIVE,)
+    line_load = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius / model.scene.gears.face_width
+    single = pair_stiffness(model.scene.gears, line_load)
+    flanks = (DRIVE, COAST) if model.scene.coast_flanks is not None else (DRIVE,)
 
     def springs(phase: float) -> list[PairSprings]:
         found = []
         for flank in flanks:
-            gaps = _gaps_on_path(built, flank, phase)
+            gaps = _gaps_on_path(model, flank, phase)
             each = single * mesh_factor(len(gaps)) / max(len(gaps), 1)
             found += [PairSprings(index, flank, np.zeros(1), np.array([gap]), np.array([each])) for index, gap in gaps.items()]
         return found
 
-    return _cycle(built, springs, 1)
+    return _cycle(model, springs, 1)
 
 
-def _cycle(built: Model, springs: Springs, levels: int) -> SpringCycle:
-    scene = built.scene
+def _cycle(model: Model, springs: Springs, levels: int) -> SpringCycle:
+    scene = model.scene
     return SpringCycle(
-        built.pair, springs, levels, built.resolution.steps_per_mesh_cycle, built.drivetrain.indices,
+        model.pair, springs, levels, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices,
         tangential=scene.friction is not None, coast_flanks=scene.coast_flanks is not None,
     )  # fmt: skip
 
 
-def _gaps_on_path(built: Model, flank: int, phase: float) -> dict[int, float]:
+def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
     """Gap (mm) of every pair whose flanks meet on the line of action at a phase, by its index."""
-    pair, found = built.pair, {}
-    removal = built.removal if flank == DRIVE else (None, None)
+    pair, found = model.pair, {}
+    removal = model.removal if flank == DRIVE else (None, None)
     reach = int(np.ceil(pair.contact_ratio)) + 2
     for index in range(-reach, reach + 1):
         xi = pair.path_start + (phase + index) * pair.base_pitch

@@ -11,7 +11,7 @@ from fenics_gears.contact.flank_forces import flank_forces
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, ToothPair
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.model import Model
+from fenics_gears.model.model import Model
 from fenics_gears.results.pairs import contact_times
 
 # Offsets in a result and those of its scene are the same numbers, but for what they lose on a file.
@@ -38,10 +38,10 @@ class StoredForces:
             carried[pair.place.flank] += float(force[: len(pair.offsets)].sum())
         return carried[COAST] > carried[DRIVE]
 
-    def on_flanks(self, built: Model, gear: int) -> dict[int, np.ndarray]:
+    def on_flanks(self, model: Model, gear: int) -> dict[int, np.ndarray]:
         """Line forces (N/mm) on the flank nodes of a gear's loaded teeth; see `contact.flank_forces`."""
-        data = (built.pair.pinion, built.pair.wheel)[gear]
-        return flank_forces(gear, data, self.pairs, self.forces, built.pair.face_widths[gear])
+        data = (model.pair.pinion, model.pair.wheel)[gear]
+        return flank_forces(gear, data, self.pairs, self.forces, model.pair.face_widths[gear])
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
@@ -57,21 +57,21 @@ def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
     return int(np.argmin(np.abs(since - mesh_phase)))
 
 
-def stored_forces(result: xr.Dataset, built: Model, cycle: Cycle, index: int) -> StoredForces:
+def stored_forces(result: xr.Dataset, model: Model, cycle: Cycle, index: int) -> StoredForces:
     """The contact forces of a step, by its place among those with contact fields; `cycle`: the one that the run had.
 
-    Raises ComputationError where the result was computed from another scene than `built` is of.
+    Raises ComputationError where the result was computed from another scene than `model` is of.
     """
     step = round(float(result["contact_mesh_phase"].values[index]) * cycle.steps)
     pairs = cycle.pairs_at(step % cycle.steps)
     numbers = result["contact_pair_number"]
     slot = {int(number): i for i, number in enumerate(numbers.values[index])}
     first = numbers.attrs["number_at_phase_0"]
-    forces = tuple(_forces_of(result, built, pair, index, slot.get(int(cycle.pair_number(step, pair.place.index)) + first)) for pair in pairs)
+    forces = tuple(_forces_of(result, model, pair, index, slot.get(int(cycle.pair_number(step, pair.place.index)) + first)) for pair in pairs)
     return StoredForces(index, step % cycle.steps / cycle.steps, pairs, forces)
 
 
-def _forces_of(result: xr.Dataset, built: Model, pair: ToothPair, index: int, slot: int | None) -> np.ndarray:
+def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, slot: int | None) -> np.ndarray:
     side = {DRIVE: "", COAST: "coast_"}[pair.place.flank]
     count = len(pair.offsets)
     rolls = np.empty(0) if slot is None else result[f"{side}contact_roll_angle"].values[index, slot]
@@ -81,10 +81,10 @@ def _forces_of(result: xr.Dataset, built: Model, pair: ToothPair, index: int, sl
             "the one in their file, with [accuracy] condensation = \"once\". Run the scene again."
         )
     kinds = [f"{side}contact_pressure"]
-    if built.scene.friction is not None:
+    if model.scene.friction is not None:
         kinds.append(f"{side}contact_traction")
     missing = [name for name in kinds if name not in result]
     if missing:
         raise ComputationError(f"the result has no {', '.join(missing)}, which the stresses need; run the scene again with this version")
-    area = pair.lengths * built.pair.face_width
+    area = pair.lengths * model.pair.face_width
     return np.concatenate([result[name].values[index, slot, :count] * area for name in kinds])

@@ -15,13 +15,13 @@ from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model import Model, model
-from fenics_gears.progress import SilentProgress
-from fenics_gears.resolution import ONCE
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.resolution import ONCE
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.results.stored_forces import StoredForces, stored_forces
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation import gear_compliances, mesh_cycle
+from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
+from fenics_gears.system.progress import SilentProgress
 
 
 @dataclass(frozen=True)
@@ -71,12 +71,12 @@ class RunStresses:
     """
 
     def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None):
-        self.built = model(scene)
+        self.model = model_of(scene)
         self._check()
         self.result = contact_times(result)
         cache = cache if cache is not None else user_cache()
-        self.cycle: Cycle = mesh_cycle(self.built, gear_compliances(self.built, SilentProgress(), cache))
-        self.recoveries = tuple(recovery_of(self.built, gear) for gear in (0, 1))
+        self.cycle: Cycle = mesh_cycle(self.model, gear_compliances(self.model, SilentProgress(), cache))
+        self.recoveries = tuple(recovery_of(self.model, gear) for gear in (0, 1))
 
     def __enter__(self) -> RunStresses:
         return self
@@ -92,9 +92,9 @@ class RunStresses:
     def at(self, index: int) -> GearsInMesh:
         """Both gears at a stored step. Raises SceneError where they stand further than a pitch from their places."""
         self._check_place(index)
-        stored = stored_forces(self.result, self.built, self.cycle, index)
+        stored = stored_forces(self.result, self.model, self.cycle, index)
         motion = hub_motion(self.result, index)
-        pair, coast = self.built.pair, stored.on_coast_flanks
+        pair, coast = self.model.pair, stored.on_coast_flanks
         place = coast_place(pair, 0, pair.pitch_point) if coast else drive_place(pair, 0, pair.pitch_point)
         arcs = pair.pinion.base_radius * motion[0, 2] + pair.wheel.base_radius * motion[1, 2]
         approach = float((motion[0, :2] - motion[1, :2]) @ place.axes[0] + place.turn * arcs)
@@ -103,7 +103,7 @@ class RunStresses:
         return GearsInMesh(time, phase, gears, pair, approach, coast)
 
     def _check_place(self, index: int) -> None:
-        error, pitch = abs(float(self.result["transmission_error"].values[index])), self.built.pair.wheel.angular_pitch
+        error, pitch = abs(float(self.result["transmission_error"].values[index])), self.model.pair.wheel.angular_pitch
         if error > pitch:
             raise SceneError(
                 f"the transmission error at mesh phase {float(self.result['mesh_phase'].values[index]):.3f} is {error:.3g} rad, more than the pitch of "
@@ -112,41 +112,41 @@ class RunStresses:
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
         recovery = self.recoveries[gear]
-        body = recovery.recovered(stored.on_flanks(self.built, gear))
-        centre, angles = standing(self.built.pair, gear, stored.phase)
+        body = recovery.recovered(stored.on_flanks(self.model, gear))
+        centre, angles = standing(self.model.pair, gear, stored.phase)
         turns = [rotation(angle) for angle in angles]
         local = recovery.points
         about_centre = np.vstack([local @ turn.T for turn in turns])
         elastic = np.vstack([moved @ turn.T for moved, turn in zip(body.displacement, turns)])
         stress = np.vstack([turned_stress(sector, angle) for sector, angle in zip(body.stress, angles)])
-        across = self.built.scene.gears.materials[gear].poissons_ratio * (stress[:, 0] + stress[:, 1])
+        across = self.model.scene.gears.materials[gear].poissons_ratio * (stress[:, 0] + stress[:, 1])
         rigid = motion[:2] + motion[2] * np.column_stack([-about_centre[:, 1], about_centre[:, 0]])
         cells, outline = whole_cells(recovery)
         return GearInSpace(centre + about_centre, cells, outline, centre, elastic, elastic + rigid, np.column_stack([stress, across]))
 
     def _check(self) -> None:
-        if self.built.scene.tooth_elasticity is None:
+        if self.model.scene.tooth_elasticity is None:
             raise SceneError("the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and run it again.")
-        if not self.built.scene.resolves_contact:
+        if not self.model.scene.resolves_contact:
             raise SceneError(
-                f'the run has a mesh of springs (accuracy.model = "{self.built.scene.accuracy.model}"): there are no stresses. '
+                f'the run has a mesh of springs (accuracy.model = "{self.model.scene.accuracy.model}"): there are no stresses. '
                 'Run the scene with "elastic".'
             )
-        if any(effect.elasticity is not None for effect in effects_on(self.built.scene)):
+        if any(effect.elasticity is not None for effect in effects_on(self.model.scene)):
             raise SceneError("stresses are recovered from gears of equal sectors; this run has gears meshed as a whole ([body_meshes]).")
-        if self.built.resolution.condensation != ONCE:
+        if self.model.resolution.condensation != ONCE:
             raise SceneError('stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run the scene with "once".')
 
 
-def recovery_of(built: Model, gear: int) -> GearRecovery:
+def recovery_of(model: Model, gear: int) -> GearRecovery:
     """The recovery of a gear of a model, on the mesh of its compliance."""
     return gear_recovery(
-        (built.pair.pinion, built.pair.wheel)[gear],
-        built.scene.gears.materials[gear],
-        element=built.resolution.element,
-        flank_element_size=built.resolution.flank_element_size,
-        body_element_size=built.resolution.body_element_size,
-        coast_flank=built.scene.coast_flanks is not None,
+        (model.pair.pinion, model.pair.wheel)[gear],
+        model.scene.gears.materials[gear],
+        element=model.resolution.element,
+        flank_element_size=model.resolution.flank_element_size,
+        body_element_size=model.resolution.body_element_size,
+        coast_flank=model.scene.coast_flanks is not None,
     )
 
 

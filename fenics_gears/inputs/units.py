@@ -12,7 +12,7 @@ import re
 
 import pint
 
-from fenics_gears.scene.names import did_you_mean
+from fenics_gears.inputs.names import did_you_mean
 
 # Base units first; each further unit in terms of those before it.
 _UNITS = {
@@ -118,7 +118,7 @@ def quantity(text: str) -> tuple[float, str]:
     >>> quantity("4.5 Mm")
     Traceback (most recent call last):
         ...
-    fenics_gears.scene.units.QuantityError: has the unknown unit "Mm". Did you mean "mm"?
+    fenics_gears.inputs.units.QuantityError: has the unknown unit "Mm". Did you mean "mm"?
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:

@@ -1,0 +1,114 @@
+"""What a scene says of masses, shafts, bearings and damping, in N, mm, s and rad."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+LUMPED = ("mass", "moment_of_inertia")
+
+
+@dataclass(frozen=True)
+class GearInertia:
+    """Mass, N s^2/mm, and moment of inertia, N mm s^2, of a gear; where one is None, it is that of its body of `density`, N s^2/mm^4."""
+
+    mass: float | None = None
+    moment_of_inertia: float | None = None
+    density: float | None = None
+
+
+@dataclass(frozen=True)
+class Inertia(GearInertia):
+    """Of both gears, what `pinion` and `wheel` have of their own, and the moment of inertia of the `load` (None: as of both gears)."""
+
+    pinion: GearInertia | None = None
+    wheel: GearInertia | None = None
+    load: float | None = None
+
+    def of(self, gear: str) -> GearInertia:
+        """What the "pinion" or the "wheel" has; of its own, by its own density, or as of both."""
+        own = getattr(self, gear) or GearInertia()
+        if own.density is not None:
+            return own
+        return GearInertia(*(getattr(self if getattr(own, name) is None else own, name) for name in LUMPED), self.density)
+
+    @property
+    def shaft_end(self) -> float | None:
+        """Moment of inertia (N mm s^2) at the far end of the output shaft."""
+        return self.moment_of_inertia if self.load is None else self.load
+
+
+@dataclass(frozen=True)
+class Shaft:
+    """Torsional stiffness of one shaft, N mm/rad."""
+
+    torsional_stiffness: float
+
+
+@dataclass(frozen=True)
+class Shafts:
+    """Torsional stiffness, N mm/rad, of either shaft that has none of its own, and what `input` and `output` have."""
+
+    torsional_stiffness: float | None = None
+    input: Shaft | None = None
+    output: Shaft | None = None
+
+    def of(self, shaft: str) -> float:
+        """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft."""
+        own = getattr(self, shaft)
+        return self.torsional_stiffness if own is None else own.torsional_stiffness
+
+
+@dataclass(frozen=True)
+class Support:
+    """Translational stiffness of one shaft's support, N/mm: in every direction, along and off the line of action; None as the other shaft's."""
+
+    stiffness: float | None = None
+    stiffness_x: float | None = None
+    stiffness_y: float | None = None
+
+    def along(self, direction: str) -> float | None:
+        """Stiffness in "x" or "y"; None where it is not given."""
+        own = {"x": self.stiffness_x, "y": self.stiffness_y}[direction]
+        return self.stiffness if own is None else own
+
+
+@dataclass(frozen=True)
+class Bearings(Support):
+    """Support of both shafts, and what `pinion` and `wheel` have of their own."""
+
+    pinion: Support | None = None
+    wheel: Support | None = None
+
+    def of(self, gear: str, direction: str) -> float:
+        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"."""
+        own = getattr(self, gear)
+        stiffness = None if own is None else own.along(direction)
+        return self.along(direction) if stiffness is None else stiffness
+
+
+RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
+
+
+@dataclass(frozen=True)
+class Rayleigh:
+    """Rayleigh damping of a shaft with its gear: alpha K + beta M, alpha in s, beta in 1/s; None as of both shafts."""
+
+    stiffness_proportional: float | None = None
+    mass_proportional: float | None = None
+
+
+@dataclass(frozen=True)
+class Damping(Rayleigh):
+    """Rayleigh damping of both shafts and what `pinion` and `wheel`, each with its shaft, have of their own; or `ratios` alone.
+
+    `ratios`: of the critical damping, by mode from the lowest frequency on; the last holds for all that follow.
+    """
+
+    pinion: Rayleigh | None = None
+    wheel: Rayleigh | None = None
+    ratios: tuple[float, ...] = ()
+
+    def of(self, gear: str, name: str) -> float:
+        """`name` of alpha and beta, of the shaft of the "pinion" or of the "wheel"."""
+        own = getattr(getattr(self, gear), name, None)
+        return getattr(self, name) if own is None else own

@@ -1,0 +1,39 @@
+"""What a scene says of the deviations of single teeth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Waviness:
+    """Undulation of all flanks of a gear, ``amplitude`` mm, ``waves`` a turn, ``phase`` in rad."""
+
+    amplitude: float
+    waves: int
+    phase: float
+
+
+@dataclass(frozen=True)
+class GearErrors:
+    """What is given of one gear's errors, mm, a value for each tooth; None for what is not given.
+
+    ``file``: the table that values are from; ``problem``: what is wrong with it, in words, empty where nothing is.
+    """
+
+    pitch: tuple[float, ...] | None = None
+    profile_slope: tuple[float, ...] | None = None
+    profile_form: tuple[float, ...] | None = None
+    waviness: Waviness | None = None
+    file: str | None = None
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class FlankErrors:
+    """Errors of both gears' drive flanks; what is not given is drawn within a flank tolerance class, zero without one."""
+
+    pinion: GearErrors = GearErrors()
+    wheel: GearErrors = GearErrors()
+    tolerance_class: int | None = None
+    seed: int = 1

@@ -1,0 +1,58 @@
+"""What a drawing says of a gear pair: dimensions, width and material, in N, mm and rad."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic linear elasticity; Young's modulus in MPa."""
+
+    youngs_modulus: float
+    poissons_ratio: float
+
+
+@dataclass(frozen=True)
+class GearData:
+    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` of its own, None for the pair's."""
+
+    teeth: int
+    profile_shift: float
+    tip_diameter: float
+    root_diameter: float
+    bore_diameter: float
+    rack_tip_radius: float
+    face_width: float | None = None
+    material: Material | None = None
+
+
+@dataclass(frozen=True)
+class GearPairData:
+    """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
+
+    `face_width`, mm, is that over which both gears meet, the smaller of their own; `material` that of gears without one of their own.
+    """
+
+    module: float
+    pressure_angle: float
+    centre_distance: float
+    face_width: float
+    pinion: GearData
+    wheel: GearData
+    material: Material | None
+
+    @property
+    def materials(self) -> tuple[Material, Material] | None:
+        """What pinion and wheel are made of; None where they are rigid."""
+        found = (self.material_of("pinion"), self.material_of("wheel"))
+        return None if None in found else found
+
+    def material_of(self, name: str) -> Material | None:
+        """What the "pinion" or the "wheel" is made of."""
+        return getattr(self, name).material or self.material
+
+    @property
+    def face_widths(self) -> tuple[float, float]:
+        """Width (mm) of the pinion and of the wheel."""
+        return self.pinion.face_width or self.face_width, self.wheel.face_width or self.face_width

@@ -1,0 +1,49 @@
+"""The drivetrain of a scene: its sections, put together by `dynamics.drivetrain`."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.rough_stiffness import rough_pair_stiffness
+from fenics_gears.scene.data import Scene
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.gear_inertia import LumpedGear
+    from fenics_gears.geometry.section import CrossSection
+
+
+def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
+    """The drivetrain that the scene's sections call for; what no section frees does not appear.
+
+    Raises SceneError for a load so heavy that the wheel is nothing beside it.
+    """
+    gears = {} if scene.inertia is None else lumped_gears(scene, pair)
+    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping)
+    return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene))
+
+
+def mesh_stiffness(scene: Scene) -> float:
+    """Rough stiffness (N/mm) of one tooth pair along the line of action; infinite if rigid."""
+    return inf if scene.tooth_elasticity is None else rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
+
+
+def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
+    """What "pinion" and "wheel" of a scene with inertia are in the equations of motion."""
+    from fenics_gears.dynamics.gear_inertia import lumped
+
+    return lumped(scene.inertia, pair, lambda name: _section(scene, pair, name))
+
+
+def _section(scene: Scene, pair: GearPair, name: str) -> CrossSection:
+    """The gear's cross-section: that of its outline, or of its own mesh with all its holes."""
+    from fenics_gears.geometry.section import cells_section, gear_section
+
+    if scene.body_meshes is None or getattr(scene.body_meshes, name) is None:
+        return gear_section(getattr(pair, name))
+    from fenics_gears.effects.body_meshes import given_mesh
+
+    mesh = given_mesh(scene.body_meshes, name, pair, scene.accuracy.element or "P2")
+    return cells_section(mesh.points, mesh.cells)

@@ -1,0 +1,82 @@
+"""The fast route: each gear condensed once, its flank compliance seen by the contact nodes of every position."""
+
+from __future__ import annotations
+
+from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
+from fenics_gears.contact.mesh_cycle import tooth_reach as reach_of_contact
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.effects import effects_on
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import FlankCompliance, Reach
+from fenics_gears.model.model import Model
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.system.progress import Progress
+
+Compliances = tuple[FlankCompliance, FlankCompliance]
+
+
+def elastic_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[Compliances, Cycle]:
+    """Flank compliance of both gears, and the contact operators of a mesh cycle on them."""
+    compliances = gear_compliances(model, progress, cache)
+    return compliances, mesh_cycle(model, compliances)
+
+
+def gear_compliances(model: Model, progress: Progress, cache: Cache | None) -> Compliances:
+    """Flank compliance of pinion and wheel, reaching as many teeth as can be loaded together."""
+    compliances, reach = [], tooth_reach(model)
+    for name in ("pinion", "wheel"):
+        progress.stage(f"condense {name}")
+        compliances.append(gear_compliance(model, name, reach, cache))
+    return compliances[0], compliances[1]
+
+
+def tooth_reach(model: Model) -> Reach:
+    """How far apart teeth are that can be loaded together."""
+    resolution = model.resolution
+    return reach_of_contact(
+        model.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.scene.coast_flanks is not None, model.corner
+    )
+
+
+def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
+    """Flank compliance of the "pinion" or the "wheel" over the teeth within reach, from the cache where it is there."""
+    for effect in effects_on(model.scene):
+        own = effect.elasticity and effect.elasticity(getattr(model.scene, effect.section), model, name, reach, cache)
+        if own is not None:
+            return own
+    # Imported here: rigid flanks have none.
+    from fenics_gears.elasticity.gear_compliance import flank_compliance
+
+    resolution = model.resolution
+    return flank_compliance(
+        getattr(model.pair, name),
+        model.scene.gears.material_of(name),
+        element=resolution.element,
+        flank_element_size=resolution.flank_element_size,
+        reach=reach,
+        body_element_size=resolution.body_element_size,
+        elastic_teeth=resolution.elastic_teeth,
+        cache=cache,
+    )
+
+
+def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
+    """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
+    cycle = _cycle_of(compliances)(
+        Flanks(model.pair, compliances, model.removal),
+        model.resolution.contact_grid,
+        model.resolution.steps_per_mesh_cycle,
+        model.drivetrain.indices,
+        tangential=model.scene.friction is not None,
+        corner=model.corner,
+    )
+    return deviating(model, cycle)
+
+
+def _cycle_of(compliances: Compliances):
+    """One mesh cycle for all where all teeth are alike."""
+    if all(each.alike for each in compliances):
+        return MeshCycle
+    from fenics_gears.contact.whole_body_cycle import WholeBodyCycle
+
+    return WholeBodyCycle

@@ -1,0 +1,29 @@
+"""Flanks that do not give way: the pair with the smallest gap carries all."""
+
+from __future__ import annotations
+
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.model.model import Model
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.system.progress import Progress
+
+
+def rigid_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[tuple, Cycle]:
+    """No compliance, and the contact of one mesh cycle."""
+    return (), rigid_cycle(model)
+
+
+def rigid_cycle(model: Model) -> Cycle:
+    """The contact of one mesh cycle between flanks that do not give way."""
+    if model.scene.friction is None:
+        from fenics_gears.contact.rigid_cycle import RigidCycle as kind
+    else:
+        from fenics_gears.contact.rigid_friction import RigidFrictionCycle as kind
+
+    resolution = model.resolution
+    coast = model.scene.coast_flanks is not None
+    cycle = kind(
+        model.pair, model.removal, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.drivetrain.indices, coast
+    )
+    return deviating(model, cycle)

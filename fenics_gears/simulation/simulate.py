@@ -1,0 +1,110 @@
+"""A scene from its data to its result: the stages of a run, in order."""
+
+from __future__ import annotations
+
+import functools
+
+import xarray as xr
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.dynamics.march import March, Marcher
+from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.results import dataset
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.results.validity import worst_first
+from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
+from fenics_gears.simulation.routes import Preparation, prepared, route_of
+from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.progress import Progress, SilentProgress
+
+
+def simulate(
+    scene: Scene,
+    *,
+    progress: Progress | None = None,
+    cache: Cache | None = None,
+    preparation: Preparation | None = None,
+    comm=None,
+) -> xr.Dataset:
+    """Run a scene whose settings are decided and return its result (docs/result.md); `studies.simulate` chooses them by a target first.
+
+    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
+    of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.
+    Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
+    computation; ComputationError when a stage fails, with what was done before as its attribute `partial`.
+    """
+    progress, cache = progress or SilentProgress(), cache or user_cache()
+    model = model_of(scene)
+    gears, cycle = (preparation or functools.partial(prepared, comm=comm))(model, progress, cache)
+    progress.stage("compile")
+    compiled = compile_kernels(tangential=scene.friction is not None)
+    recorder = Recorder(model, cycle, stress=_root_stress(model, cycle, progress, cache))
+    march = _marched(recorder, gears, compiled, progress)
+    result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
+    return _with_dynamic_factors(recorder, result, progress)
+
+
+def _root_stress(model: Model, cycle, progress: Progress, cache: Cache):
+    """What root stresses are recorded by, where they are asked for; a scene less its elastic teeth, as costs of effects are measured by, has none."""
+    if not (model.scene.output.root_stress and route_of(model).stresses):
+        return None
+    from fenics_gears.simulation.root_stress import root_stress
+
+    return root_stress(model, cycle, progress, cache)
+
+
+def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> March:
+    """The march through time, recorded as it goes; a failure carries the result so far."""
+    model, cycle = recorder.model, recorder.cycle
+    scene = model.scene
+    friction = scene.friction.coefficient if scene.friction else 0.0
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.pace, model.clock, model.loads)
+    progress.stage("march")
+    try:
+        return marcher.run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
+    except ContactNotConverged as failure:
+        failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
+        raise
+
+
+def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Progress) -> xr.Dataset:
+    """The result with its dynamic factors, of a complete run with inertia; they take a quasi-static run beside it."""
+    if recorder.model.scene.inertia is None or not result.attrs["complete"]:
+        return result
+    from fenics_gears.simulation import dynamic_factor
+
+    if not dynamic_factor.wanted(recorder.model.scene):
+        return result
+    progress.stage("quasi-static run")
+    return result.assign_attrs(dynamic_factor.dynamic_factors(recorder, result))
+
+
+def assist(scene: Scene, comm) -> None:
+    """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
+    model = model_of(scene)
+    route = route_of(model)
+    if route.shared_by_ranks:
+        route(model, SilentProgress(), None, comm)
+
+
+def _result(recorder: Recorder, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
+    result, model, cycle = dataset(recorder, march), recorder.model, recorder.cycle
+    resolution = model.resolution
+    stopped = {} if complete else {"stopped": "interrupted" if march.interrupted else "failed"}
+    return result.assign_attrs(
+        stopped,
+        complete=int(complete),
+        warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
+        base_radius_wheel=model.pair.wheel.base_radius,
+        element=resolution.element,
+        flank_element_size=resolution.flank_element_size,
+        contact_length=resolution.contact_grid.length,
+        contact_nodes=(cycle.grid if cycle.resolves_flanks else resolution.contact_grid).nodes,
+        steps_per_mesh_cycle=resolution.steps_per_mesh_cycle,
+        condensation=resolution.condensation,
+        model=model.scene.accuracy.model or ELASTIC,
+        time_mesh=sum(gear.timings["time_mesh"] for gear in gears),
+        time_condense=sum(gear.timings["time_condense"] for gear in gears),
+        time_compile=compiled + sum(gear.timings["time_compile"] for gear in gears),
+    )
