@@ -77,9 +77,11 @@ class Model:
 
     @cached_property
     def slots(self) -> int:
-        """Tooth pairs, one after the other, that can touch at once."""
+        """Tooth pairs, one after the other, that can touch at once; one more where too many steps to look at each."""
         grid, steps, coast = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None
-        return pairs_at_once(pair_places(self.pair, grid, step / steps, coast, self.corner) for step in range(steps))
+        seen = min(steps, MOST_STEPS_SEEN)
+        found = pairs_at_once(pair_places(self.pair, grid, step / seen, coast, self.corner) for step in range(seen))
+        return found if seen == steps else found + 1
 
     @property
     def stored_bytes(self) -> int:
@@ -150,6 +152,8 @@ class Model:
         ]
 
 
+# Positions of a mesh cycle at which tooth pairs in reach are counted.
+MOST_STEPS_SEEN = 1000
 # Of a result; less where a scene does not say how much is to be stored.
 MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 
