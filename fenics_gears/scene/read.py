@@ -112,10 +112,6 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     )
 
 
-# With these, teeth or couples differ from one mesh cycle to the next.
-CYCLES_DIFFER_BY = ("flank_errors", "eccentricity", "torque_ripple", "body_meshes")
-
-
 def _motion(checked) -> data.Motion:
     """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth.
 
@@ -135,7 +131,7 @@ def _motion(checked) -> data.Motion:
     if "mesh_cycles" not in motion.model_fields_set:
         # True is no number of cycles, though Python has it as one.
         wanted = recorded or (fields if fields is not True and fields else 1)
-        whole = any(getattr(checked, section) is not None for section in CYCLES_DIFFER_BY)
+        whole = any(effect.period is not None and getattr(checked, effect.section) is not None for effect in top_level())
         cycles = max(whole_period if whole else 1, wanted)
     if fields:
         return data.Motion(frequency, cycles, cycles if fields is True else fields, speed_given=speed_given)

@@ -12,6 +12,7 @@ from pydantic import Field, create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
+from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.inputs.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
@@ -113,12 +114,8 @@ class Accuracy(Section):
         "settings that reach it are chosen by test runs",
         otherwise="nothing is measured, and each setting is as given or by its own default",
     )
-    element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice(
-        "P1",
-        "P2",
-        "Q1",
-        "Q1 incompatible",
-        "Q2",
+    element: Optional[Literal[tuple(ELEMENTS)]] = choice(
+        *ELEMENTS,
         meaning="finite element: triangles or quadrilaterals of first or second order; `Q1 incompatible` is the paper's, with Wilson's modes",
         otherwise="`P2`",
     )

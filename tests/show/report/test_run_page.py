@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.report.conftest import scene_text
-from tests.report.pages import seen
+from tests.show.report.conftest import scene_text
+from tests.show.report.pages import seen
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -22,7 +22,7 @@ from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run import Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
-CHECKOUT = Path(__file__).parents[2]
+CHECKOUT = Path(__file__).parents[3]
 SECTIONS = [
     "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
     "versions", "scene",
