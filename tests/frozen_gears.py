@@ -18,14 +18,14 @@ class Frozen:
     def __init__(self, cycle, step):
         position = cycle.position(step)
         operator = position.operator
-        if operator.sliding is not None:
+        if operator.rigid_slip is not None:
             # What touches now touched before: no rigid slip, and the tangential displacement is that of the same nodes.
             n = operator.nodes
             operator = replace(
                 operator,
-                sliding=np.zeros(n),
+                rigid_slip=np.zeros(n),
                 previous_compliance=operator.compliance[n:].copy(),
-                previous_rigid=operator.rigid[n:].copy(),
+                previous_jacobian=operator.jacobian[n:].copy(),
             )
         self._position = replace(position, operator=operator, carried_from=np.arange(operator.nodes))
         self.steps, self.solve, self.pair, self.divisible = cycle.steps, cycle.solve, cycle.pair, False

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
-from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
+from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator, node_slices
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
 from fenics_gears.elasticity.compliance import Reach
@@ -225,19 +225,15 @@ class MeshCycle(Cycle):
 
 def carried_nodes(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], spacing: float) -> np.ndarray:
     """For each node the one of the same pair that stood at the same offset a step before; -1 where there is none."""
-    starts, start = {}, 0
-    for pair in previous:
-        starts[pair.place.flank, pair.place.index] = (start, pair.offsets)
-        start += len(pair.offsets)
-    carried = []
-    for pair in pairs:
-        key = pair.place.flank, pair.place.index
-        if key not in starts:
-            carried.append(np.full(len(pair.offsets), -1))
-            continue
-        first, offsets = starts[key]
-        distance = np.abs(pair.offsets[:, None] - offsets[None, :])
-        nearest = np.argmin(distance, axis=1)
-        near = distance[np.arange(len(nearest)), nearest] <= 0.75 * spacing
-        carried.append(np.where(near, first + nearest, -1))
-    return np.concatenate(carried).astype(np.int64) if carried else np.empty(0, dtype=np.int64)
+    earlier = {_key(pair): (nodes.start, pair.offsets) for nodes, pair in zip(node_slices(previous), previous)}
+    carried = np.full(sum(len(pair.offsets) for pair in pairs), -1)
+    for nodes, pair in zip(node_slices(pairs), pairs):
+        if _key(pair) in earlier:
+            first, offsets = earlier[_key(pair)]
+            distance = np.abs(pair.offsets[:, None] - offsets[None, :])
+            carried[nodes] = np.where(distance.min(axis=1) <= 0.75 * spacing, first + distance.argmin(axis=1), -1)
+    return carried
+
+
+def _key(pair: PairNodes) -> tuple[int, int]:
+    return pair.place.flank, pair.place.index

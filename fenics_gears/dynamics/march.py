@@ -13,14 +13,14 @@ from threadpoolctl import threadpool_limits
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.existence import locked_nodes, working
-from fenics_gears.contact.ladder import HALVED, RUNGS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.step_solver import HALVED, METHODS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.pace import FOLLOWING, Pace
+from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.backward_euler import BackwardEuler
@@ -53,7 +53,7 @@ class Record:
 class March:
     """What a march has produced so far.
 
-    `records`: the last steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
+    `records`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step at which no drive flank touched; `locked`: steps at which friction
     locks a closed node (`contact.existence`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
     (k, k), N/mm: of every step.
@@ -65,7 +65,7 @@ class March:
     records: deque[Record] = field(default_factory=deque)
     newton_iterations: int = 0
     steps: int = 0
-    rungs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RUNGS, 0))
+    steps_by_method: dict[str, int] = field(default_factory=lambda: dict.fromkeys(METHODS, 0))
     separations: list[tuple[int, float]] = field(default_factory=list)
     locked: list[int] = field(default_factory=list)
     interrupted: bool = False
@@ -83,9 +83,9 @@ def march_on(record: Record) -> None:
     """What is done with a record that nobody observes: nothing."""
 
 
-def _method(pace: Pace) -> type[AverageAcceleration] | type[BackwardEuler]:
+def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[BackwardEuler]:
     """The method in time at a pace; quasi-static scenes, which keep the first, do not load the second."""
-    if pace.averages_acceleration:
+    if time_scales.averages_acceleration:
         return AverageAcceleration
     from fenics_gears.dynamics.backward_euler import BackwardEuler
 
@@ -95,17 +95,17 @@ def _method(pace: Pace) -> type[AverageAcceleration] | type[BackwardEuler]:
 class Marcher:
     """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
 
-    `pace`: how mesh and step compare with the drivetrain's vibrations; it decides on the method in time and on the start.
+    `time_scales`: how mesh and step compare with the drivetrain's vibrations; it decides on the method in time and on the start.
     `clock`: when a step is, every `time_step` (s), the longest, unless given; `loads`: forces that vary, besides the drivetrain's own.
     """
 
     def __init__(
-        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, pace: Pace = FOLLOWING,
+        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, time_scales: TimeScales = FOLLOWING,
         clock: Clock | None = None, loads: Sequence[VaryingLoad] = (),
     ):  # fmt: skip
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.clock, self.loads = clock or SteadyClock(time_step), tuple(loads)
-        self.dynamic = _method(pace)(drivetrain, time_step)
+        self.dynamic = _method(time_scales)(drivetrain, time_step)
         self._static_drivetrain = Drivetrain(
             drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
         )
@@ -115,7 +115,7 @@ class Marcher:
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
         # Friction's arm is longest at the wheel's tip; below this coefficient it never outweighs the normal force there.
         self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
-        self._pace = pace
+        self._time_scales = time_scales
 
     def run(
         self, steps: int, kept: int, report: Callable[[int, int], None] | None = None, observe: Callable[[Record], None] | None = None
@@ -138,7 +138,7 @@ class Marcher:
             for step in range(1, steps + 1):
                 record = self.step(self.scheme(step), record, step)
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
-                march.rungs[RUNGS[record.solution.rung]] += 1
+                march.steps_by_method[METHODS[record.solution.method]] += 1
                 march.records.append(record)
                 observe(record)
                 if not record.solution.status[record.position.operator.on_drive_flanks].any():
@@ -181,10 +181,10 @@ class Marcher:
         middle = neighbours[1]
         if not self.dynamic.inert:
             return middle
-        if self._pace.outruns_vibration:
+        if self._time_scales.outruns_vibration:
             return self._mean_start(middle)
         velocity = np.zeros(len(self.drivetrain.coordinates))
-        if self._pace.follows_statics:
+        if self._time_scales.follows_statics:
             velocity = (neighbours[2].state.position - neighbours[0].state.position) / self.clock.duration(-1, 1)
         # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
         damping = self.drivetrain.damping
@@ -200,8 +200,8 @@ class Marcher:
             self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance, static.state.position,
             STEPS_SLID_BEFORE_START, self.load,
         )  # fmt: skip
-        drivetrain, rigid = self.drivetrain, static.position.operator.rigid
-        left = self.load(0) - drivetrain.stiffness @ mean.position - rigid.T @ mean.solution.forces
+        drivetrain, jacobian = self.drivetrain, static.position.operator.jacobian
+        left = self.load(0) - drivetrain.stiffness @ mean.position - jacobian.T @ mean.solution.forces
         if drivetrain.damping is not None:
             left = left - drivetrain.damping @ mean.velocity
         state = State(mean.position, mean.velocity, np.linalg.solve(drivetrain.mass, left))
@@ -238,17 +238,17 @@ class Marcher:
                 record = self._divided(finer, record, end, failed, halvings + 1)
             parts += record.parts or (record,)
         iterations = sum(part.solution.iterations for part in parts)
-        return replace(record, solution=replace(record.solution, iterations=iterations, rung=RUNGS.index(HALVED)), parts=parts)
+        return replace(record, solution=replace(record.solution, iterations=iterations, method=METHODS.index(HALVED)), parts=parts)
 
     def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
         """From `last` to `position` in one go."""
         operator = position.operator
         slip_before = NO_SLIP
-        if operator.sliding is not None:
+        if operator.rigid_slip is not None:
             # w_old of [25]: rigid slip less the tangential displacement that the same material points had.
-            displaced = operator.previous_rigid @ last.state.position
+            displaced = operator.previous_jacobian @ last.state.position
             displaced -= operator.previous_compliance @ last.solution.forces
-            slip_before = operator.sliding - displaced
+            slip_before = operator.rigid_slip - displaced
         carried = position.carried_from
         status = np.zeros(operator.nodes, dtype=np.int8)
         known = carried >= 0
@@ -265,12 +265,12 @@ class Marcher:
         motion = np.zeros(len(self.drivetrain.coordinates))
         wheel = self.drivetrain.coordinates.index("rotation_2")
         motion[wheel] = np.sign(self.load(record.step)[wheel])
-        return bool(locked_nodes(working(record.position.operator.rigid, motion, record.solution.forces)).any())
+        return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
 
     def _static_start(self, step: int) -> Record:
         position = self.cycle.position(step)
         operator = position.operator
-        slip_before = NO_SLIP if operator.sliding is None else STEPS_SLID_BEFORE_START * operator.sliding
+        slip_before = NO_SLIP if operator.rigid_slip is None else STEPS_SLID_BEFORE_START * operator.rigid_slip
         rest = np.zeros(len(self.drivetrain.coordinates))
         status = cold_start(operator.gap, operator.node_pair)
         state = State(rest, rest, rest)
@@ -280,7 +280,7 @@ class Marcher:
     def _solve(self, scheme, load, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
         operator = position.operator
         problem = StepProblem(
-            scheme.stiffness, load, operator.compliance, operator.rigid, operator.gap, slip_before,
+            scheme.stiffness, load, operator.compliance, operator.jacobian, operator.gap, slip_before,
             self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words,
         )  # fmt: skip
         try:

@@ -13,7 +13,7 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
+from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
@@ -97,10 +97,10 @@ class Model:
         return vibrations(self.drivetrain, mesh_stiffness(self.scene), self.scene.friction is not None)
 
     @property
-    def pace(self) -> Pace:
+    def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
         elastic = np.array([vibration.frequency for vibration in self.vibrations])
-        found = pace(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        found = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
             return found
         # Above its drivetrain's vibrations a pair with rigid flanks still moves as its geometry says.
@@ -123,7 +123,7 @@ class Model:
 
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
-            found += time_step_warnings(self.vibrations, judged, steps, self.pace, self.time_step)
+            found += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
         return found
 
     def _of_a_part(self) -> list[str]:

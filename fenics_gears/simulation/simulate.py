@@ -59,7 +59,7 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
     model, cycle = recorder.model, recorder.cycle
     scene = model.scene
     friction = scene.friction.coefficient if scene.friction else 0.0
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.pace, model.clock, model.loads)
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.time_scales, model.clock, model.loads)
     progress.stage("march")
     try:
         return marcher.run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)

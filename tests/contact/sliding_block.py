@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Marcher, Record
@@ -30,9 +30,9 @@ class SlidingBlock:
         """Part of a step."""
         problem, n = self.problem, len(self.problem.gap)
         operator = SimpleNamespace(
-            nodes=n, compliance=problem.compliance, rigid=problem.rigid, gap=problem.gap,
-            sliding=(step - before) * problem.slip_before,
-            previous_compliance=problem.compliance[n:], previous_rigid=problem.rigid[n:],
+            nodes=n, compliance=problem.compliance, jacobian=problem.jacobian, gap=problem.gap,
+            rigid_slip=(step - before) * problem.slip_before,
+            previous_compliance=problem.compliance[n:], previous_jacobian=problem.jacobian[n:],
         )  # fmt: skip
         self.solved.append(step - before)
         return Position(operator, np.arange(n))

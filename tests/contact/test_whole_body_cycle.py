@@ -38,7 +38,7 @@ def cycle(paper_pair, bodies, kind=WholeBodyCycle, tangential=True):
 
 
 def same(one, other) -> bool:
-    names = ("compliance", "rigid", "gap", "sliding", "previous_compliance", "previous_rigid")
+    names = ("compliance", "jacobian", "gap", "rigid_slip", "previous_compliance", "previous_jacobian")
     return np.array_equal(one.carried_from, other.carried_from) and all(
         np.array_equal(getattr(one.operator, name), getattr(other.operator, name)) for name in names
     )

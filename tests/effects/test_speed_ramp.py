@@ -188,7 +188,7 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     model = model_of(replace(coarse(scene, 400, 1, start=300.0), speed_ramp=SpeedRamp(400.0)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
     # Every step is kept, but without pressures.
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.pace, model.clock, model.loads)
+    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.time_scales, model.clock, model.loads)
     records = marcher.run(model.steps, model.steps + 1).records
     states = np.array([record.state.position for record in records])
     error = model.drivetrain.value(states, "rotation_2") + 16 / 24 * model.drivetrain.value(states, "rotation_1")
@@ -256,13 +256,13 @@ def test_warnings_and_steps_go_by_the_range_of_frequencies(paper_scene):
 
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
-    """Authority: the rule of `dynamics.pace`, half the slowest period, on the ramp's true steps; above the frequency that the warning
+    """Authority: the rule of `dynamics.time_scales`, half the slowest period, on the ramp's true steps; above the frequency that the warning
     names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as its frequency would have."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
-    assert not model_of(crawl).pace.samples_vibration
+    assert not model_of(crawl).time_scales.samples_vibration
     (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]
     needed = float(re.search(r"above ([\d.e+]+) Hz", said)[1])
-    assert model_of(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).pace.samples_vibration
+    assert model_of(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).time_scales.samples_vibration
     steady = 1.0 / (0.01 * model_of(crawl).resolution.steps_per_mesh_cycle)
     assert model_of(crawl).time_step < 0.01 * steady
 

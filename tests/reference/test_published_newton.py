@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.ladder import PUBLISHED, StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.published_newton import BETA, GAMMA, MOST_HALVINGS, Equations, iterates, merit
+from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, cold_start, solve_step
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.errors import SceneError
@@ -37,7 +37,7 @@ def random_problem(seed, tangential=True, friction=0.2):
         stiffness=stiffness,
         load=load,
         compliance=compliance,
-        rigid=rigid,
+        jacobian=rigid,
         gap=generator.uniform(0.0, 0.02, NODES),
         slip_before=generator.normal(size=NODES) * 0.02 if tangential else np.empty(0),
         friction=friction if tangential else 0.0,

@@ -128,7 +128,7 @@ class Point:
     def _march(self, cycle):
         model = self.model
         marcher = Marcher(
-            cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient, model.pace, model.clock, model.loads,
+            cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient, model.time_scales, model.clock, model.loads,
         )  # fmt: skip
         return marcher.run(model.steps, model.contact_steps)
 
