@@ -14,7 +14,7 @@ import numpy as np
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
-from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
 from fenics_gears.contact.operator import ContactOperator, operator_on_lines, over_nodes
 from fenics_gears.contact.step_solver import StepProblem, StepSolution
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
@@ -38,7 +38,7 @@ class RigidCycle(Cycle):
     `coordinates`: which centre coordinates are unknowns; `removal`: material removed from either drive flank.
     """
 
-    spreads_pressure = False
+    traits = CycleTraits(has_pressure=False)
     frictional = False
 
     def __init__(

@@ -6,6 +6,8 @@ force against the sliding of the nominal motion; the sliding of bearings and sha
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK
@@ -17,8 +19,8 @@ from fenics_gears.contact.step_solver import StepProblem, StepSolution
 class RigidFrictionCycle(RigidCycle):
     """Contact nodes on flanks that do not give way, with friction; arguments as of RigidCycle."""
 
+    traits = replace(RigidCycle.traits, prescribes_friction=True)
     frictional = True
-    prescribes_friction = True
 
     def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
         """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks.

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
 from fenics_gears.contact.operator import operator_on_lines, over_nodes
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, coast_place, drive_place
 from fenics_gears.contact.window import ContactGrid
@@ -48,8 +48,7 @@ class SpringNodes(PairNodes):
 class SpringCycle(Cycle):
     """A mesh of springs. `levels`: at most so many of a pair; `coordinates`: which centre coordinates are unknowns; `tangential`: friction."""
 
-    divisible = True
-    resolves_flanks = False
+    traits = CycleTraits(divisible=True, nodes_on_flanks=False, has_pressure=False)
 
     def __init__(
         self, pair: GearPair, springs: Springs, levels: int, steps: int, coordinates: list[int], tangential: bool, coast_flanks: bool

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -36,8 +36,24 @@ MOST_HALVINGS = 6
 
 
 @dataclass(frozen=True)
+class EquationsOfMotion:
+    """The motion that a march solves for: a drivetrain in steps of `time_step` (s), the longest; `friction` 0 where the scene has none.
+
+    `time_scales`: how mesh and step compare with the drivetrain's vibrations; they decide on the method in time and on the start.
+    `clock`: when a step is, every `time_step` unless given; `loads`: forces that vary, besides the drivetrain's own.
+    """
+
+    drivetrain: Drivetrain
+    time_step: float
+    friction: float = 0.0
+    time_scales: TimeScales = FOLLOWING
+    clock: Clock | None = None
+    loads: tuple[VaryingLoad, ...] = ()
+
+
+@dataclass(frozen=True)
 class Record:
-    """What one step holds: its number, the state and the contact solution there.
+    """One step: its number, the state and the contact solution.
 
     `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is the step itself.
     """
@@ -51,7 +67,7 @@ class Record:
 
 @dataclass
 class March:
-    """What a march has produced so far.
+    """A march so far.
 
     `records`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step at which no drive flank touched; `locked`: steps at which friction
@@ -79,12 +95,8 @@ def smallest_opening(record: Record, flank: int = DRIVE) -> float:
     return float(np.min(openings, initial=np.inf))
 
 
-def march_on(record: Record) -> None:
-    """What is done with a record that nobody observes: nothing."""
-
-
 def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[BackwardEuler]:
-    """The method in time at a pace; quasi-static scenes, which keep the first, do not load the second."""
+    """The method in time; quasi-static scenes, which average acceleration, do not import the other."""
     if time_scales.averages_acceleration:
         return AverageAcceleration
     from fenics_gears.dynamics.backward_euler import BackwardEuler
@@ -93,40 +105,32 @@ def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[Backwar
 
 
 class Marcher:
-    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
+    """Steps the equations of motion with the contact of a `cycle` through time."""
 
-    `time_scales`: how mesh and step compare with the drivetrain's vibrations; it decides on the method in time and on the start.
-    `clock`: when a step is, every `time_step` (s), the longest, unless given; `loads`: forces that vary, besides the drivetrain's own.
-    """
-
-    def __init__(
-        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, time_scales: TimeScales = FOLLOWING,
-        clock: Clock | None = None, loads: Sequence[VaryingLoad] = (),
-    ):  # fmt: skip
+    def __init__(self, cycle: Cycle, equations: EquationsOfMotion):
+        drivetrain, time_step, friction = equations.drivetrain, equations.time_step, equations.friction
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
-        self.clock, self.loads = clock or SteadyClock(time_step), tuple(loads)
-        self.dynamic = _method(time_scales)(drivetrain, time_step)
-        self._static_drivetrain = Drivetrain(
-            drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
-        )
+        self.clock, self.loads = equations.clock or SteadyClock(time_step), equations.loads
+        self.dynamic = _method(equations.time_scales)(drivetrain, time_step)
+        self._static_drivetrain = replace(drivetrain, mass=None, damping=None)
         self.static = AverageAcceleration(self._static_drivetrain, time_step)
         varying = [load(step) for load in self.loads for step in range(cycle.steps)]
         self.tolerance = Tolerance.of_load(float(np.abs([drivetrain.load, *varying]).max()))
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
-        # Friction's arm is longest at the wheel's tip; below this coefficient it never outweighs the normal force there.
+        # Friction's lever arm is longest at the wheel's tip; with a smaller coefficient it never outweighs the normal force there.
         self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
-        self._time_scales = time_scales
+        self._time_scales = equations.time_scales
 
     def run(
         self, steps: int, kept: int, report: Callable[[int, int], None] | None = None, observe: Callable[[Record], None] | None = None
     ) -> March:
-        """March `steps` steps from step 0 and keep the last `kept` of those done, wherever the march ends; `observe` is called with each.
+        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with each record.
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
         with threadpool_limits(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report, observe or march_on)
+            return self._run(steps, kept, report, observe or (lambda record: None))
 
     def _run(self, steps: int, kept: int, report, observe: Callable[[Record], None]) -> March:
         march = March(self.friction, self.dynamic.stiffness, deque(maxlen=kept))
@@ -214,7 +218,7 @@ class Marcher:
         except ContactNotConverged as failure:
             # Without friction a static solution does not depend on the way to it.
             depends_on_way = scheme.inert or self.friction > 0.0
-            if not (depends_on_way and self.cycle.divisible) or isinstance(failure, NoStaticEquilibrium):
+            if not (depends_on_way and self.cycle.traits.divisible) or isinstance(failure, NoStaticEquilibrium):
                 raise
             try:
                 return self._divided(scheme, last, step, failure, 1)

@@ -13,6 +13,7 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.march import EquationsOfMotion
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
@@ -59,6 +60,12 @@ class Model:
     def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
         """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
         return tuple(effect.load(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.load is not None)
+
+    @property
+    def equations_of_motion(self) -> EquationsOfMotion:
+        """What a march of the scene solves for."""
+        friction = self.scene.friction.coefficient if self.scene.friction else 0.0
+        return EquationsOfMotion(self.drivetrain, self.time_step, friction, self.time_scales, self.clock, self.loads)
 
     @property
     def steps(self) -> int:

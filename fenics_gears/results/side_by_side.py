@@ -33,7 +33,7 @@ class Layout:
         self.area, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
         self.area = self.area * cycle.pair.face_width
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
-        self.on_tip = _on_tips(cycle, pairs, counts) if cycle.resolves_flanks and cycle.spreads_pressure else None
+        self.on_tip = _on_tips(cycle, pairs, counts) if cycle.traits.has_pressure else None
         self.rows = _reaction_rows(operator, tangential)
 
 

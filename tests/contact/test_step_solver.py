@@ -25,7 +25,7 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import MOST_HALVINGS, Marcher
+from fenics_gears.dynamics.march import MOST_HALVINGS, EquationsOfMotion, Marcher
 from fenics_gears.model.drivetrain import drivetrain
 
 # rung: (seed, nodes, friction, free)
@@ -148,7 +148,7 @@ def jammed(scene, pair, flanks, absent, nodes, steps):
     scene = replace(scene, inertia=None, damping=None, **dict.fromkeys(absent))
     shafts = drivetrain(scene, pair)
     cycle = MeshCycle(flanks, ContactGrid(2.0, nodes), steps, shafts.indices, tangential=True)
-    return Marcher(cycle, shafts, 1e-3, 5.0).run(2 * steps, 2 * steps + 1)
+    return Marcher(cycle, EquationsOfMotion(shafts, 1e-3, 5.0)).run(2 * steps, 2 * steps + 1)
 
 
 @pytest.mark.parametrize("absent, nodes", [(("shafts",), 5), (("bearings",), 13)])
@@ -211,8 +211,8 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
     coarse, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, steps)
     coarse.longest = longest
     fine, _ = cycle_of(MeshCycle, scene, paper_pair, stand_in_flanks, parts * steps)
-    divided = Marcher(coarse, shafts, 1e-3 / steps, 0.1)
-    whole = Marcher(fine, shafts, 1e-3 / steps / parts, 0.1)
+    divided = Marcher(coarse, EquationsOfMotion(shafts, 1e-3 / steps, 0.1))
+    whole = Marcher(fine, EquationsOfMotion(shafts, 1e-3 / steps / parts, 0.1))
     start = whole.start()
     a = b = replace(start, position=coarse.position(0))
     b = replace(b, position=fine.position(0))
@@ -229,7 +229,7 @@ def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair,
     """Exact identity: the account of a march whose every step is divided in two is that of the march with twice the steps."""
     coarse, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
     fine, _ = cycle_of(MeshCycle, paper_scene, paper_pair, stand_in_flanks, 20)
-    whole, halves = Marcher(fine, shafts, 5e-5, 0.1), Marcher(coarse, shafts, 1e-4, 0.1)
+    whole, halves = Marcher(fine, EquationsOfMotion(shafts, 5e-5, 0.1)), Marcher(coarse, EquationsOfMotion(shafts, 1e-4, 0.1))
     start = whole.start()
     records = [[replace(start, position=cycle.position(0))] for cycle in (coarse, fine)]
     for march, marcher, steps in zip(records, (halves, whole), (20, 40)):
@@ -244,7 +244,7 @@ def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair,
 def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):
     """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the whole step's."""
     cycle, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
-    marcher = Marcher(cycle, shafts, 1e-4, 0.1)
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, 0.1))
     cycle.longest = 1.0
     start = marcher.start()
     cycle.longest = 0.0
@@ -259,7 +259,7 @@ def test_a_static_step_without_friction_is_not_divided(paper_scene, paper_pair, 
     """Its solution does not depend on the way to it: dividing the step cannot help."""
     scene = replace(paper_scene, friction=None, inertia=None, damping=None)
     cycle, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, 10)
-    marcher = Marcher(cycle, shafts, 1e-4, 0.0)
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4))
     start = marcher._static_start(0)
     with pytest.raises(ContactNotConverged) as failure:
         marcher.step(marcher.dynamic, start, 1)

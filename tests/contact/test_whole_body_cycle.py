@@ -52,7 +52,7 @@ def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
     for step in [*range(-1, 2 * STEPS), 40 * STEPS + 3]:
         assert same(found.position(step), expected.position(step))
     assert same(found.between(STEPS + 0.5, STEPS - 0.25), expected.between(STEPS + 0.5, STEPS - 0.25))
-    assert found.kinds == 1 and found.divisible and found.grid is GRID
+    assert found.kinds == 1 and found.traits.divisible and found.grid is GRID
     assert found.pair_number(STEPS, 0) == 1
 
 

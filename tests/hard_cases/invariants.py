@@ -42,8 +42,7 @@ def run_of(model: Model, compliances: Compliances | None) -> Run:
     """March a scene on given gears (None: rigid ones) and keep every step; its result is made too, and is of numbers where it can be."""
     cycle = rigid_cycle(model) if compliances is None else mesh_cycle(model, compliances)
     without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
-    friction = model.scene.friction.coefficient if model.scene.friction else 0.0
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.time_scales, model.clock, model.loads)
+    marcher = Marcher(cycle, model.equations_of_motion)
     recorder = Recorder(model, cycle)
     try:
         march, failure = marcher.run(model.steps, model.steps + 1, observe=recorder.take), None

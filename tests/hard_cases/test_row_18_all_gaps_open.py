@@ -13,7 +13,7 @@ from fenics_gears.contact.mesh_cycle import MeshCycle, Position
 from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.march import Marcher, Record
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
 from fenics_gears.model.drivetrain import drivetrain
 
 
@@ -84,7 +84,7 @@ def test_a_static_load_that_opens_all_gaps_is_named(absent, frictional, paper_sc
     scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque))
     shafts = drivetrain(scene, paper_pair)
     cycle = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), 40, shafts.indices, tangential=frictional)
-    marcher = Marcher(cycle, shafts, 1e-4, scene.friction.coefficient if frictional else 0.0)
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, scene.friction.coefficient if frictional else 0.0))
     with pytest.raises(NoStaticEquilibrium) as failure:
         marcher.run(1, 2)
     measured(f"error, {'friction' if frictional else 'frictionless'}", failure.value.reason, "names load and free motion")

@@ -9,7 +9,7 @@ import pytest
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.model.drivetrain import drivetrain
 
 BESIDE = (0.0, 1e-12, -1e-12)
@@ -35,7 +35,7 @@ def past_the_pitch_point(scene, pair, flanks, beside, steps):
     shafts = drivetrain(scene, pair)
     cycle = Shifted(flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=True)
     cycle.beside = beside
-    return Marcher(cycle, shafts, 1.0 / (200.0 * steps), scene.friction.coefficient).run(AT + AFTER, AT + AFTER + 1)
+    return Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * steps), scene.friction.coefficient)).run(AT + AFTER, AT + AFTER + 1)
 
 
 def on_line(record):

@@ -66,7 +66,7 @@ def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coar
     for mesh_frequency in np.geomspace(0.01, 20e3, 40):
         model = model_of(at(coarse, mesh_frequency))
         steps = model.vibrations[0].steps_per_period(model.time_step)
-        marcher = Marcher(_AnyCycle(model.pair), model.drivetrain, model.time_step, 0.1, model.time_scales)
+        marcher = Marcher(_AnyCycle(model.pair), model.equations_of_motion)
         assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
     slowest = model_of(coarse).vibrations[0].frequency
     measured("mesh frequency below which backward Euler steps, 40 steps a cycle", 2.0 * slowest / 40, "2 f0/steps", "Hz")
