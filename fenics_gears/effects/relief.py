@@ -151,7 +151,7 @@ def kinks_watched(section: str, reliefs, curves: Mapping[str, Any], cycle, recor
         gear: curve.start_roll_angle
         for gear, curve in curves.items() if curve is not None and getattr(reliefs, gear).shape == LINEAR and curve.depth > 0.0
     }  # fmt: skip
-    if not kinks or not (cycle.resolves_flanks and cycle.spreads_pressure):
+    if not kinks or not cycle.traits.has_pressure:
         return {}
     import numpy as np
 

@@ -13,7 +13,8 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
+from fenics_gears.dynamics.march import EquationsOfMotion
+from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
 from fenics_gears.effects import check_files, common_period, effects_on
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
@@ -61,6 +62,12 @@ class Model:
         return tuple(effect.load(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.load is not None)
 
     @property
+    def equations_of_motion(self) -> EquationsOfMotion:
+        """What a march of the scene solves for."""
+        friction = self.scene.friction.coefficient if self.scene.friction else 0.0
+        return EquationsOfMotion(self.drivetrain, self.time_step, friction, self.time_scales, self.clock, self.loads)
+
+    @property
     def steps(self) -> int:
         """Steps of the whole run."""
         return self.scene.motion.mesh_cycles * self.resolution.steps_per_mesh_cycle
@@ -99,10 +106,10 @@ class Model:
         return vibrations(self.drivetrain, mesh_stiffness(self.scene), self.scene.friction is not None)
 
     @property
-    def pace(self) -> Pace:
+    def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
         elastic = np.array([vibration.frequency for vibration in self.vibrations])
-        found = pace(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        found = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
             return found
         # Above its drivetrain's vibrations a pair with rigid flanks still moves as its geometry says.
@@ -125,7 +132,7 @@ class Model:
 
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
-            found += time_step_warnings(self.vibrations, judged, steps, self.pace, self.time_step)
+            found += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
         return found
 
     def _of_a_part(self) -> list[str]:

@@ -136,7 +136,7 @@ def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int
         "newton_iterations_total": march.newton_iterations,
         "time_march": march.seconds,
     }
-    attributes |= {f"{RUNG}{rung}": count for rung, count in march.rungs.items() if count}
+    attributes |= {f"{RUNG}{rung}": count for rung, count in march.steps_by_method.items() if count}
     if recorder.steps:
         attributes["settled_from"] = float(result["time"].values[first])
         attributes["settled_cycles"] = float(result["mesh_phase"].values[-1] - result["mesh_phase"].values[first])

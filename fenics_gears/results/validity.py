@@ -57,12 +57,12 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     All are judged by every step done but uniqueness, whose certificate costs more than a step: by the last ones, which the march keeps.
     """
     cycle, drivetrain, clock = recorder.cycle, recorder.model.drivetrain, recorder.model.clock
-    of_flanks = [*_window(cycle, recorder.watched), *_rank(recorder.watched)] if cycle.resolves_flanks and recorder.steps else []
-    if cycle.resolves_flanks and cycle.spreads_pressure and recorder.steps:
+    of_flanks = [*_window(cycle, recorder.watched), *_rank(recorder.watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
+    if cycle.traits.has_pressure and recorder.steps:
         of_flanks += _sharp_edge(recorder.model.scene, recorder.watched)
     return [
         *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
-        *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *(() if cycle.prescribes_friction else _uniqueness(march)),
+        *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *(() if cycle.traits.prescribes_friction else _uniqueness(march)),
     ]  # fmt: skip
 
 

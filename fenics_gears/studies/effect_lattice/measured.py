@@ -191,7 +191,7 @@ class Bench:
         self._step_times: list[float] = []
         operators = [self._cycle.position(step).operator for step in range(self._cycle.steps)]
         self.bytes = sum(operator.compliance.nbytes for operator in operators)
-        self._contact_rows = sum(len(operator.rigid) for operator in operators) / len(operators)
+        self._contact_rows = sum(len(operator.jacobian) for operator in operators) / len(operators)
 
     def _build(self) -> tuple[Cycle, float]:
         """The contact operators of a mesh cycle, all of them, and the seconds they took."""

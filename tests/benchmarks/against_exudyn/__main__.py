@@ -27,7 +27,7 @@ from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.drivetrain import of_couple
 from fenics_gears.dynamics.frequencies import natural_frequencies
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.effects.bearings import Bearings, Support
 from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.geometry.pair import gear_pair
@@ -62,7 +62,7 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
 
     cycle = SpringCycle(pair, springs, 1, STEPS, shafts.indices, tangential=False, coast_flanks=False)
     added = of_couple(shafts.coordinates, shafts.radii, COUPLE_AFTER)
-    marcher = Marcher(cycle, shafts, STEP, 0.0, loads=(lambda step: added * (step > 0),))
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, STEP, loads=(lambda step: added * (step > 0),)))
     start = marcher.start()
     # At rest where the first couple holds it, accelerated by what is added, as Exudyn starts.
     still = replace(start, state=replace(start.state, velocity=0.0 * added, acceleration=np.linalg.solve(shafts.mass, added)))
