@@ -179,7 +179,6 @@ EFFECT = Effect(
     check=check,
     warnings=warnings,
     elasticity=elasticity,
-    unknowns_of=unknowns_of,
     watched=watched,
     findings=findings,
     period=period,

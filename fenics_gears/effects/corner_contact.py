@@ -47,13 +47,6 @@ def route_has_corners(tree: Tree) -> Iterator[Problem]:
         yield Problem(("accuracy", "condensation"), '"every step"', message)
 
 
-def corner(data: CornerContact, pair):
-    """The tip edges, as contact sees them. Raises GeometryError for a radius that does not fit the tip."""
-    from fenics_gears.contact.corner import corner_contact
-
-    return corner_contact(pair, data.edge_radii)
-
-
 EFFECT = Effect(
     section="corner_contact",
     description="tips touch before and after the path of contact, along the mate's own normal",
@@ -64,5 +57,4 @@ EFFECT = Effect(
     needs=("tooth_elasticity",),
     read=read,
     rules=route_has_corners,
-    corner=corner,
 )

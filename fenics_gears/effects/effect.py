@@ -43,12 +43,10 @@ class Effect:
     Hooks, each with the effect's data first:
 
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or None.
-    ``corner(data, pair)``: how tips touch off the line of action (``contact.corner``).
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None to leave it as it is.
-    ``unknowns_of(data, model, name)``: of that gear's finite elements, for the expected cost; None to leave it as it is.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
     ``check(data, scene, pair)``: raises SceneError for what only shows in those files.
     ``warnings(data, model)``: sentences that a user should read before the run.
@@ -72,12 +70,10 @@ class Effect:
     read: Callable[[Any], Any] | None = None
     rules: Callable[[Mapping[str, Any]], Iterator[Problem]] | None = None
     removal: Callable | None = None
-    corner: Callable | None = None
     gaps: Callable | None = None
     load: Callable | None = None
     clock: Callable | None = None
     elasticity: Callable | None = None
-    unknowns_of: Callable | None = None
     located: Callable | None = None
     check: Callable | None = None
     warnings: Callable | None = None

@@ -38,7 +38,7 @@ def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
     if table(tree, "gears") is None or material_sections(tree):
         sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
-        missing = effects.effect(need).written
+        missing = effects.effect_named(need).written
         yield Problem((effect.section,), "", f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out.")
     for effect, other in effects.conflicts(sections):
         yield Problem((effect.section,), "", f"cannot stand beside [{other}]. Leave one of the two out.")
