@@ -15,7 +15,7 @@ from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import EquationsOfMotion
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
-from fenics_gears.effects import check_files, common_period, effects_on
+from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
@@ -46,20 +46,20 @@ class Model:
     @property
     def time_step(self) -> float:
         """Length of a step, s; of the longest where they are not all as long."""
-        if any(effect.clock is not None for effect in effects_on(self.scene)):
-            return max(self.clock.duration(0, 1), self.clock.duration(self.steps - 1, self.steps))
+        for clock in from_effects(self.scene, "clock", self):
+            return max(clock.duration(0, 1), clock.duration(self.steps - 1, self.steps))
         return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
 
     @property
     def clock(self) -> Clock:
         """When a step is."""
-        clocks = [effect.clock(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.clock is not None]
+        clocks = from_effects(self.scene, "clock", self)
         return clocks[0] if clocks else SteadyClock(self.time_step)
 
     @property
     def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
         """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
-        return tuple(effect.load(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.load is not None)
+        return tuple(from_effects(self.scene, "load", self))
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
@@ -120,9 +120,8 @@ class Model:
         """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
         found = [*self._of_a_part(), *self._without_fields(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.materials)
-        for effect in effects_on(self.scene):
-            if effect.warnings is not None:
-                found += effect.warnings(getattr(self.scene, effect.section), self)
+        for sentences in from_effects(self.scene, "warnings", self):
+            found += sentences
         if self.corner is not None:
             from fenics_gears.contact.corner import edge_warnings
 
