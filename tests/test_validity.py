@@ -56,7 +56,7 @@ def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, sha
     relief = Relief(0.06, None, shape)
     fine = replace(COARSE, element="P2", flank_element_size=0.06, contact_length=1.5, contact_nodes=30)
     scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, tip_relief=TipRelief(relief, relief), accuracy=fine)
-    found = [said for said in simulate(scene).attrs["warnings"].splitlines() if "is that on the kink where the wheel's linear tip relief starts" in said]
+    found = [said for said in simulate(scene).attrs["warnings"].splitlines() if "is on the kink where the wheel's linear tip relief starts" in said]
     assert len(found) == kinked
 
 
