@@ -6,7 +6,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.model.drivetrain import drivetrain
 
 GRID = ContactGrid(length=1.5, nodes=20)
@@ -18,17 +18,17 @@ class Frozen:
     def __init__(self, cycle, step):
         position = cycle.position(step)
         operator = position.operator
-        if operator.sliding is not None:
+        if operator.rigid_slip is not None:
             # What touches now touched before: no rigid slip, and the tangential displacement is that of the same nodes.
             n = operator.nodes
             operator = replace(
                 operator,
-                sliding=np.zeros(n),
+                rigid_slip=np.zeros(n),
                 previous_compliance=operator.compliance[n:].copy(),
-                previous_rigid=operator.rigid[n:].copy(),
+                previous_jacobian=operator.jacobian[n:].copy(),
             )
         self._position = replace(position, operator=operator, carried_from=np.arange(operator.nodes))
-        self.steps, self.solve, self.pair, self.divisible = cycle.steps, cycle.solve, cycle.pair, False
+        self.steps, self.solve, self.pair, self.traits = cycle.steps, cycle.solve, cycle.pair, replace(cycle.traits, divisible=False)
 
     def position(self, step):
         """The one position."""
@@ -40,4 +40,4 @@ def frozen_marcher(scene, pair, flanks, step, phase_step=60):
     shafts = drivetrain(scene, pair)
     cycle = MeshCycle(flanks, GRID, 100, shafts.indices, tangential=scene.friction is not None)
     friction = 0.0 if scene.friction is None else scene.friction.coefficient
-    return Marcher(Frozen(cycle, phase_step), shafts, step, friction), shafts
+    return Marcher(Frozen(cycle, phase_step), EquationsOfMotion(shafts, step, friction)), shafts

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.pressure import without_oscillation
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance
@@ -88,7 +88,7 @@ class HertzContact:
         operator = cycle.between(phase, phase).operator
         load = line_load * self.pair.face_width
         problem = StepProblem(
-            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, rigid=np.abs(operator.rigid), gap=operator.gap,
+            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, jacobian=np.abs(operator.jacobian), gap=operator.gap,
             slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
         )  # fmt: skip
         solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))

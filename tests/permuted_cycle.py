@@ -24,7 +24,7 @@ def solved_in_other_order(scene, seed: int):
                 stiffness=np.ascontiguousarray(problem.stiffness[np.ix_(coordinates, coordinates)]),
                 load=problem.load[coordinates],
                 compliance=np.ascontiguousarray(problem.compliance[np.ix_(rows, rows)]),
-                rigid=np.ascontiguousarray(problem.rigid[np.ix_(rows, coordinates)]),
+                jacobian=np.ascontiguousarray(problem.jacobian[np.ix_(rows, coordinates)]),
                 gap=problem.gap[nodes],
                 slip_before=problem.slip_before[nodes] if len(problem.slip_before) else problem.slip_before,
                 free_motion=problem.free_motion[coordinates] if len(problem.free_motion) else problem.free_motion,

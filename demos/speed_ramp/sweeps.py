@@ -36,7 +36,7 @@ def sweep(scene: Scene, store: GearStore, cycles: int | None = None) -> Sweep:
     """March a scene without friction, over more `cycles` than it has if asked to; after its ramp the speed is that of its end."""
     model = model_of(scene)
     _, cycle = store.prepared(model, SilentProgress(), user_cache())
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.pace, model.clock, model.loads)
+    marcher = Marcher(cycle, model.equations_of_motion)
     cycles = cycles or scene.motion.mesh_cycles
     per_cycle = model.resolution.steps_per_mesh_cycle
     records = marcher.run(cycles * per_cycle, cycles * per_cycle + 1).records

@@ -107,14 +107,14 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     at = view.places(offsets)
     removals = flanks.removal if place.flank == DRIVE else (None, None)
     surfaces = [
-        _surface(gear, edge, roll, line.arms[side] + SENSES[side] * at, removals[side])
+        _surface(gear, edge, roll, line.lever_arms[side] + SENSES[side] * at, removals[side])
         for side, (gear, edge, roll) in enumerate(zip(gears, corner.edges, place.contact_rolls))
     ]
     x_1, x_2 = surfaces
     meeting = 0.5 * (view.seen(offsets, x_1 - x_2) + line.length)
     rolls = [
         roll_angle_at_height(gear.base_radius, roll, arm + sense * offsets)
-        for gear, roll, arm, sense in zip(gears, place.contact_rolls, line.arms, SENSES)
+        for gear, roll, arm, sense in zip(gears, place.contact_rolls, line.lever_arms, SENSES)
     ]
     interpolation = tuple(
         view.of_flank(
@@ -123,7 +123,7 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
             flank.rolls_of(place.ahead(number)), flank.element_order,
         )
         for number, (gear, own, roll, arm, sense, flank) in enumerate(
-            zip(gears, rolls, place.contact_rolls, line.arms, SENSES, flanks.compliance)
+            zip(gears, rolls, place.contact_rolls, line.lever_arms, SENSES, flanks.compliance)
         )
     )  # fmt: skip
     return ToothPair(
@@ -131,8 +131,8 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
         offsets=offsets,
         lengths=hat_integrals(offsets),
         gap=view.seen(offsets, line.length - x_1 - x_2),
-        pinion_arm=meeting,
-        wheel_arm=line.length - meeting,
+        pinion_lever_arm=meeting,
+        wheel_lever_arm=line.length - meeting,
         pinion_roll=rolls[0],
         interpolation=interpolation,
     )
@@ -141,7 +141,7 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
 def edge_limits(pair: GearPair, corner: CornerContact, place: Place) -> tuple[float, float]:
     """Offsets (mm) between which both flanks exist, seen along the place's line: from tip edges' ends to form circles."""
     line, ends = place.line_in(pair), []
-    for gear, edge, roll, arm, sense in zip((pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.arms, SENSES):
+    for gear, edge, roll, arm, sense in zip((pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.lever_arms, SENSES):
         tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
         form = flank_point(gear.base_radius, gear.form_roll_angle, roll)[1]
         ends.append((sense * (tip - arm), sense * (form - arm)))

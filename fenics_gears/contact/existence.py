@@ -30,9 +30,9 @@ class Balance:
     most: np.ndarray
 
 
-def balance(rigid: np.ndarray, motion: np.ndarray, friction: float, slip_sign: np.ndarray) -> Balance:
-    """Normal and friction forces against a load along `motion` (k,); `rigid` (m, k); `slip_sign` (n,), empty without friction."""
-    along = rigid @ motion
+def balance(jacobian: np.ndarray, motion: np.ndarray, friction: float, slip_sign: np.ndarray) -> Balance:
+    """Normal and friction forces against a load along `motion` (k,); `jacobian` (m, k); `slip_sign` (n,), empty without friction."""
+    along = jacobian @ motion
     n = len(along) - len(slip_sign)
     normal = along[:n]
     if not len(slip_sign):
@@ -40,9 +40,9 @@ def balance(rigid: np.ndarray, motion: np.ndarray, friction: float, slip_sign: n
     return Balance(normal, normal + friction * slip_sign * along[n:], normal + friction * np.abs(along[n:]))
 
 
-def working(rigid: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Balance:
+def working(jacobian: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Balance:
     """The same of the nodes that a solution, `forces` (m,), presses, by the friction that acts there; zero elsewhere."""
-    along, n = rigid @ motion, len(forces) // 2
+    along, n = jacobian @ motion, len(forces) // 2
     pressed = forces[:n] > 0.0
     normal = np.where(pressed, along[:n], 0.0)
     share = np.divide(forces[n:], forces[:n], out=np.zeros(n), where=pressed)
@@ -63,7 +63,7 @@ def explained(problem, attempts) -> ContactNotConverged:
         )
     weights = None
     if len(problem.free_motion):
-        weights = balance(problem.rigid, problem.free_motion, problem.friction, np.sign(problem.slip_before))
+        weights = balance(problem.jacobian, problem.free_motion, problem.friction, np.sign(problem.slip_before))
         if problem.load @ problem.free_motion != 0.0 and weights.most.max() <= 0.0:
             return NoStaticEquilibrium(
                 attempts, f"no equilibrium: the static load pulls the flanks apart, all gaps open and {words}"
@@ -98,7 +98,7 @@ def _locking(problem, visited: np.ndarray, weights: Balance | None) -> str:
     for sets in visited:
         closed, signs = sets != OPEN, _signs(problem, sets)
         if weights is not None:
-            sliding = balance(problem.rigid, problem.free_motion, problem.friction, signs)
+            sliding = balance(problem.jacobian, problem.free_motion, problem.friction, signs)
             locked = locked_nodes(sliding) & closed
             ratio = np.max(1.0 - sliding.sliding[locked] / sliding.normal[locked], initial=0.0)
             words = f"the friction undoes {ratio:.3g} times what the normal forces hold"
@@ -114,7 +114,7 @@ def _own_response(problem, signs: np.ndarray) -> np.ndarray:
     """By how much a sliding node (n,) gives way under its own normal force, mm/N."""
     from fenics_gears.contact.uniqueness import flexibility
 
-    n, matrix = len(signs), flexibility(problem.stiffness, problem.compliance, problem.rigid)
+    n, matrix = len(signs), flexibility(problem.stiffness, problem.compliance, problem.jacobian)
     return np.diag(matrix)[:n] + problem.friction * signs * np.diag(matrix[:n, n:])
 
 
@@ -123,7 +123,7 @@ def _several(problem, visited: np.ndarray) -> str:
 
     for sets in visited:
         certified = is_only_solution(
-            problem.stiffness, problem.compliance, problem.rigid, problem.friction, sets != OPEN, _signs(problem, sets)
+            problem.stiffness, problem.compliance, problem.jacobian, problem.friction, sets != OPEN, _signs(problem, sets)
         )
         if not certified:
             return (

@@ -13,6 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.interpolation import hat_average, quadrature_offsets
 from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
@@ -60,11 +61,10 @@ class FlankGaps:
     def _nodes(self, index: float, position: Position) -> list[_Nodes]:
         if index in self._kept:
             return self._kept[index]
-        found, start = [], 0
-        for pair in position.operator.pairs:
-            nodes = slice(start, start + len(pair.offsets))
-            start = nodes.stop
-            found.append(_Nodes(nodes, pair.place.teeth, (self._shapes(0, pair), self._shapes(1, pair))))
+        pairs = position.operator.pairs
+        found = [
+            _Nodes(nodes, pair.place.teeth, (self._shapes(0, pair), self._shapes(1, pair))) for nodes, pair in zip(node_slices(pairs), pairs)
+        ]
         if index == int(index):
             self._kept[index] = found
         return found
@@ -74,7 +74,7 @@ class FlankGaps:
 
         Profiles of coast flanks are true; but a tooth out of place has both its flanks there.
         """
-        own, body, arm = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).arms[gear]
+        own, body, arm = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).lever_arms[gear]
         displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
         if pair.place.flank != DRIVE:
             return displaced[:, None]

@@ -9,7 +9,7 @@ import numpy as np
 
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.operator import ContactOperator, node_slices
 from fenics_gears.geometry.involute import flank_point
 
 # Of Hertz's half ellipse the largest pressure is this many times the pressure's mean, weighted by itself.
@@ -41,10 +41,8 @@ def kink_at_the_peak(cycle: Cycle, solved: Solved, kinks: Mapping[str, float]) -
 def _pressed(cycle: Cycle, solved: Solved) -> Iterator[tuple]:
     """Every loaded tooth pair with its pressure (n,), MPa, and its forces (n,), N."""
     for operator, all_forces in solved:
-        start = 0
-        for pair in operator.pairs:
-            forces = all_forces[start : start + len(pair.offsets)]
-            start += len(pair.offsets)
+        for nodes, pair in zip(node_slices(operator.pairs), operator.pairs):
+            forces = all_forces[nodes]
             if len(forces) and forces.max() > NO_FORCE:
                 yield pair, forces / (pair.lengths * cycle.pair.face_width), forces
 

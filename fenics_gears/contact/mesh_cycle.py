@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
-from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator
+from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator, node_slices
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
 from fenics_gears.elasticity.compliance import Reach
@@ -94,21 +94,29 @@ def pairs_at_once(positions: Iterable[Iterable[Place]]) -> int:
     return max(spans)
 
 
+@dataclass(frozen=True)
+class CycleTraits:
+    """What the contact nodes of a cycle are.
+
+    `divisible`: there are positions between its steps; `nodes_on_flanks`: nodes are points of the flanks, springs are not;
+    `has_pressure`: forces of nodes are a pressure on the flank, those of springs and rigid flanks are not; `prescribes_friction`:
+    friction follows from the place of a tooth pair, not from the slip of its nodes.
+    """
+
+    divisible: bool = False
+    nodes_on_flanks: bool = True
+    has_pressure: bool = True
+    prescribes_friction: bool = False
+
+
 class Cycle:
     """Contact equations over one mesh cycle of `steps` positions of a gear pair, each built when it is first asked for.
 
-    A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond; `solve` is how a
-    step at a position is solved; `divisible`: whether there are positions between the steps; `corner`: tip edges that touch off the
-    line of action.
+    A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond; `corner`: tip edges
+    that touch off the line of action.
     """
 
-    divisible = False
-    # Whether contact nodes are points of the flanks, among which a pressure is spread.
-    resolves_flanks = True
-    # Whether a pressure is meant by the forces of contact nodes; rigid flanks have none.
-    spreads_pressure = True
-    # Whether friction goes by a rule of its own, not by slip as it comes.
-    prescribes_friction = False
+    traits = CycleTraits()
 
     def __init__(
         self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
@@ -116,6 +124,11 @@ class Cycle:
         self.pair, self.grid, self.steps, self.coast_flanks, self.corner = pair, grid, steps, coast_flanks, corner
         self._pairs: dict[int, tuple[PairNodes, ...]] = {}
         self._positions: dict[int, Position] = {}
+
+    @property
+    def bodies(self) -> tuple:
+        """Flank compliance of pinion and wheel; empty where they have none."""
+        return ()
 
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
@@ -125,9 +138,9 @@ class Cycle:
         return self._positions[index]
 
     def between(self, step: float, before: float) -> Position:
-        """The contact equations at `step`, counted on from those at `before`, where both may lie between whole steps; not kept.
+        """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not kept.
 
-        Only of a route that is `divisible`. Whole halves, quarters and so on: `step` decides exactly which pairs touch.
+        Only of a cycle that is divisible, and at halves, quarters and so on, which are exact: `step` decides which pairs touch.
         """
         return self._build(step, before)
 
@@ -166,8 +179,7 @@ class Cycle:
 
     def _pairs_of(self, index: float) -> tuple[PairNodes, ...]:
         places = pair_places(self.pair, self.grid, index / self.steps, self.coast_flanks, self.corner)
-        model = (self._pair(place) for place in places)
-        return tuple(pair for pair in model if pair is not None)
+        return tuple(pair for pair in map(self._pair, places) if pair is not None)
 
     def _pair(self, place: Place) -> PairNodes | None:
         raise NotImplementedError
@@ -184,7 +196,7 @@ class MeshCycle(Cycle):
     action, along it where None; `pairing`: of these flanks, one of its own unless given.
     """
 
-    divisible = True
+    traits = CycleTraits(divisible=True)
 
     def __init__(
         self,
@@ -200,8 +212,13 @@ class MeshCycle(Cycle):
         self.flanks, self._coordinates, self._tangential = flanks, coordinates, tangential
         self._pairing = pairing or CompliancePairing(flanks)
 
+    @property
+    def bodies(self) -> tuple:
+        """Flank compliance of pinion and wheel."""
+        return self.flanks.compliance
+
     def share_pairs(self, other: MeshCycle) -> None:
-        """Have the contact nodes of another cycle's tooth pairs, whose flanks have nodes at the same places."""
+        """Use the contact nodes of another cycle, whose flanks have nodes at the same places."""
         self._pairs = other._pairs
 
     def _pair(self, place: Place) -> ToothPair | None:
@@ -225,19 +242,15 @@ class MeshCycle(Cycle):
 
 def carried_nodes(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], spacing: float) -> np.ndarray:
     """For each node the one of the same pair that stood at the same offset a step before; -1 where there is none."""
-    starts, start = {}, 0
-    for pair in previous:
-        starts[pair.place.flank, pair.place.index] = (start, pair.offsets)
-        start += len(pair.offsets)
-    carried = []
-    for pair in pairs:
-        key = pair.place.flank, pair.place.index
-        if key not in starts:
-            carried.append(np.full(len(pair.offsets), -1))
-            continue
-        first, offsets = starts[key]
-        distance = np.abs(pair.offsets[:, None] - offsets[None, :])
-        nearest = np.argmin(distance, axis=1)
-        near = distance[np.arange(len(nearest)), nearest] <= 0.75 * spacing
-        carried.append(np.where(near, first + nearest, -1))
-    return np.concatenate(carried).astype(np.int64) if carried else np.empty(0, dtype=np.int64)
+    earlier = {_key(pair): (nodes.start, pair.offsets) for nodes, pair in zip(node_slices(previous), previous)}
+    carried = np.full(sum(len(pair.offsets) for pair in pairs), -1)
+    for nodes, pair in zip(node_slices(pairs), pairs):
+        if _key(pair) in earlier:
+            first, offsets = earlier[_key(pair)]
+            distance = np.abs(pair.offsets[:, None] - offsets[None, :])
+            carried[nodes] = np.where(distance.min(axis=1) <= 0.75 * spacing, first + distance.argmin(axis=1), -1)
+    return carried
+
+
+def _key(pair: PairNodes) -> tuple[int, int]:
+    return pair.place.flank, pair.place.index

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg.lapack import dposv
 
-from fenics_gears.contact.ladder import StepSolution
 from fenics_gears.contact.laws import NO_FORCE, OPEN
 from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.step_solver import StepSolution
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def mesh_stiffness(operator: ContactOperator, solution: StepSolution) -> MeshSti
     force = float(forces[nodes].sum())
     if force <= NO_FORCE:
         return NOTHING_TOUCHES
-    overlap = operator.rigid[: operator.nodes] @ solution.coordinates - operator.gap
+    overlap = operator.jacobian[: operator.nodes] @ solution.coordinates - operator.gap
     deflection = _highest(np.where(on_side, overlap, -np.inf), operator.node_pair)
     pairs = np.count_nonzero(np.bincount(operator.node_pair[nodes], forces[nodes]))
     return MeshStiffness(force, deflection, force / deflection, _tangent(operator.compliance, nodes), pairs)

@@ -41,7 +41,7 @@ def _slip_factor(status, friction):
 
 
 @njit(cache=True)
-def solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates):
+def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction, status, forces, coordinates):
     """Solve the linear system of given sets for `forces` (m,) and `coordinates` (k,), in place.
 
     Raises numpy.linalg.LinAlgError where the sets leave the system singular.
@@ -65,13 +65,13 @@ def solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, s
                 factor = _slip_factor(status[closed[b]], friction)
                 matrix[a, b] -= factor * compliance[row, n + closed[b]] * unit * unit
         for c in range(k):
-            matrix[a, size + c] = rigid[row, c] * unit
+            matrix[a, size + c] = jacobian[row, c] * unit
         right_side[a] = (gap[row] if row < n else -slip_before[row - n]) * unit
     for c in range(k):
         for b in range(size):
-            entry = rigid[rows[b], c]
+            entry = jacobian[rows[b], c]
             if tangential and b < n_closed:
-                entry += _slip_factor(status[closed[b]], friction) * rigid[n + closed[b], c]
+                entry += _slip_factor(status[closed[b]], friction) * jacobian[n + closed[b], c]
             matrix[size + c, b] = entry * unit
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
@@ -89,9 +89,9 @@ def solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, s
 
 
 @njit(cache=True)
-def relative_displacement(compliance, rigid, forces, coordinates):
+def relative_displacement(compliance, jacobian, forces, coordinates):
     """u = G q - C p (m,), mm; only loaded nodes are summed."""
-    displacement = np.dot(rigid, coordinates)
+    displacement = np.dot(jacobian, coordinates)
     for j in range(len(forces)):
         if forces[j] != 0.0:
             for i in range(len(displacement)):
@@ -132,7 +132,7 @@ def _force_round_off(stiffness, load, compliance, gap, coordinates):
 
 
 @njit(cache=True)
-def measure(residual, stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates, displacement):
+def measure(residual, stiffness, load, compliance, jacobian, gap, slip_before, friction, status, forces, coordinates, displacement):
     """Violation of the laws and of equilibrium by the present solution, into `residual` (5,).
 
     Equilibrium is solved, not iterated: what is left within the round-off of a row's terms is no violation. A slip against its
@@ -152,8 +152,8 @@ def measure(residual, stiffness, load, compliance, rigid, gap, slip_before, fric
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
             elif status[j] != OPEN and forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible:
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
-    terms = np.dot(np.abs(stiffness), np.abs(coordinates)) + np.dot(np.abs(rigid.T), np.abs(forces)) + np.abs(load)
-    balance = np.dot(stiffness, coordinates) + np.dot(rigid.T, forces) - load
+    terms = np.dot(np.abs(stiffness), np.abs(coordinates)) + np.dot(np.abs(jacobian.T), np.abs(forces)) + np.abs(load)
+    balance = np.dot(stiffness, coordinates) + np.dot(jacobian.T, forces) - load
     for c in range(len(load)):
         residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance[c]) - ROUND_OFF * terms[c])
 
@@ -174,13 +174,13 @@ def _within(residual, length_tolerance, force_tolerance, load, coordinates, stif
 
 
 @njit(cache=True)
-def first_node(gap, displacement, rigid, free_motion):
+def first_node(gap, displacement, jacobian, free_motion):
     """The node that touches first when the load moves the drivetrain along `free_motion` (k,), or else the nearest to contact."""
     first, distance = -1, np.inf
     for j in range(len(gap)):
         approach = 0.0
         for c in range(len(free_motion)):
-            approach += rigid[j, c] * free_motion[c]
+            approach += jacobian[j, c] * free_motion[c]
         if approach > 0.0 and (gap[j] - displacement[j]) / approach < distance:
             first, distance = j, (gap[j] - displacement[j]) / approach
     return first if first >= 0 else np.argmax(displacement[: len(gap)] - gap)
@@ -188,7 +188,7 @@ def first_node(gap, displacement, rigid, free_motion):
 
 @njit(cache=True)
 def newton(
-    stiffness, load, compliance, rigid, gap, slip_before, friction, status,
+    stiffness, load, compliance, jacobian, gap, slip_before, friction, status,
     free_motion, r_scale, rule, length_tolerance, force_tolerance, history, sets,
 ):  # fmt: skip
     """Active-set Newton from the sets `status` (n,) int8, changed in place to those of the solution.
@@ -203,19 +203,19 @@ def newton(
     limit = len(history)
     for iteration in range(limit):
         if len(free_motion) and n > 0 and not np.any(status != OPEN):
-            status[first_node(gap, displacement, rigid, free_motion)] = SLIP_FORWARD
+            status[first_node(gap, displacement, jacobian, free_motion)] = SLIP_FORWARD
         sets[iteration] = status
-        solve_sets(stiffness, load, compliance, rigid, gap, slip_before, friction, status, forces, coordinates)
-        displacement = relative_displacement(compliance, rigid, forces, coordinates)
+        solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction, status, forces, coordinates)
+        displacement = relative_displacement(compliance, jacobian, forces, coordinates)
         measure(
-            history[iteration], stiffness, load, compliance, rigid, gap, slip_before, friction,
+            history[iteration], stiffness, load, compliance, jacobian, gap, slip_before, friction,
             status, forces, coordinates, displacement,
         )  # fmt: skip
         changed, new = _update_status(
             status, forces, displacement, compliance, gap, slip_before, friction, r_scale, rule
         )
         if len(free_motion) and n > 0 and not np.any(new != OPEN):
-            new[first_node(gap, displacement, rigid, free_motion)] = SLIP_FORWARD
+            new[first_node(gap, displacement, jacobian, free_motion)] = SLIP_FORWARD
             changed = np.any(new != status)
         if not changed:
             if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):

@@ -11,7 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.interpolation import hat_integrals
-from fenics_gears.contact.operator import ContactOperator, earlier_rigid_tangent, over_nodes, rigid_rows, rigid_slip
+from fenics_gears.contact.operator import (
+    ContactOperator,
+    displacement_jacobian,
+    earlier_tangential_jacobian,
+    node_slices,
+    over_nodes,
+    slip_of_rigid_flanks,
+    turned,
+)
 from fenics_gears.contact.tooth_pair import PairNodes, Place, Removal, facing_points
 from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
@@ -56,8 +64,8 @@ def node_pairs(
         offsets=offsets,
         lengths=lengths,
         gap=gap,
-        pinion_arm=arms[0],
-        wheel_arm=arms[1],
+        pinion_lever_arm=arms[0],
+        wheel_lever_arm=arms[1],
         pinion_roll=rolls[0],
         wheel_roll=rolls[1],
     )
@@ -89,17 +97,17 @@ def loaded_teeth(pairs: tuple[NodePairs, ...], gear: int, order: int) -> tuple[L
 
 def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int) -> np.ndarray:
     """A gear's stiffness over x, y of its loaded teeth's nodes and the centre, put in the order of `pairs`: normals, tangents, centre."""
-    counts = [len(pair.offsets) for pair in pairs]
-    order = np.arange(len(pairs)) if gear == 0 else np.arange(len(pairs))[::-1]
-    starts, start = {}, 0
-    for place in order:
-        starts[place], start = start, start + counts[place]
-    nodes = np.concatenate([starts[place] + np.arange(count) for place, count in enumerate(counts)])
-    rows = np.concatenate([2 * nodes, 2 * nodes + 1, 2 * start + np.arange(3)])
+    count = len(over_nodes(pairs, "offsets"))
+    nodes = np.arange(count)
+    if gear == 1:
+        # Teeth come by rising angle, on the wheel in the opposite order of the pairs.
+        slices = node_slices(pairs[::-1])[::-1]
+        nodes = np.concatenate([nodes[each] for each in slices])
+    rows = np.concatenate([2 * nodes, 2 * nodes + 1, 2 * count + np.arange(3)])
     return stiffness[np.ix_(rows, rows)]
 
 
-def height_arms(pairs: tuple[NodePairs, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+def height_lever_arms(pairs: tuple[NodePairs, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """Arms (n,), mm, of forces along the line of action at the nodes: their heights above either centre.
 
     The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself, and being slanted off the line
@@ -144,24 +152,23 @@ def node_to_node_operator(
     `coordinates`: which of CENTRE_COORDINATES are unknowns; `advance`: rotation of the pinion (rad) during the step.
     """
     radii, tangential = (pair.pinion.base_radius, pair.wheel.base_radius), before is not None
-    arms, nodes = height_arms(now.pairs, radii), sum(len(each.offsets) for each in now.pairs)
+    arms, nodes = height_lever_arms(now.pairs, radii), len(over_nodes(now.pairs, "gap"))
     kept = 2 * nodes if tangential else nodes
-    rigid = rigid_rows(now.pairs, radii, arms, tangential)[:, coordinates]
-    sliding = previous_compliance = previous_rigid = None
+    slip = previous_compliance = previous_jacobian = None
     if tangential:
-        sliding = rigid_slip(now.pairs, pair.rotation_ratio, advance)
-        previous_compliance, previous_rigid = _last_displacement(radii, now.pairs, before, advance)
-        previous_rigid = np.ascontiguousarray(previous_rigid[:, coordinates])
+        slip = slip_of_rigid_flanks(now.pairs, pair.rotation_ratio, advance)
+        previous_compliance, previous_jacobian = _last_displacement(radii, now.pairs, before, turned(pair, advance))
+        previous_jacobian = np.ascontiguousarray(previous_jacobian[:, coordinates])
     return ContactOperator(
         pairs=now.pairs,
         base_radii=radii,
-        normal_arms=arms,
+        normal_lever_arms=arms,
         compliance=np.ascontiguousarray((now.compliance[0] + now.compliance[1])[:kept, :kept]),
-        rigid=np.ascontiguousarray(rigid),
+        jacobian=np.ascontiguousarray(displacement_jacobian(now.pairs, radii, arms, tangential)[:, coordinates]),
         gap=over_nodes(now.pairs, "gap"),
-        sliding=sliding,
+        rigid_slip=slip,
         previous_compliance=previous_compliance,
-        previous_rigid=previous_rigid,
+        previous_jacobian=previous_jacobian,
     )
 
 
@@ -169,37 +176,31 @@ def node_to_node_operator(
 GEAR_COLUMNS = ((0, 1, 2), (3, 4, 5))
 
 
-def _last_displacement(radii, pairs, before: NodeResponse, advance: float) -> tuple[np.ndarray, np.ndarray]:
+def _last_displacement(radii, pairs, before: NodeResponse, angles: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """E (n, 2 n of the step before) and G (n, 7) with u_t(t_n) = G q - E p at the material points that are contact nodes now.
 
-    Between the last step's nodes displacements are linear in the roll angle [A.2]; beyond them the gear moves rigidly [A.4].
+    `angles`: by which the roll angles of pinion and wheel have risen, rad. Between the last step's nodes displacements are linear
+    in the roll angle [A.2]; beyond them the gear moves rigidly [A.4].
     """
-    nodes, last = sum(len(pair.offsets) for pair in pairs), len(over_nodes(before.pairs, "offsets"))
-    rigid_last = rigid_rows(before.pairs, radii, height_arms(before.pairs, radii), True)[last:]
-    outside = earlier_rigid_tangent(pairs, radii, (advance, -advance * radii[0] / radii[1]))
-    elastic, rigid = np.zeros((nodes, 2 * last)), np.zeros_like(outside)
+    last = len(over_nodes(before.pairs, "offsets"))
+    tangential_last = displacement_jacobian(before.pairs, radii, height_lever_arms(before.pairs, radii), True)[last:]
+    outside = earlier_tangential_jacobian(pairs, radii, angles)
+    elastic, jacobian = np.zeros((len(outside), 2 * last)), np.zeros_like(outside)
     for gear, columns in enumerate(GEAR_COLUMNS):
         weights, reached = _pairwise(pairs, before.pairs, gear)
         elastic += weights @ before.compliance[gear][last:]
-        moved = np.where(reached[:, None], weights @ rigid_last, outside)
-        rigid[:, columns] = moved[:, columns]
-    return elastic, rigid
+        moved = np.where(reached[:, None], weights @ tangential_last, outside)
+        jacobian[:, columns] = moved[:, columns]
+    return elastic, jacobian
 
 
 def _pairwise(pairs, previous, gear: int) -> tuple[np.ndarray, np.ndarray]:
-    """Weights of [A.2] between the nodes of the same tooth pair, and the nodes they reach."""
-    starts, start = {}, 0
-    for pair in previous:
-        starts[pair.place.index] = (start, pair)
-        start += len(pair.offsets)
-    weights, reached, row = np.zeros((sum(len(pair.offsets) for pair in pairs), start)), [], 0
-    for pair in pairs:
-        rows = slice(row, row + len(pair.offsets))
-        row = rows.stop
-        if pair.place.index not in starts:
-            reached.append(np.zeros(len(pair.offsets), dtype=bool))
-            continue
-        first, earlier = starts[pair.place.index]
-        weights[rows, first : first + len(earlier.offsets)], inside = roll_interpolation(pair.rolls(gear), earlier.rolls(gear))
-        reached.append(inside)
-    return weights, np.concatenate(reached) if reached else np.empty(0, dtype=bool)
+    """Weights (n, nodes before) of [A.2] between the nodes of the same tooth pair, and whether they reach a node (n,)."""
+    earlier = {pair.place.index: (columns, pair) for columns, pair in zip(node_slices(previous), previous)}
+    weights = np.zeros((len(over_nodes(pairs, "offsets")), len(over_nodes(previous, "offsets"))))
+    reached = np.zeros(len(weights), dtype=bool)
+    for rows, pair in zip(node_slices(pairs), pairs):
+        if pair.place.index in earlier:
+            columns, before = earlier[pair.place.index]
+            weights[rows, columns], reached[rows] = roll_interpolation(pair.rolls(gear), before.rolls(gear))
+    return weights, reached

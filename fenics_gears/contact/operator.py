@@ -6,7 +6,8 @@ of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy as np
 from fenics_gears.contact.compliance_product import compliance_product, directions
 from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, ToothPair
+from fenics_gears.geometry.pair import GearPair
 
 # The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
 # coordinate is a length and every row a force, and no equation is scaled against another. The output shaft's end goes by its
@@ -25,12 +27,12 @@ CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "cent
 class ContactOperator:
     """Contact at one position: n nodes, m = n without friction, 2 n with it; k centre coordinates.
 
-    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order; `normal_arms`: arms (n,), mm,
-    of a normal force about the pinion's and the wheel's centre.
+    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order; `normal_lever_arms` (n,),
+    mm: of a normal force about the pinion's and the wheel's centre.
 
-    `compliance` C (m, m), mm/N; `rigid` G (m, k); `gap` (n,), mm; `sliding` (n,), mm: rigid slip during the step that ends
-    here; `previous_compliance` E (n, m of the step before) and `previous_rigid` (n, k): the tangential displacement that
-    the material points touching now had at the end of the step before is `previous_rigid q - E p`. The last three are
+    `compliance` C (m, m), mm/N; `jacobian` G (m, k); `gap` (n,), mm; `rigid_slip` (n,), mm: slip of rigid flanks during the step that ends
+    here; `previous_compliance` E (n, m of the step before) and `previous_jacobian` (n, k): the tangential displacement that
+    the material points touching now had at the end of the step before is `previous_jacobian q - E p`. The last three are
     None without friction.
 
     `dependent_rows`: how many rows of the compliance elasticity gave as combinations of others, see `contact.rank`.
@@ -38,13 +40,13 @@ class ContactOperator:
 
     pairs: tuple[PairNodes, ...]
     base_radii: tuple[float, float]
-    normal_arms: tuple[np.ndarray, np.ndarray]
+    normal_lever_arms: tuple[np.ndarray, np.ndarray]
     compliance: np.ndarray
-    rigid: np.ndarray
+    jacobian: np.ndarray
     gap: np.ndarray
-    sliding: np.ndarray | None
+    rigid_slip: np.ndarray | None
     previous_compliance: np.ndarray | None
-    previous_rigid: np.ndarray | None
+    previous_jacobian: np.ndarray | None
     dependent_rows: int = 0
 
     @property
@@ -53,9 +55,9 @@ class ContactOperator:
         return len(self.gap)
 
     @cached_property
-    def arms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Arms (n,), mm, of a tangential force about the pinion's and the wheel's centre."""
-        return over_nodes(self.pairs, "pinion_arm"), over_nodes(self.pairs, "wheel_arm")
+    def friction_lever_arms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lever arms (n,), mm, of a tangential force about the pinion's and the wheel's centre."""
+        return over_nodes(self.pairs, "pinion_lever_arm"), over_nodes(self.pairs, "wheel_lever_arm")
 
     @cached_property
     def node_pair(self) -> np.ndarray:
@@ -68,51 +70,59 @@ class ContactOperator:
         return per_node(self.pairs, np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool))
 
 
-def over_nodes(pairs: tuple[PairNodes, ...], name: str) -> np.ndarray:
+def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
+    """Where each pair's contact nodes stand among those of all pairs, one pair after the other."""
+    ends = np.cumsum([0] + [len(pair.offsets) for pair in pairs])
+    return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
+
+
+def over_nodes(pairs: Sequence[PairNodes], name: str) -> np.ndarray:
     """An array of every pair's contact nodes, one pair after the other."""
     return np.concatenate([getattr(pair, name) for pair in pairs]) if pairs else np.empty(0)
 
 
-def per_node(pairs: tuple[PairNodes, ...], values: np.ndarray) -> np.ndarray:
+def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:
     """A value of each pair (pairs, ...) repeated for its contact nodes (n, ...)."""
     return np.repeat(values, [len(pair.offsets) for pair in pairs], axis=0)
 
 
-def _axes(pairs: tuple[PairNodes, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def normals(pairs: Sequence[PairNodes]) -> np.ndarray:
+    """Direction (n, 2) in space of each node's line of action, from pinion to wheel."""
+    return _axes(pairs)[0]
+
+
+def _axes(pairs: Sequence[PairNodes]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Normal (n, 2) and tangential (n, 2) direction of each node in space, and the sign (n,) of rotations there."""
     axes = per_node(pairs, np.array([pair.place.axes for pair in pairs]).reshape(len(pairs), 2, 2))
     return axes[:, 0], axes[:, 1], per_node(pairs, np.array([pair.place.turn for pair in pairs]))
 
 
-def involute_arms(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Arms (n,), mm, of the normal forces: the base radii, and at a tip's edge those of the mate's normal.
+def line_lever_arms(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Lever arms (n,), mm, of normal forces: the base radii, and at a tip's edge those of the mate's normal.
 
     An involute turned by phi moves by rb phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds
     exactly without friction.
     """
-    arms = per_node(pairs, np.array([_line_arms(pair, base_radii) for pair in pairs]).reshape(len(pairs), 2))
+    lines = [base_radii if pair.place.line is None else pair.place.line.lever_arms for pair in pairs]
+    arms = per_node(pairs, np.array(lines).reshape(len(pairs), 2))
     return arms[:, 0].copy(), arms[:, 1].copy()
 
 
-def _line_arms(pair: PairNodes, base_radii: tuple[float, float]) -> tuple[float, float]:
-    return base_radii if pair.place.line is None else pair.place.line.arms
-
-
-def rigid_rows(
+def displacement_jacobian(
     pairs: tuple[PairNodes, ...],
     base_radii: tuple[float, float],
-    normal_arms: tuple[np.ndarray, np.ndarray],
+    normal_lever_arms: tuple[np.ndarray, np.ndarray],
     tangential: bool,
 ) -> np.ndarray:
     """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm."""
     nodes = sum(len(pair.offsets) for pair in pairs)
     rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
     normal, tangent, turn = _axes(pairs)
-    rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_arms[0] / base_radii[0]
-    rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_arms[1] / base_radii[1]
+    rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_lever_arms[0] / base_radii[0]
+    rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_lever_arms[1] / base_radii[1]
     if tangential:
-        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * over_nodes(pairs, "pinion_arm") / base_radii[0]
-        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * over_nodes(pairs, "wheel_arm") / base_radii[1]
+        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * over_nodes(pairs, "pinion_lever_arm") / base_radii[0]
+        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * over_nodes(pairs, "wheel_lever_arm") / base_radii[1]
     return rows
 
 
@@ -145,7 +155,7 @@ class CompliancePairing:
 
         `response_directions(gear, pair)` and `load_directions(gear, pair)` give unit vectors (d, 2) in tooth frames.
         """
-        rows, columns = _slices(responding), _slices(loaded)
+        rows, columns = node_slices(responding), node_slices(loaded)
         result = None
         for a, pair_a in enumerate(responding):
             for b, pair_b in enumerate(loaded):
@@ -173,11 +183,6 @@ class CompliancePairing:
         return result.reshape(result.shape[0] * result.shape[1], -1)
 
 
-def _slices(pairs: tuple[ToothPair, ...]) -> list[slice]:
-    ends = np.cumsum([0] + [len(pair.offsets) for pair in pairs])
-    return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
-
-
 def own_directions(tangential: bool):
     """Directions at a pair's own position: e_x, and e_y where friction asks for it."""
     return lambda gear, pair: directions(pair.place.contact_rolls[gear], tangential)
@@ -201,45 +206,62 @@ def contact_operator(
 
     `coordinates`: which of CENTRE_COORDINATES are unknowns; `advance`: rotation of the pinion (rad) during the step.
     """
-    tangential = previous is not None
-    radii = (flanks.pair.pinion.base_radius, flanks.pair.wheel.base_radius)
-    arms, own = involute_arms(pairs, radii), own_directions(tangential)
+    own = own_directions(previous is not None)
     compliance, dependent = of_full_rank(pairing.product(pairs, pairs, own, own, symmetric=True))
-    sliding = previous_compliance = previous_rigid = None
-    if tangential:
-        # The wheel's roll angle falls as the pinion's rises.
-        turned = (advance, -advance * radii[0] / radii[1])
-        sliding = rigid_slip(pairs, flanks.pair.rotation_ratio, advance)
-        previous_compliance = pairing.product(pairs, previous, earlier_tangent(turned), own)
-        previous_rigid = np.ascontiguousarray(earlier_rigid_tangent(pairs, radii, turned)[:, coordinates])
+    before = None
+    if previous is not None:
+        before = pairing.product(pairs, previous, earlier_tangent(turned(flanks.pair, advance)), own)
+    return replace(operator_on_lines(flanks.pair, pairs, coordinates, compliance, before, advance), dependent_rows=dependent)
+
+
+def operator_on_lines(
+    gears: GearPair,
+    pairs: tuple[PairNodes, ...],
+    coordinates: list[int],
+    compliance: np.ndarray,
+    previous_compliance: np.ndarray | None,
+    advance: float,
+) -> ContactOperator:
+    """The contact equations of nodes whose normal forces act along their pair's line; `previous_compliance` None without friction.
+
+    Arguments as of `contact_operator`, arrays as of ContactOperator.
+    """
+    radii = (gears.pinion.base_radius, gears.wheel.base_radius)
+    arms, frictional = line_lever_arms(pairs, radii), previous_compliance is not None
+    slip = slip_of_rigid_flanks(pairs, gears.rotation_ratio, advance) if frictional else None
+    earlier = earlier_tangential_jacobian(pairs, radii, turned(gears, advance))[:, coordinates] if frictional else None
     return ContactOperator(
         pairs=pairs,
         base_radii=radii,
-        normal_arms=arms,
+        normal_lever_arms=arms,
         compliance=compliance,
-        rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, tangential)[:, coordinates]),
+        jacobian=np.ascontiguousarray(displacement_jacobian(pairs, radii, arms, frictional)[:, coordinates]),
         gap=over_nodes(pairs, "gap"),
-        sliding=sliding,
+        rigid_slip=slip,
         previous_compliance=previous_compliance,
-        previous_rigid=previous_rigid,
-        dependent_rows=dependent,
+        previous_jacobian=None if earlier is None else np.ascontiguousarray(earlier),
     )
 
 
-def rigid_slip(pairs: tuple[PairNodes, ...], rotation_ratio: float, advance: float) -> np.ndarray:
+def turned(gears: GearPair, advance: float) -> tuple[float, float]:
+    """By how much (rad) the roll angles of pinion and wheel rise while the pinion turns by `advance`; the wheel's fall."""
+    return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
+
+
+def slip_of_rigid_flanks(pairs: tuple[PairNodes, ...], rotation_ratio: float, advance: float) -> np.ndarray:
     """Slip (n,), mm, of rigid gears while the pinion turns by `advance` (rad).
 
     v_rigid = omega1 (x - (z1/z2) (L - x)) of [12], zero at the pitch point.
     """
     turn = per_node(pairs, np.array([pair.place.turn for pair in pairs]))
-    return advance * turn * (over_nodes(pairs, "pinion_arm") - rotation_ratio * over_nodes(pairs, "wheel_arm"))
+    return advance * turn * (over_nodes(pairs, "pinion_lever_arm") - rotation_ratio * over_nodes(pairs, "wheel_lever_arm"))
 
 
-def earlier_rigid_tangent(pairs, radii, turned) -> np.ndarray:
+def earlier_tangential_jacobian(pairs, radii, turned) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
     rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
-    offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_arm", "wheel_arm"))
-    line_1, line_2 = involute_arms(pairs, radii)
+    offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_lever_arm", "wheel_lever_arm"))
+    line_1, line_2 = line_lever_arms(pairs, radii)
     height_1, height_2 = line_1 - offsets, line_2 + offsets
     _, tangent, turn = _axes(pairs)
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.

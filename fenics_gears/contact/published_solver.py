@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.ladder import PUBLISHED, RUNGS, StepProblem, StepSolution, solve_step
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.newton import measure
 from fenics_gears.contact.published_newton import Equations, Iterate, iterates
 from fenics_gears.contact.relative_stiffness import RelativeStiffness
+from fenics_gears.contact.step_solver import METHODS, PUBLISHED, StepProblem, StepSolution, solve_step
 
 MOST_ITERATIONS = 60
 NO_DIRECTION, TOO_MANY = "no search direction", "the merit function stays too large"
@@ -62,7 +62,7 @@ class PublishedSolver:
         closed = sets != OPEN
         forces = np.where(np.tile(closed, len(final.forces) // len(closed)), final.forces, 0.0)
         coordinates = reduced.coordinates(problem.load, final.displacement)
-        return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, RUNGS.index(PUBLISHED))
+        return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, METHODS.index(PUBLISHED))
 
     def reduced(self, position: RemeshedPosition, problem: StepProblem) -> RelativeStiffness:
         """The equilibrium equations [C.1] of a position and an effective stiffness."""
@@ -116,7 +116,7 @@ def _attempt(reduced: RelativeStiffness, problem: StepProblem, equations: Equati
     for row, iterate in enumerate(tried):
         sets[row] = equations.status(iterate.displacement, iterate.forces)
         measure(
-            history[row], problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap,
+            history[row], problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap,
             problem.slip_before, problem.friction, sets[row], iterate.forces, reduced.coordinates(problem.load, iterate.displacement), iterate.displacement,
         )  # fmt: skip
     return PUBLISHED, outcome, history, sets

@@ -13,10 +13,10 @@ import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.interpolation import hat_integrals
-from fenics_gears.contact.ladder import StepProblem, StepSolution
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
-from fenics_gears.contact.mesh_cycle import Cycle, Position
-from fenics_gears.contact.operator import ContactOperator, involute_arms, over_nodes, rigid_rows
+from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
+from fenics_gears.contact.operator import ContactOperator, operator_on_lines, over_nodes
+from fenics_gears.contact.step_solver import StepProblem, StepSolution
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.geometry.pair import GearPair
@@ -38,8 +38,8 @@ class RigidCycle(Cycle):
     `coordinates`: which centre coordinates are unknowns; `removal`: material removed from either drive flank.
     """
 
-    divisible = False
-    spreads_pressure = False
+    traits = CycleTraits(has_pressure=False)
+    frictional = False
 
     def __init__(
         self,
@@ -66,8 +66,8 @@ class RigidCycle(Cycle):
             if forces is not None and obeys(problem, leaders, touching, forces, coordinates):
                 status = np.zeros(len(problem.gap), dtype=np.int8)
                 status[touching] = SLIP_FORWARD
-                displacement = problem.rigid @ coordinates
-                return StepSolution(forces, coordinates, displacement, status, iterations, rung=0)
+                displacement = problem.jacobian @ coordinates
+                return StepSolution(forces, coordinates, displacement, status, iterations, method=0)
         raise no_equilibrium(why_none_holds(problem, leaders), len(problem.gap))
 
     def _pair(self, place: Place) -> PairNodes | None:
@@ -81,21 +81,13 @@ class RigidCycle(Cycle):
         (pinion_roll, _), (x_1, x_2), gap = facing_points(self.pair, removal, place.contact_rolls, offsets)
         return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
 
-    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
-        radii = (self.pair.pinion.base_radius, self.pair.wheel.base_radius)
-        arms, gap = involute_arms(pairs, radii), over_nodes(pairs, "gap")
-        operator = ContactOperator(
-            pairs=pairs,
-            base_radii=radii,
-            normal_arms=arms,
-            # Nothing gives way: one zero seen from everywhere.
-            compliance=np.broadcast_to(0.0, (len(gap), len(gap))),
-            rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, tangential=False)[:, self._coordinates]),
-            gap=gap,
-            sliding=None,
-            previous_compliance=None,
-            previous_rigid=None,
-        )
+    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> RigidPosition:
+        nodes, before = len(over_nodes(pairs, "gap")), len(over_nodes(previous, "gap"))
+        # Nothing gives way: one zero seen from everywhere.
+        rows = 2 * nodes if self.frictional else nodes
+        previous_compliance = np.broadcast_to(0.0, (nodes, 2 * before)) if self.frictional else None
+        compliance = np.broadcast_to(0.0, (rows, rows))
+        operator = operator_on_lines(self.pair, pairs, self._coordinates, compliance, previous_compliance, advance)
         return RigidPosition(operator, carried, (np.flatnonzero(operator.on_drive_flanks), np.flatnonzero(~operator.on_drive_flanks)))
 
 
@@ -112,7 +104,7 @@ def _solved(problem: StepProblem, touching: list[int]) -> tuple[np.ndarray | Non
         if len(problem.free_motion):
             return None, np.zeros(k)
         return forces, np.linalg.solve(problem.stiffness, problem.load)
-    rows = problem.rigid[touching]
+    rows = problem.jacobian[touching]
     if len(touching) > 1 and not _independent(rows):
         return None, np.zeros(k)
     pressing, coordinates = tied(problem, rows, rows.T, problem.gap[touching])
@@ -149,7 +141,7 @@ def obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces:
     """Whether nothing pulls and nothing penetrates."""
     if np.min(forces[touching], initial=0.0) < -problem.tolerance.force:
         return False
-    displaced = problem.rigid[leaders] @ coordinates - problem.gap[leaders]
+    displaced = problem.jacobian[leaders] @ coordinates - problem.gap[leaders]
     others = [value for leader, value in zip(leaders, displaced) if leader not in touching]
     return max(others, default=-np.inf) <= problem.tolerance.length
 
@@ -157,7 +149,7 @@ def obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces:
 def why_none_holds(problem: StepProblem, leaders: list[int]) -> str:
     """Why no set of nodes holds the load."""
     play = float(problem.gap[leaders].sum())
-    if len(leaders) == 2 and play < 0.0 and not _independent(problem.rigid[leaders]):
+    if len(leaders) == 2 and play < 0.0 and not _independent(problem.jacobian[leaders]):
         return (
             f"no equilibrium: rigid teeth are wedged between drive and coast flanks, by {-1e3 * play:.4g} um more than there is backlash: "
             "raise gears.centre_distance, lower what the flanks deviate, or let them give way ([gears.material] or [bearings])"

@@ -6,19 +6,21 @@ force against the sliding of the nominal motion; the sliding of bearings and sha
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, StepSolution
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK
-from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.operator import ContactOperator, earlier_rigid_tangent, involute_arms, over_nodes, rigid_rows, rigid_slip
+from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.rigid_cycle import RigidCycle, RigidPosition, no_equilibrium, obeys, pairs_that_touch, tied, why_none_holds
+from fenics_gears.contact.step_solver import StepProblem, StepSolution
 
 
 class RigidFrictionCycle(RigidCycle):
     """Contact nodes on flanks that do not give way, with friction; arguments as of RigidCycle."""
 
-    prescribes_friction = True
+    traits = replace(RigidCycle.traits, prescribes_friction=True)
+    frictional = True
 
     def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
         """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks.
@@ -34,26 +36,8 @@ class RigidFrictionCycle(RigidCycle):
             if forces is not None and obeys(problem, leaders, touching, forces, coordinates):
                 slips = np.where(unit[count:] > 0.0, SLIP_FORWARD, np.where(unit[count:] < 0.0, SLIP_BACKWARD, STICK))
                 found = np.where(unit[:count] > 0.0, slips, 0).astype(np.int8)
-                return StepSolution(forces, coordinates, problem.rigid @ coordinates, found, iterations, rung=0)
+                return StepSolution(forces, coordinates, problem.jacobian @ coordinates, found, iterations, method=0)
         raise no_equilibrium(why_none_holds(problem, leaders), count)
-
-    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
-        radii = (self.pair.pinion.base_radius, self.pair.wheel.base_radius)
-        arms, gap = involute_arms(pairs, radii), over_nodes(pairs, "gap")
-        before = len(over_nodes(previous, "gap"))
-        turned = (advance, -advance * radii[0] / radii[1])
-        operator = ContactOperator(
-            pairs=pairs,
-            base_radii=radii,
-            normal_arms=arms,
-            compliance=np.broadcast_to(0.0, (2 * len(gap), 2 * len(gap))),
-            rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, tangential=True)[:, self._coordinates]),
-            gap=gap,
-            sliding=rigid_slip(pairs, self.pair.rotation_ratio, advance),
-            previous_compliance=np.broadcast_to(0.0, (len(gap), 2 * before)),
-            previous_rigid=np.ascontiguousarray(earlier_rigid_tangent(pairs, radii, turned)[:, self._coordinates]),
-        )
-        return RigidPosition(operator, carried, (np.flatnonzero(operator.on_drive_flanks), np.flatnonzero(~operator.on_drive_flanks)))
 
 
 def _shared(operator: ContactOperator, problem: StepProblem, leader: int) -> np.ndarray:
@@ -64,7 +48,7 @@ def _shared(operator: ContactOperator, problem: StepProblem, leader: int) -> np.
         nodes = np.flatnonzero(operator.node_pair == pair)
         node = leader if pair == operator.node_pair[leader] else nodes[np.argmin(problem.gap[nodes])]
         forces[node] = 1.0 / len(together)
-        forces[len(problem.gap) + node] = problem.friction * np.sign(operator.sliding[node]) / len(together)
+        forces[len(problem.gap) + node] = problem.friction * np.sign(operator.rigid_slip[node]) / len(together)
     return forces
 
 
@@ -75,5 +59,5 @@ def _solved(problem: StepProblem, leader: int | None, unit: np.ndarray) -> tuple
         if len(problem.free_motion):
             return None, np.zeros(k)
         return unit, np.linalg.solve(problem.stiffness, problem.load)
-    pressing, coordinates = tied(problem, problem.rigid[[leader]], (problem.rigid.T @ unit)[:, None], problem.gap[[leader]])
+    pressing, coordinates = tied(problem, problem.jacobian[[leader]], (problem.jacobian.T @ unit)[:, None], problem.gap[[leader]])
     return None if pressing is None else pressing[0] * unit, coordinates

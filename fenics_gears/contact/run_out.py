@@ -12,7 +12,7 @@ from math import cos, pi, sin
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.operator import per_node
+from fenics_gears.contact.operator import normals
 from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.geometry.pair import GearPair
 
@@ -37,18 +37,17 @@ class RunOut:
             x, y = displacement(offset, sense, 2.0 * pi * step / (self._steps * teeth))
             # What brings the pinion nearer along the normal closes, what takes the wheel away opens.
             along, across = along - sense * x, across - sense * y
-        normals = self._normals_at(step % self._steps, position)
-        return normals[:, 0] * along + normals[:, 1] * across
+        normal_x, normal_y = self._normals_at(step % self._steps, position).T
+        return normal_x * along + normal_y * across
 
     def _normals_at(self, index: float, position: Position) -> np.ndarray:
         """Direction (n, 2) of each node's line of action in space, from pinion to wheel."""
         if index in self._normals:
             return self._normals[index]
-        pairs = position.operator.pairs
-        normals = per_node(pairs, np.array([pair.place.axes[0] for pair in pairs]).reshape(len(pairs), 2))
+        found = normals(position.operator.pairs)
         if index == int(index):
-            self._normals[index] = normals
-        return normals
+            self._normals[index] = found
+        return found
 
 
 def displacement(offset: Offset, sense: float, turned: float) -> tuple[float, float]:

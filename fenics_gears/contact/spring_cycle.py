@@ -13,15 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle, Position
-from fenics_gears.contact.operator import (
-    ContactOperator,
-    earlier_rigid_tangent,
-    involute_arms,
-    over_nodes,
-    rigid_rows,
-    rigid_slip,
-)
+from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
+from fenics_gears.contact.operator import operator_on_lines, over_nodes
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, coast_place, drive_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.pair import GearPair
@@ -55,8 +48,7 @@ class SpringNodes(PairNodes):
 class SpringCycle(Cycle):
     """A mesh of springs. `levels`: at most so many of a pair; `coordinates`: which centre coordinates are unknowns; `tangential`: friction."""
 
-    divisible = True
-    resolves_flanks = False
+    traits = CycleTraits(divisible=True, nodes_on_flanks=False, has_pressure=False)
 
     def __init__(
         self, pair: GearPair, springs: Springs, levels: int, steps: int, coordinates: list[int], tangential: bool, coast_flanks: bool
@@ -78,33 +70,16 @@ class SpringCycle(Cycle):
             offsets=APART * springs.level,
             lengths=np.ones(count),
             gap=springs.gap,
-            pinion_arm=np.full(count, arm),
-            wheel_arm=np.full(count, pair.line_of_action_length - arm),
+            pinion_lever_arm=np.full(count, arm),
+            wheel_lever_arm=np.full(count, pair.line_of_action_length - arm),
             pinion_roll=np.full(count, roll),
             stiffness=springs.stiffness,
         )
 
     def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
-        radii = (self.pair.pinion.base_radius, self.pair.wheel.base_radius)
-        arms, softness = involute_arms(pairs, radii), 1.0 / over_nodes(pairs, "stiffness")
-        sliding = previous_compliance = previous_rigid = None
-        if self._tangential:
-            turned = (advance, -advance * radii[0] / radii[1])
-            sliding = rigid_slip(pairs, self.pair.rotation_ratio, advance)
-            previous_rigid = np.ascontiguousarray(earlier_rigid_tangent(pairs, radii, turned)[:, self._coordinates])
-            previous_compliance = _carried_softness(previous, carried)
-        operator = ContactOperator(
-            pairs=pairs,
-            base_radii=radii,
-            normal_arms=arms,
-            compliance=np.diag(np.tile(softness, 2 if self._tangential else 1)),
-            rigid=np.ascontiguousarray(rigid_rows(pairs, radii, arms, self._tangential)[:, self._coordinates]),
-            gap=over_nodes(pairs, "gap"),
-            sliding=sliding,
-            previous_compliance=previous_compliance,
-            previous_rigid=previous_rigid,
-        )
-        return Position(operator, carried)
+        compliance = np.diag(np.tile(1.0 / over_nodes(pairs, "stiffness"), 2 if self._tangential else 1))
+        before = _carried_softness(previous, carried) if self._tangential else None
+        return Position(operator_on_lines(self.pair, pairs, self._coordinates, compliance, before, advance), carried)
 
 
 def _carried_softness(previous, carried: np.ndarray) -> np.ndarray:

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.spring_cycle import PairSprings
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 
 # In parts of the scene's load; above the last the curve goes on straight.
@@ -87,14 +87,14 @@ def stiffness_table(cycle: Cycle, rotation: int, load: float, loads: tuple[float
 def _curve(operator: ContactOperator, nodes: np.ndarray, rotation: int, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Approach (l,), mm, along the line of action, and forces (l, n), N, of the nodes under each load."""
     # Coast flanks are approached by turning the other way.
-    along = np.abs(operator.rigid[nodes, rotation])
+    along = np.abs(operator.jacobian[nodes, rotation])
     gap, compliance = operator.gap[nodes], np.ascontiguousarray(operator.compliance[np.ix_(nodes, nodes)])
     approach, forces = np.zeros(len(levels)), np.zeros((len(levels), len(nodes)))
     approach[0] = (gap / along).min()
     status = cold_start(gap, operator.node_pair[nodes])
     for row, load in enumerate(levels[1:], 1):
         problem = StepProblem(
-            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=compliance, rigid=along[:, None], gap=gap,
+            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=compliance, jacobian=along[:, None], gap=gap,
             slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
         )  # fmt: skip
         solution = solve_step(problem, status)

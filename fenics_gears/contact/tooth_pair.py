@@ -33,9 +33,9 @@ DRIVE, COAST = 0, 1
 
 @dataclass(frozen=True)
 class Line:
-    """A line along which flanks are seen: its distances `arms` (mm) from both centres, `length` (mm) between the centres' feet on it."""
+    """A line along which flanks are seen: its distances `lever_arms` (mm) from both centres, `length` (mm) between the centres' feet on it."""
 
-    arms: tuple[float, float]
+    lever_arms: tuple[float, float]
     length: float
 
 
@@ -86,7 +86,7 @@ class PairNodes:
     """Contact nodes (n,) of the flanks at `place`.
 
     `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open), `pinion_arm` and `wheel_arm` (mm: distance of the point of contact from the tangent points T1 and T2 along the line of
+    open), `pinion_lever_arm` and `wheel_lever_arm` (mm: distance of the point of contact from the tangent points T1 and T2 along the line of
     action), `pinion_roll` (rad).
     """
 
@@ -94,8 +94,8 @@ class PairNodes:
     offsets: np.ndarray
     lengths: np.ndarray
     gap: np.ndarray
-    pinion_arm: np.ndarray
-    wheel_arm: np.ndarray
+    pinion_lever_arm: np.ndarray
+    wheel_lever_arm: np.ndarray
     pinion_roll: np.ndarray
 
 
@@ -157,8 +157,8 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
         offsets=offsets,
         lengths=hat_integrals(offsets),
         gap=view.seen(offsets, gap),
-        pinion_arm=meeting,
-        wheel_arm=flanks.pair.line_of_action_length - meeting,
+        pinion_lever_arm=meeting,
+        wheel_lever_arm=flanks.pair.line_of_action_length - meeting,
         pinion_roll=node_rolls[0],
         interpolation=interpolation,
     )

@@ -88,7 +88,7 @@ def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
     limits[:n, :n] = -np.eye(n)
     limits[n : n + tangents, n:size], limits[n + tangents :, n:size] = np.eye(tangents), -np.eye(tangents)
     allowed = np.concatenate((np.zeros(n), bounds[rubbing], bounds[rubbing])) / force
-    balance = np.hstack((problem.rigid[rows].T, root))
+    balance = np.hstack((problem.jacobian[rows].T, root))
     try:
         found = solvers.coneqp(
             matrix(energy), matrix(np.concatenate((distance, np.zeros(extra)))), matrix(limits), matrix(allowed),
@@ -114,7 +114,7 @@ def _sets(problem, forces: np.ndarray, coordinates: np.ndarray, rubbing: np.ndar
     n, tangents = len(problem.gap), len(rubbing)
     sets = np.full(n, SLIP_FORWARD, dtype=np.int8)
     if len(problem.slip_before):
-        slip = problem.rigid[n:] @ coordinates - problem.compliance[n:] @ forces + problem.slip_before
+        slip = problem.jacobian[n:] @ coordinates - problem.compliance[n:] @ forces + problem.slip_before
         sets[slip < 0.0] = SLIP_BACKWARD
     upper, lower = active[n : n + tangents], active[n + tangents :]
     sets[rubbing] = np.where(upper, SLIP_FORWARD, np.where(lower, SLIP_BACKWARD, STICK))
@@ -131,9 +131,9 @@ def _root(stiffness: np.ndarray) -> np.ndarray:
 
 def _residual(problem, frozen: Frozen) -> np.ndarray:
     row = np.zeros(5)
-    displacement = problem.rigid @ frozen.coordinates - problem.compliance @ frozen.forces
+    displacement = problem.jacobian @ frozen.coordinates - problem.compliance @ frozen.forces
     measure(
-        row, problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before, problem.friction,
+        row, problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before, problem.friction,
         frozen.sets, frozen.forces, frozen.coordinates, displacement,
     )  # fmt: skip
     return row

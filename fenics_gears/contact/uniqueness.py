@@ -22,16 +22,16 @@ from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, STICK
 SINGULAR = 1e-14
 
 
-def flexibility(stiffness: np.ndarray, compliance: np.ndarray, rigid: np.ndarray) -> np.ndarray:
+def flexibility(stiffness: np.ndarray, compliance: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
     """W = C + G K^+ G^T (m, m), mm/N, without the motions that the stiffness does not hold."""
     values, vectors = np.linalg.eigh(stiffness)
     held = values > SINGULAR * max(values[-1], 0.0)
-    moved = rigid @ vectors[:, held]
+    moved = jacobian @ vectors[:, held]
     return compliance + (moved / values[held]) @ moved.T
 
 
 def is_only_solution(
-    stiffness: np.ndarray, compliance: np.ndarray, rigid: np.ndarray, friction: float, closed: np.ndarray, sigma: np.ndarray
+    stiffness: np.ndarray, compliance: np.ndarray, jacobian: np.ndarray, friction: float, closed: np.ndarray, sigma: np.ndarray
 ) -> bool:
     """Whether no second solution slips in the same directions; `closed` (n,) bool, `sigma` (n,): friction p_t/(mu p_n) of a node."""
     nodes = np.flatnonzero(closed)
@@ -41,7 +41,7 @@ def is_only_solution(
     share = friction * sigma[nodes]
     values, vectors = np.linalg.eigh(stiffness)
     held = values > SINGULAR * max(values[-1], 0.0)
-    normal, tangential = rigid[nodes] @ vectors, rigid[n + nodes] @ vectors
+    normal, tangential = jacobian[nodes] @ vectors, jacobian[n + nodes] @ vectors
     matrix = compliance[np.ix_(nodes, nodes)] + compliance[np.ix_(nodes, n + nodes)] * share
     sliding = normal + share[:, None] * tangential
     matrix = matrix + (normal[:, held] / values[held]) @ sliding[:, held].T
@@ -73,7 +73,7 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
         sigma[stick] = forces[n + stick] / (friction * np.maximum(forces[stick], np.finfo(float).tiny))
         key = id(operator), sigma.tobytes(), status.tobytes()
         if key not in known:
-            known[key] = is_only_solution(stiffness, operator.compliance, operator.rigid, friction, status != OPEN, sigma)
+            known[key] = is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, status != OPEN, sigma)
         count += not known[key]
     return count
 

@@ -11,9 +11,9 @@ from functools import cached_property
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import MeshCycle, Position, pair_places
+from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, Position, pair_places
 from fenics_gears.contact.operator import CompliancePairing
-from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.tooth_pair import Flanks, PairNodes
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 
@@ -54,25 +54,25 @@ class TeethInMesh:
         return (self.first + responding) % self.body.teeth, (self.first + loaded) % self.body.teeth
 
 
-class WholeBodyCycle:
+class WholeBodyCycle(Cycle):
     """The mesh cycles of a run; each is a `MeshCycle` of its own where its teeth are, and shared where they respond alike.
 
     Tooth 0 of either body is that of pair 0 at the start of the run. Arguments as of `MeshCycle`; at least one gear has a
     `WholeBodyCompliance`.
     """
 
+    traits = MeshCycle.traits
+
     def __init__(self, flanks: Flanks, grid, steps: int, coordinates: list[int], tangential: bool, corner=None):
+        super().__init__(flanks.pair, grid, steps, flanks.compliance[0].flanks == 2, corner)
         self._flanks, self._coordinates, self._tangential = flanks, coordinates, tangential
-        self.pair, self.grid, self.steps, self.corner = flanks.pair, grid, steps, corner
         self._blocks: tuple[dict, dict] = ({}, {})
         self._first_alike: tuple[dict[int, int], ...] = ({}, {})
         self._cycles: dict[tuple[int, int], MeshCycle] = {}
 
-    def __getattr__(self, name: str):
-        # What does not depend on the teeth in mesh is that of any cycle. Private names are not: copying asks for them before there are any.
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return getattr(self.of_cycle(0), name)
+    def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
+        """The tooth pairs of the first cycle that can touch at position `index` (0 to steps - 1)."""
+        return self.of_cycle(0).pairs_at(index)
 
     def position(self, step: int) -> Position:
         """The contact equations at `step`."""

@@ -23,12 +23,12 @@ class ContactWork:
 
 def contact_work(last: Record, record: Record) -> ContactWork:
     """The contact's work between two consecutive records."""
-    before, now, frictional = last.position.operator, record.position.operator, record.position.operator.sliding is not None
+    before, now, frictional = last.position.operator, record.position.operator, record.position.operator.rigid_slip is not None
     ends = (
-        (each.gap, each.rigid, np.ascontiguousarray(each.compliance), of.solution.forces, of.solution.displacement, of.state.position)
+        (each.gap, each.jacobian, np.ascontiguousarray(each.compliance), of.solution.forces, of.solution.displacement, of.state.position)
         for each, of in ((before, last), (now, record))
     )
-    slid = (now.sliding, now.previous_rigid, now.previous_compliance) if frictional else (NONE, NO_ROWS, NO_ROWS)
+    slid = (now.rigid_slip, now.previous_jacobian, now.previous_compliance) if frictional else (NONE, NO_ROWS, NO_ROWS)
     return ContactWork(*_work(record.position.carried_from, *next(ends), *next(ends), *(np.ascontiguousarray(each) for each in slid)))
 
 
@@ -41,14 +41,14 @@ def compile_contact_work() -> None:
 
 @njit(cache=True)
 def _work(
-    carried, gap_0, rigid_0, compliance_0, forces_0, displaced_0, x_0, gap_1, rigid_1, compliance_1, forces_1, displaced_1, x_1,
-    sliding, previous_rigid, previous_compliance,
+    carried, gap_0, jacobian_0, compliance_0, forces_0, displaced_0, x_0, gap_1, jacobian_1, compliance_1, forces_1, displaced_1, x_1,
+    rigid_slip, previous_jacobian, previous_compliance,
 ):  # fmt: skip
     """Rotation, friction and changes, N mm. `carried` (n,): the node before of each node now, -1 where it is new.
 
     Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
     """
-    n_0, n_1, kinds = len(gap_0), len(gap_1), 2 if len(sliding) else 1
+    n_0, n_1, kinds = len(gap_0), len(gap_1), 2 if len(rigid_slip) else 1
     successor, fresh = np.full(n_0, -1), np.ones(n_1, dtype=np.bool_)
     for node in range(n_1):
         if carried[node] >= 0:
@@ -65,7 +65,7 @@ def _work(
                 rows_0[kept], rows_1[kept] = kind * n_0 + node, kind * n_1 + successor[node]
                 kept += 1
     rows_0, rows_1 = rows_0[:kept], rows_1[:kept]
-    rotation, changes, friction = _by_shape(rows_0, rows_1, rigid_0, compliance_0, forces_0, x_0, rigid_1, compliance_1, forces_1, x_1), 0.0, 0.0
+    rotation, changes, friction = _by_shape(rows_0, rows_1, jacobian_0, compliance_0, forces_0, x_0, jacobian_1, compliance_1, forces_1, x_1), 0.0, 0.0
     for node in range(n_0):
         p_0, after = forces_0[node], successor[node]
         if after >= 0:
@@ -73,13 +73,13 @@ def _work(
             rotation -= 0.5 * (p_0 + p_1) * (gap_1[after] - gap_0[node])
             changes += 0.5 * (p_0 * (gap_1[after] - displaced_1[after]) - p_1 * (gap_0[node] - displaced_0[node]))
         elif p_0 != 0.0:
-            changes += 0.5 * p_0 * (gap_0[node] - _at_other(node, rigid_0, compliance_0, x_1, rows_0, rows_1, forces_1))
+            changes += 0.5 * p_0 * (gap_0[node] - _at_other(node, jacobian_0, compliance_0, x_1, rows_0, rows_1, forces_1))
         if after < 0 and kinds == 2 and forces_0[n_0 + node] != 0.0:
-            there = _at_other(n_0 + node, rigid_0, compliance_0, x_1, rows_0, rows_1, forces_1)
+            there = _at_other(n_0 + node, jacobian_0, compliance_0, x_1, rows_0, rows_1, forces_1)
             changes -= 0.5 * forces_0[n_0 + node] * (there - displaced_0[n_0 + node])
     for node in range(n_1):
         if fresh[node] and forces_1[node] != 0.0:
-            changes -= 0.5 * forces_1[node] * (gap_1[node] - _at_other(node, rigid_1, compliance_1, x_0, rows_1, rows_0, forces_0))
+            changes -= 0.5 * forces_1[node] * (gap_1[node] - _at_other(node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0))
         if kinds == 1:
             continue
         # `slid`: by the nominal motion and what the same points were displaced by before; `moved`: as now the node would have been.
@@ -87,14 +87,14 @@ def _work(
         p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
         if p_0 == 0.0 and p_1 == 0.0:
             continue
-        slid = sliding[node] - previous_rigid[node] @ x_0
+        slid = rigid_slip[node] - previous_jacobian[node] @ x_0
         for column in range(len(forces_0)):
             if forces_0[column] != 0.0:
                 slid += previous_compliance[node, column] * forces_0[column]
         if before >= 0:
             moved = displaced_0[n_0 + before]
         else:
-            moved = _at_other(n_1 + node, rigid_1, compliance_1, x_0, rows_1, rows_0, forces_0)
+            moved = _at_other(n_1 + node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0)
         slip = displaced_1[n_1 + node] + slid
         rotation += 0.5 * (p_0 + p_1) * (slid + moved)
         friction += p_1 * slip
@@ -103,7 +103,7 @@ def _work(
 
 
 @njit(cache=True)
-def _by_shape(rows_0, rows_1, rigid_0, compliance_0, forces_0, x_0, rigid_1, compliance_1, forces_1, x_1):
+def _by_shape(rows_0, rows_1, jacobian_0, compliance_0, forces_0, x_0, jacobian_1, compliance_1, forces_1, x_1):
     """Half of p0 (G1 - G0) x1 + p1 (G1 - G0) x0 - p0 (C1 - C0) p1 over the rows of both ends, N mm."""
     work = 0.0
     for row in range(len(rows_0)):
@@ -112,7 +112,7 @@ def _by_shape(rows_0, rows_1, rigid_0, compliance_0, forces_0, x_0, rigid_1, com
         if p_0 == 0.0 and p_1 == 0.0:
             continue
         for k in range(len(x_0)):
-            work += (rigid_1[i_1, k] - rigid_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
+            work += (jacobian_1[i_1, k] - jacobian_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
         if p_0 != 0.0:
             for column in range(len(rows_0)):
                 other = forces_1[rows_1[column]]
@@ -122,11 +122,11 @@ def _by_shape(rows_0, rows_1, rigid_0, compliance_0, forces_0, x_0, rigid_1, com
 
 
 @njit(cache=True)
-def _at_other(row, rigid, compliance, x, rows, other_rows, forces):
+def _at_other(row, jacobian, compliance, x, rows, other_rows, forces):
     """Displacement G x - C p (mm) that a row of one end would have at the other: `rows` here are `other_rows` there, with its `forces`."""
     found = 0.0
     for k in range(len(x)):
-        found += rigid[row, k] * x[k]
+        found += jacobian[row, k] * x[k]
     for column in range(len(rows)):
         force = forces[other_rows[column]]
         if force != 0.0:

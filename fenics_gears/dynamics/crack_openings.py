@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from fenics_gears.contact.flank_forces import flank_rows
+from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.whole_body_cycle import GEARS, first_tooth
 from fenics_gears.dynamics.march import Record
 
@@ -21,16 +22,13 @@ def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
     Of forces on teeth within the reach of the body's compliance; those farther away hardly move a crack.
     """
     body, operator, forces = cycle.bodies[gear], record.position.operator, record.solution.forces
-    tangential, start = len(forces) > operator.nodes, 0
+    by_kind = forces.reshape(-1, operator.nodes)
     total = np.zeros(len(next(iter(body.openings.values()))))
     first = first_tooth(gear, int(record.step // cycle.steps))
-    for pair in operator.pairs:
-        nodes = np.arange(start, start + len(pair.offsets))
-        start = nodes[-1] + 1
+    for nodes, pair in zip(node_slices(operator.pairs), operator.pairs):
         rows = body.openings.get((first + pair.place.ahead(gear)) % body.teeth)
         if rows is not None and forces[nodes].any():
-            own = np.concatenate([nodes, nodes + operator.nodes]) if tangential else nodes
-            total += rows @ (flank_rows(gear, pair, tangential) @ forces[own]) / cycle.pair.face_widths[gear]
+            total += rows @ (flank_rows(gear, pair, len(by_kind) > 1) @ by_kind[:, nodes].ravel()) / cycle.pair.face_widths[gear]
     return total
 
 

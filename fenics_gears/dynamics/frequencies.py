@@ -10,7 +10,7 @@ from scipy.linalg import eigh, null_space
 
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
-# Relative normal displacement of the flanks per coordinate; see contact.operator.rigid_rows. Friction also pulls across.
+# Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also pulls across.
 MESH_DIRECTION = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
 ACROSS_DIRECTION = {"centre_y1": 1.0, "centre_y2": -1.0}
 # A rigid motion's frequency is round-off beside the highest one; a shape that moves the flanks by less than this is not excited.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from math import ceil
 
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
-from fenics_gears.dynamics.pace import Pace
+from fenics_gears.dynamics.time_scales import TimeScales
 
 # Effects on the transmission error below this part of its peak-to-peak value are not worth a word.
 NOTABLE = 0.01
@@ -55,11 +55,11 @@ def judged_frequency(elastic: Sequence[Vibration], mesh_frequencies: tuple[float
 
 
 def time_step_warnings(
-    elastic: Sequence[Vibration], mesh_frequency: float, steps_per_mesh_cycle: int, pace: Pace, longest_step: float = 0.0
+    elastic: Sequence[Vibration], mesh_frequency: float, steps_per_mesh_cycle: int, time_scales: TimeScales, longest_step: float = 0.0
 ) -> list[str]:
     """Sentences on vibrations that the step does not resolve, and on inertia that does not matter; `elastic`: modes by frequency.
 
-    `longest_step`, s: of a run whose speed changes, by which its method in time is chosen (`pace`).
+    `longest_step`, s: of a run whose speed changes, by which its method in time is chosen (`time_scales`).
     """
     time_step = 1.0 / (mesh_frequency * steps_per_mesh_cycle)
     excited = [vibration for vibration in elastic if vibration.excited] or list(elastic)
@@ -70,14 +70,14 @@ def time_step_warnings(
             f"natural frequency of about {slowest.frequency:.4g} Hz, and the transmission error differs from the quasi-static one by about {inertia:.1g} of its "
             "peak-to-peak value; leave out [inertia] and [damping] to solve without them, at any number of steps"
         ]
-        return said if pace.samples_vibration else [f"{said[0]}. {_not_sampled(slowest, time_step)}"]
-    if not pace.samples_vibration and longest_step > time_step:
+        return said if time_scales.samples_vibration else [f"{said[0]}. {_not_sampled(slowest, time_step)}"]
+    if not time_scales.samples_vibration and longest_step > time_step:
         sampled = 2.0 * slowest.frequency / steps_per_mesh_cycle
         return [
             f"vibrations are not resolved anywhere in the speed ramp, whose slow end has steps too long for them. {_not_sampled(slowest, longest_step)}: "
             f"keep both ends of [speed_ramp] above {sampled:.3g} Hz, or raise accuracy.steps_per_mesh_cycle ({steps_per_mesh_cycle})"
         ]
-    if not pace.samples_vibration:
+    if not time_scales.samples_vibration:
         return [
             f"vibrations are not resolved, and the result is about the quasi-static one though inertia matters. {_not_sampled(slowest, time_step)}: "
             + _remedy(excited[-1], mesh_frequency, steps_per_mesh_cycle)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -13,14 +13,14 @@ from threadpoolctl import threadpool_limits
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.existence import locked_nodes, working
-from fenics_gears.contact.ladder import HALVED, RUNGS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.step_solver import HALVED, METHODS, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.pace import FOLLOWING, Pace
+from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.backward_euler import BackwardEuler
@@ -36,8 +36,24 @@ MOST_HALVINGS = 6
 
 
 @dataclass(frozen=True)
+class EquationsOfMotion:
+    """The motion that a march solves for: a drivetrain in steps of `time_step` (s), the longest; `friction` 0 where the scene has none.
+
+    `time_scales`: how mesh and step compare with the drivetrain's vibrations; they decide on the method in time and on the start.
+    `clock`: when a step is, every `time_step` unless given; `loads`: forces that vary, besides the drivetrain's own.
+    """
+
+    drivetrain: Drivetrain
+    time_step: float
+    friction: float = 0.0
+    time_scales: TimeScales = FOLLOWING
+    clock: Clock | None = None
+    loads: tuple[VaryingLoad, ...] = ()
+
+
+@dataclass(frozen=True)
 class Record:
-    """What one step holds: its number, the state and the contact solution there.
+    """One step: its number, the state and the contact solution.
 
     `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is the step itself.
     """
@@ -51,9 +67,9 @@ class Record:
 
 @dataclass
 class March:
-    """What a march has produced so far.
+    """A march so far.
 
-    `records`: the last steps; `newton_iterations`: of every step from 1 on; `rungs`: how often each rung was used;
+    `records`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step at which no drive flank touched; `locked`: steps at which friction
     locks a closed node (`contact.existence`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
     (k, k), N/mm: of every step.
@@ -65,7 +81,7 @@ class March:
     records: deque[Record] = field(default_factory=deque)
     newton_iterations: int = 0
     steps: int = 0
-    rungs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RUNGS, 0))
+    steps_by_method: dict[str, int] = field(default_factory=lambda: dict.fromkeys(METHODS, 0))
     separations: list[tuple[int, float]] = field(default_factory=list)
     locked: list[int] = field(default_factory=list)
     interrupted: bool = False
@@ -79,13 +95,9 @@ def smallest_opening(record: Record, flank: int = DRIVE) -> float:
     return float(np.min(openings, initial=np.inf))
 
 
-def march_on(record: Record) -> None:
-    """What is done with a record that nobody observes: nothing."""
-
-
-def _method(pace: Pace) -> type[AverageAcceleration] | type[BackwardEuler]:
-    """The method in time at a pace; quasi-static scenes, which keep the first, do not load the second."""
-    if pace.averages_acceleration:
+def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[BackwardEuler]:
+    """The method in time; quasi-static scenes, which average acceleration, do not import the other."""
+    if time_scales.averages_acceleration:
         return AverageAcceleration
     from fenics_gears.dynamics.backward_euler import BackwardEuler
 
@@ -93,40 +105,32 @@ def _method(pace: Pace) -> type[AverageAcceleration] | type[BackwardEuler]:
 
 
 class Marcher:
-    """Steps a drivetrain with contact through time; `friction` 0 where the scene has none.
+    """Steps the equations of motion with the contact of a `cycle` through time."""
 
-    `pace`: how mesh and step compare with the drivetrain's vibrations; it decides on the method in time and on the start.
-    `clock`: when a step is, every `time_step` (s), the longest, unless given; `loads`: forces that vary, besides the drivetrain's own.
-    """
-
-    def __init__(
-        self, cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, pace: Pace = FOLLOWING,
-        clock: Clock | None = None, loads: Sequence[VaryingLoad] = (),
-    ):  # fmt: skip
+    def __init__(self, cycle: Cycle, equations: EquationsOfMotion):
+        drivetrain, time_step, friction = equations.drivetrain, equations.time_step, equations.friction
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
-        self.clock, self.loads = clock or SteadyClock(time_step), tuple(loads)
-        self.dynamic = _method(pace)(drivetrain, time_step)
-        self._static_drivetrain = Drivetrain(
-            drivetrain.coordinates, drivetrain.radii, drivetrain.stiffness, drivetrain.load, mass=None, damping=None
-        )
+        self.clock, self.loads = equations.clock or SteadyClock(time_step), equations.loads
+        self.dynamic = _method(equations.time_scales)(drivetrain, time_step)
+        self._static_drivetrain = replace(drivetrain, mass=None, damping=None)
         self.static = AverageAcceleration(self._static_drivetrain, time_step)
         varying = [load(step) for load in self.loads for step in range(cycle.steps)]
         self.tolerance = Tolerance.of_load(float(np.abs([drivetrain.load, *varying]).max()))
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
-        # Friction's arm is longest at the wheel's tip; below this coefficient it never outweighs the normal force there.
+        # Friction's lever arm is longest at the wheel's tip; with a smaller coefficient it never outweighs the normal force there.
         self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
-        self._pace = pace
+        self._time_scales = equations.time_scales
 
     def run(
         self, steps: int, kept: int, report: Callable[[int, int], None] | None = None, observe: Callable[[Record], None] | None = None
     ) -> March:
-        """March `steps` steps from step 0 and keep the last `kept` of those done, wherever the march ends; `observe` is called with each.
+        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with each record.
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
         with threadpool_limits(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report, observe or march_on)
+            return self._run(steps, kept, report, observe or (lambda record: None))
 
     def _run(self, steps: int, kept: int, report, observe: Callable[[Record], None]) -> March:
         march = March(self.friction, self.dynamic.stiffness, deque(maxlen=kept))
@@ -138,7 +142,7 @@ class Marcher:
             for step in range(1, steps + 1):
                 record = self.step(self.scheme(step), record, step)
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
-                march.rungs[RUNGS[record.solution.rung]] += 1
+                march.steps_by_method[METHODS[record.solution.method]] += 1
                 march.records.append(record)
                 observe(record)
                 if not record.solution.status[record.position.operator.on_drive_flanks].any():
@@ -181,10 +185,10 @@ class Marcher:
         middle = neighbours[1]
         if not self.dynamic.inert:
             return middle
-        if self._pace.outruns_vibration:
+        if self._time_scales.outruns_vibration:
             return self._mean_start(middle)
         velocity = np.zeros(len(self.drivetrain.coordinates))
-        if self._pace.follows_statics:
+        if self._time_scales.follows_statics:
             velocity = (neighbours[2].state.position - neighbours[0].state.position) / self.clock.duration(-1, 1)
         # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
         damping = self.drivetrain.damping
@@ -200,8 +204,8 @@ class Marcher:
             self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance, static.state.position,
             STEPS_SLID_BEFORE_START, self.load,
         )  # fmt: skip
-        drivetrain, rigid = self.drivetrain, static.position.operator.rigid
-        left = self.load(0) - drivetrain.stiffness @ mean.position - rigid.T @ mean.solution.forces
+        drivetrain, jacobian = self.drivetrain, static.position.operator.jacobian
+        left = self.load(0) - drivetrain.stiffness @ mean.position - jacobian.T @ mean.solution.forces
         if drivetrain.damping is not None:
             left = left - drivetrain.damping @ mean.velocity
         state = State(mean.position, mean.velocity, np.linalg.solve(drivetrain.mass, left))
@@ -214,7 +218,7 @@ class Marcher:
         except ContactNotConverged as failure:
             # Without friction a static solution does not depend on the way to it.
             depends_on_way = scheme.inert or self.friction > 0.0
-            if not (depends_on_way and self.cycle.divisible) or isinstance(failure, NoStaticEquilibrium):
+            if not (depends_on_way and self.cycle.traits.divisible) or isinstance(failure, NoStaticEquilibrium):
                 raise
             try:
                 return self._divided(scheme, last, step, failure, 1)
@@ -238,17 +242,17 @@ class Marcher:
                 record = self._divided(finer, record, end, failed, halvings + 1)
             parts += record.parts or (record,)
         iterations = sum(part.solution.iterations for part in parts)
-        return replace(record, solution=replace(record.solution, iterations=iterations, rung=RUNGS.index(HALVED)), parts=parts)
+        return replace(record, solution=replace(record.solution, iterations=iterations, method=METHODS.index(HALVED)), parts=parts)
 
     def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
         """From `last` to `position` in one go."""
         operator = position.operator
         slip_before = NO_SLIP
-        if operator.sliding is not None:
+        if operator.rigid_slip is not None:
             # w_old of [25]: rigid slip less the tangential displacement that the same material points had.
-            displaced = operator.previous_rigid @ last.state.position
+            displaced = operator.previous_jacobian @ last.state.position
             displaced -= operator.previous_compliance @ last.solution.forces
-            slip_before = operator.sliding - displaced
+            slip_before = operator.rigid_slip - displaced
         carried = position.carried_from
         status = np.zeros(operator.nodes, dtype=np.int8)
         known = carried >= 0
@@ -265,12 +269,12 @@ class Marcher:
         motion = np.zeros(len(self.drivetrain.coordinates))
         wheel = self.drivetrain.coordinates.index("rotation_2")
         motion[wheel] = np.sign(self.load(record.step)[wheel])
-        return bool(locked_nodes(working(record.position.operator.rigid, motion, record.solution.forces)).any())
+        return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
 
     def _static_start(self, step: int) -> Record:
         position = self.cycle.position(step)
         operator = position.operator
-        slip_before = NO_SLIP if operator.sliding is None else STEPS_SLID_BEFORE_START * operator.sliding
+        slip_before = NO_SLIP if operator.rigid_slip is None else STEPS_SLID_BEFORE_START * operator.rigid_slip
         rest = np.zeros(len(self.drivetrain.coordinates))
         status = cold_start(operator.gap, operator.node_pair)
         state = State(rest, rest, rest)
@@ -280,7 +284,7 @@ class Marcher:
     def _solve(self, scheme, load, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
         operator = position.operator
         problem = StepProblem(
-            scheme.stiffness, load, operator.compliance, operator.rigid, operator.gap, slip_before,
+            scheme.stiffness, load, operator.compliance, operator.jacobian, operator.gap, slip_before,
             self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words,
         )  # fmt: skip
         try:

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, StepSolution, cold_start
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
 ITERATIONS = 20
@@ -67,15 +67,15 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
 
     def held(position: Position, coordinates: np.ndarray) -> StepSolution:
         operator = position.operator
-        moved, nodes = operator.rigid @ coordinates, operator.nodes
-        slip_before = nothing if operator.sliding is None else slid * operator.sliding + moved[nodes:]
+        moved, nodes = operator.jacobian @ coordinates, operator.nodes
+        slip_before = nothing if operator.rigid_slip is None else slid * operator.rigid_slip + moved[nodes:]
         gap = operator.gap - moved[:nodes]
         problem = StepProblem(
-            unit, np.zeros(1), operator.compliance, np.zeros((len(operator.rigid), 1)), gap, slip_before, friction, nothing, tolerance
+            unit, np.zeros(1), operator.compliance, np.zeros((len(operator.jacobian), 1)), gap, slip_before, friction, nothing, tolerance
         )
         solution = cycle.solve(position, problem, cold_start(gap, operator.node_pair), None)
         return StepSolution(
-            solution.forces, coordinates, solution.displacement + moved, solution.status, solution.iterations, solution.rung
+            solution.forces, coordinates, solution.displacement + moved, solution.status, solution.iterations, solution.method
         )
 
     return held
@@ -83,14 +83,14 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
 
 def _balance(drivetrain: Drivetrain, load: np.ndarray, position: Position, solution: StepSolution, coordinates: np.ndarray) -> np.ndarray:
     """Force (k,), N, that load, springs and contact leave to accelerate the drivetrain."""
-    return load - drivetrain.stiffness @ coordinates - position.operator.rigid.T @ solution.forces
+    return load - drivetrain.stiffness @ coordinates - position.operator.jacobian.T @ solution.forces
 
 
 def _contact_stiffness(position: Position, solution: StepSolution) -> np.ndarray:
     """Stiffness (k, k), N/mm, of the contact along its normals."""
     closed = np.flatnonzero(solution.status != OPEN)
-    rigid = position.operator.rigid[closed]
-    return rigid.T @ np.linalg.solve(position.operator.compliance[np.ix_(closed, closed)], rigid)
+    jacobian = position.operator.jacobian[closed]
+    return jacobian.T @ np.linalg.solve(position.operator.compliance[np.ix_(closed, closed)], jacobian)
 
 
 def _velocity(drivetrain: Drivetrain, left: np.ndarray, time_step: float) -> np.ndarray:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Literal, Optional
 
+from fenics_gears.effects.effect import own_or_shared
 from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief
 from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Measured, Section, choice, either, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
 
-GEARS = ("pinion", "wheel")
 # Steps of a block, those that press a node hardest, whose pressure is looked at.
 STEPS_JUDGED = 4
 
@@ -85,13 +85,12 @@ STARTS = ("start", "length_on_path", "length_on_flank")
 
 def of_gear(both: Section, own: Section | None) -> Relief | None:
     """One gear's relief: what is its own before what is both gears'; None without a depth."""
-    own = own or type(both)()
-    depth = both.depth if own.depth is None else own.depth
+    depth = own_or_shared(own, both, "depth")
     if depth is None:
         return None
-    starting = own if own.model_fields_set.intersection(STARTS) else both
+    starting = own if own is not None and own.model_fields_set.intersection(STARTS) else both
     number = {starting.start.kind: starting.start.number} if starting.start is not None else {}
-    shape = own.shape or both.shape or LINEAR
+    shape = own_or_shared(own, both, "shape") or LINEAR
     return Relief(depth, number.get("an angle"), shape, number.get("a length"), starting.length_on_path, starting.length_on_flank)
 
 
@@ -102,11 +101,11 @@ def rules(tree: Tree, section: str, word: str) -> Iterator[Problem]:
         return
     own = {gear: table(both, gear) for gear in GEARS if table(both, gear) is not None}
     yield from _incomplete(both, own, section, word)
-    for path, given in {(section,): both, **{(section, gear): each for gear, each in own.items()}}.items():
+    for path, given in with_gears(tree, section).items():
         named = [name for name in STARTS if name in given]
         for name in named[1:]:
             yield Problem((*path, name), as_written(given[name]), f"stands beside {named[0]}, and each says where the relief starts. Leave one out.")
-    takers = [gear for gear in GEARS if {"depth"} & {*both, *own.get(gear, {})} and not {*STARTS}.intersection(own.get(gear, {}))]
+    takers = [gear for gear in GEARS if "depth" in given_for(both, gear) and not {*STARTS}.intersection(own.get(gear, {}))]
     if _is_diameter(both.get("start")) and len(takers) > 1 and not _alike(tree):
         message = (
             "is a diameter, which is another place of either gear's flank. Allowed here: a roll angle, "
@@ -116,7 +115,7 @@ def rules(tree: Tree, section: str, word: str) -> Iterator[Problem]:
 
 
 def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> Iterator[Problem]:
-    given = {(section, gear): {*both, *each} for gear, each in own.items()}
+    given = {(section, gear): given_for(both, gear) for gear in own}
     if "depth" in both or not given:
         given[section,] = set(both)
     for path, names in given.items():
@@ -137,9 +136,8 @@ def _is_diameter(written: Any) -> bool:
 
 def _alike(tree: Tree) -> bool:
     """Whether both gears have the same teeth, so that a diameter is the same place of both."""
-    gears = table(tree, "gears") or {}
-    pinion, wheel = ({name: value for name, value in (table(gears, gear) or {}).items() if name != "bore_diameter"} for gear in GEARS)
-    return pinion == wheel
+    _, pinion, wheel = with_gears(tree, "gears").values()
+    return {**pinion, "bore_diameter": None} == {**wheel, "bore_diameter": None}
 
 
 def kinks_watched(section: str, reliefs, curves: Mapping[str, Any], cycle, records) -> dict[str, Any]:
@@ -151,7 +149,7 @@ def kinks_watched(section: str, reliefs, curves: Mapping[str, Any], cycle, recor
         gear: curve.start_roll_angle
         for gear, curve in curves.items() if curve is not None and getattr(reliefs, gear).shape == LINEAR and curve.depth > 0.0
     }  # fmt: skip
-    if not kinks or not (cycle.resolves_flanks and cycle.spreads_pressure):
+    if not kinks or not cycle.traits.has_pressure:
         return {}
     import numpy as np
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Optional
 
-from fenics_gears.dynamics.drivetrain_data import Shaft, Shafts
+from fenics_gears.dynamics.drivetrain_data import Shafts
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
@@ -30,12 +30,6 @@ class ShaftsText(Section):
     torsional_stiffness: Optional[float] = _stiffness("stiffness of the input and of the output shaft, each", "from the shafts' own")
     input: Optional[ShaftText] = None
     output: Optional[ShaftText] = None
-
-
-def read(text: ShaftsText) -> Shafts:
-    """The stiffness of both shafts, beside what either has of its own."""
-    own = {name: getattr(text, name) for name in SHAFTS}
-    return Shafts(text.torsional_stiffness, **{name: None if each is None else Shaft(each.torsional_stiffness) for name, each in own.items()})
 
 
 def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
@@ -63,6 +57,5 @@ EFFECT = Effect(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the output shaft's end"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
     ),
-    read=read,
     rules=shafts_are_complete,
 )

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import GEARS, TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
+from fenics_gears.effects.relief import TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
 from fenics_gears.geometry.relief_data import TipRelief
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree
+from fenics_gears.inputs.tree import GEARS, Tree
 
 
 class TipReliefText(TipReliefOfGearText):

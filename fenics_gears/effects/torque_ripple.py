@@ -17,7 +17,7 @@ from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Allowed, Section, out_of_range, refused
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, quantity_in, table
+from fenics_gears.inputs.tree import Tree, quantity_at, quantity_in, table
 from fenics_gears.inputs.written import as_written
 
 HIGHEST_ORDER = 1e6
@@ -93,7 +93,7 @@ class TorqueRippleText(Section):
 
 def couple_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
     """A couple that turns its sign needs the coast flanks."""
-    ripple, torque = table(tree, "torque_ripple"), quantity_in((table(tree, "load") or {}).get("wheel_torque"))
+    ripple, torque = table(tree, "torque_ripple"), quantity_at(tree, "load", "wheel_torque")
     written = ripple.get("harmonics") if ripple else None
     if torque is None or "coast_flanks" in tree or not isinstance(written, list):
         return

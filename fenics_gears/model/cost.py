@@ -12,7 +12,7 @@ from math import lcm
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import pair_places, tooth_reach
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import body_meshes
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
@@ -119,11 +119,9 @@ def _condensed(model: Model, name: str) -> _Gear:
 
 
 def _meshed(model: Model, name: str) -> int | None:
-    """Unknowns of a gear that an effect has a mesh of its own for; None for a ring of sectors."""
-    for effect in effects_on(model.scene):
-        if effect.unknowns_of is not None:
-            return effect.unknowns_of(getattr(model.scene, effect.section), model, name)
-    return None
+    """Unknowns of a gear with a mesh of its own; None for a ring of sectors."""
+    given = model.scene.body_meshes
+    return None if given is None else body_meshes.unknowns_of(given, model, name)
 
 
 def _positions(model: Model) -> int:

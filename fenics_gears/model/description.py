@@ -119,9 +119,9 @@ def _inertia_rows(model: Model) -> Rows:
 def _method(model: Model) -> str:
     if model.drivetrain.mass is None:
         return "quasi-static"
-    if model.pace.averages_acceleration:
+    if model.time_scales.averages_acceleration:
         return "average acceleration"
-    return "backward Euler, " + ("forces of rigid flanks being impulsive" if model.pace.impulsive else "no vibration being sampled")
+    return "backward Euler, " + ("forces of rigid flanks being impulsive" if model.time_scales.impulsive else "no vibration being sampled")
 
 
 def _accuracy_rows(model: Model) -> Rows:

@@ -13,8 +13,9 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.pace import FOLLOWING, Pace, pace
-from fenics_gears.effects import check_files, common_period, effects_on
+from fenics_gears.dynamics.march import EquationsOfMotion
+from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
+from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
@@ -45,20 +46,26 @@ class Model:
     @property
     def time_step(self) -> float:
         """Length of a step, s; of the longest where they are not all as long."""
-        if any(effect.clock is not None for effect in effects_on(self.scene)):
-            return max(self.clock.duration(0, 1), self.clock.duration(self.steps - 1, self.steps))
+        for clock in from_effects(self.scene, "clock", self):
+            return max(clock.duration(0, 1), clock.duration(self.steps - 1, self.steps))
         return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
 
     @property
     def clock(self) -> Clock:
         """When a step is."""
-        clocks = [effect.clock(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.clock is not None]
+        clocks = from_effects(self.scene, "clock", self)
         return clocks[0] if clocks else SteadyClock(self.time_step)
 
     @property
     def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
         """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
-        return tuple(effect.load(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.load is not None)
+        return tuple(from_effects(self.scene, "load", self))
+
+    @property
+    def equations_of_motion(self) -> EquationsOfMotion:
+        """What a march of the scene solves for."""
+        friction = self.scene.friction.coefficient if self.scene.friction else 0.0
+        return EquationsOfMotion(self.drivetrain, self.time_step, friction, self.time_scales, self.clock, self.loads)
 
     @property
     def steps(self) -> int:
@@ -99,10 +106,10 @@ class Model:
         return vibrations(self.drivetrain, mesh_stiffness(self.scene), self.scene.friction is not None)
 
     @property
-    def pace(self) -> Pace:
+    def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
         elastic = np.array([vibration.frequency for vibration in self.vibrations])
-        found = pace(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        found = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
             return found
         # Above its drivetrain's vibrations a pair with rigid flanks still moves as its geometry says.
@@ -113,9 +120,8 @@ class Model:
         """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
         found = [*self._of_a_part(), *self._without_fields(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.materials)
-        for effect in effects_on(self.scene):
-            if effect.warnings is not None:
-                found += effect.warnings(getattr(self.scene, effect.section), self)
+        for sentences in from_effects(self.scene, "warnings", self):
+            found += sentences
         if self.corner is not None:
             from fenics_gears.contact.corner import edge_warnings
 
@@ -125,7 +131,7 @@ class Model:
 
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
-            found += time_step_warnings(self.vibrations, judged, steps, self.pace, self.time_step)
+            found += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
         return found
 
     def _of_a_part(self) -> list[str]:

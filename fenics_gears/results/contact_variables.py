@@ -107,7 +107,7 @@ def watched_contact(nodes: SideBySide) -> Values:
         "dependent rows": np.array([operator.dependent_rows for operator in operators]),
         "rows": np.array([len(operator.compliance) for operator in operators]),
     }
-    if nodes.cycle.resolves_flanks and nodes.cycle.spreads_pressure:
+    if nodes.cycle.traits.has_pressure:
         pressed = nodes.normal > NO_FORCE
         found |= {f"on the {gear}'s tip": nodes.any(tip & pressed) for gear, tip in zip(("pinion", "wheel"), nodes.of("on_tip"))}
     return found

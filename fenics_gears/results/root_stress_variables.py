@@ -8,6 +8,7 @@ import numpy as np
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, flank_rows, sector_of, unmirrored
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.tooth_pair import COAST, ToothPair
 from fenics_gears.dynamics.march import Record
 from fenics_gears.elasticity.root_stress import RootStressRows
@@ -38,16 +39,14 @@ class RootStress:
     def _matrix(self, pairs: Sequence[ToothPair], tangential: bool) -> tuple[list[int], np.ndarray]:
         """Indices of the pairs, and stress (gears, pairs, points, forces) per contact force, N; forces as the operator has them."""
         teeth = sorted({pair.place.index for pair in pairs}, reverse=True)
-        ends = np.cumsum([0] + [len(pair.offsets) for pair in pairs])
+        count = sum(len(pair.offsets) for pair in pairs)
         points = self.rows[0].rows.shape[1]
-        matrix = np.zeros((2, len(teeth), points, (2 if tangential else 1) * ends[-1]))
+        matrix = np.zeros((2, len(teeth), points, (2 if tangential else 1) * count))
         for gear, data in enumerate((self.pair.pinion, self.pair.wheel)):
-            for number, pair in enumerate(pairs):
+            for nodes, pair in zip(node_slices(pairs), pairs):
                 line = flank_rows(gear, pair, tangential) / self.pair.face_widths[gear]
                 line = unmirrored(data, line) if pair.place.flank == COAST else line
-                columns = np.arange(ends[number], ends[number + 1])
-                if tangential:
-                    columns = np.concatenate([columns, ends[-1] + columns])
+                columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
                 for place, index in enumerate(teeth):
                     ahead = SENSE_OF_TEETH[gear] * index - sector_of(gear, pair)
                     matrix[gear, place][:, columns] += self._response(gear, ahead, pair.place.flank, len(line)) @ line

@@ -63,7 +63,7 @@ def _rate(vibration: Vibration, model: Model) -> float:
     """Rate (1/s) at which a vibration decays, by its damping and by the time stepping: backward Euler forgets what it does not follow."""
     angular, ratio = 2.0 * pi * vibration.frequency, vibration.damping_ratio
     rate = angular * (ratio if ratio <= 1.0 else ratio - sqrt(ratio**2 - 1.0))
-    if not model.pace.averages_acceleration:
+    if not model.time_scales.averages_acceleration:
         rate += 0.5 * log(1.0 + (angular * model.time_step) ** 2) / model.time_step
     return rate
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import ContactOperator, over_nodes, per_node, rigid_rows
+from fenics_gears.contact.operator import ContactOperator, displacement_jacobian, node_slices, over_nodes, per_node
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.window import flank_ends
 from fenics_gears.dynamics.march import Record
@@ -33,25 +33,25 @@ class Layout:
         self.area, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
         self.area = self.area * cycle.pair.face_width
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
-        self.on_tip = _on_tips(cycle, pairs, counts) if cycle.resolves_flanks and cycle.spreads_pressure else None
+        self.on_tip = _on_tips(cycle, pairs, counts) if cycle.traits.has_pressure else None
         self.rows = _reaction_rows(operator, tangential)
 
 
 def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
     """Nodes (2, n) that stand on the edge that ends a flank: the pinion's tip below the line of action, the wheel's above it."""
     found, half = np.zeros((2, sum(counts)), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
-    for pair, end in zip(pairs, np.cumsum(counts)):
+    for pair, nodes in zip(pairs, node_slices(pairs)):
         if pair.place.line is not None:
             continue
         below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
-        found[0, end - len(pair.offsets)] = below[0] >= below[1] and below[0] > -half
-        found[1, end - 1] = above[1] <= above[0] and above[1] < half
+        found[0, nodes.start] = below[0] >= below[1] and below[0] > -half
+        found[1, nodes.stop - 1] = above[1] <= above[0] and above[1] < half
     return found
 
 
 def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
     """-G^T of all six coordinates of both centres, rotations as couples."""
-    rows = rigid_rows(operator.pairs, operator.base_radii, operator.normal_arms, tangential)
+    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential)
     units = np.concatenate([[1.0, 1.0, radius] for radius in operator.base_radii])
     return -rows.T[:6] * units[:, None]
 

@@ -94,22 +94,13 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     widths = [own.face_width or gears.face_width for own in (gears.pinion, gears.wheel)]
     alike = widths[0] == widths[1]
     pinion, wheel = (
-        data.GearData(**{
-            **dict(vars(same_names(data.GearData, own))),
-            "face_width": None if alike else width,
-            "material": tooth_elasticity.own_material(own.material, gears.material),
-        })
+        same_names(
+            data.GearData, own, face_width=None if alike else width, material=tooth_elasticity.own_material(own.material, gears.material)
+        )
         for own, width in zip((gears.pinion, gears.wheel), widths)
-    )  # fmt: skip
-    return data.GearPairData(
-        module=gears.module,
-        pressure_angle=gears.pressure_angle,
-        centre_distance=gears.centre_distance,
-        face_width=min(widths),
-        pinion=pinion,
-        wheel=wheel,
-        material=tooth_elasticity.EFFECT.from_text(gears.material),
     )
+    material = tooth_elasticity.EFFECT.from_text(gears.material)
+    return same_names(data.GearPairData, gears, face_width=min(widths), pinion=pinion, wheel=wheel, material=material)
 
 
 def _motion(checked) -> data.Motion:

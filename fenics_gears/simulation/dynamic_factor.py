@@ -14,7 +14,6 @@ import xarray as xr
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.recorder import Recorder
@@ -53,11 +52,9 @@ def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float |
     period = min(common_period(scene), model.scene.motion.mesh_cycles)
     motion = replace(scene.motion, mesh_cycles=period, recorded_cycles=1)
     still = model_of(replace(scene, motion=motion, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=cycle.steps)))
-    friction = scene.friction.coefficient if scene.friction else 0.0
-    marcher = Marcher(cycle, drivetrain(scene, model.pair), still.time_step, friction, loads=still.loads)
     reference = Recorder(still, cycle, stress=recorder.stress)
     try:
-        march = marcher.run(still.steps, 1, observe=reference.take)
+        march = Marcher(cycle, still.equations_of_motion).run(still.steps, 1, observe=reference.take)
     except ContactNotConverged as failure:
         return {"dynamic_factor_unknown": f"the quasi-static run has no solution: {str(failure).splitlines()[0]}"}
     if march.interrupted:

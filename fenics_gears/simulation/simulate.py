@@ -58,11 +58,9 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
     """The march through time, recorded as it goes; a failure carries the result so far."""
     model, cycle = recorder.model, recorder.cycle
     scene = model.scene
-    friction = scene.friction.coefficient if scene.friction else 0.0
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.pace, model.clock, model.loads)
     progress.stage("march")
     try:
-        return marcher.run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
+        return Marcher(cycle, model.equations_of_motion).run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
     except ContactNotConverged as failure:
         failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
         raise
@@ -100,7 +98,7 @@ def _result(recorder: Recorder, march: March, gears, compiled: float, complete: 
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         contact_length=resolution.contact_grid.length,
-        contact_nodes=(cycle.grid if cycle.resolves_flanks else resolution.contact_grid).nodes,
+        contact_nodes=(cycle.grid if cycle.traits.nodes_on_flanks else resolution.contact_grid).nodes,
         steps_per_mesh_cycle=resolution.steps_per_mesh_cycle,
         condensation=resolution.condensation,
         model=model.scene.accuracy.model or ELASTIC,

@@ -8,8 +8,8 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
 from fenics_gears.contact.interpolation import flank_interpolation
-from fenics_gears.contact.ladder import StepProblem, solve_step
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
+from fenics_gears.contact.step_solver import StepProblem, solve_step
 from fenics_gears.dynamics.contact_work import compile_contact_work
 
 
@@ -30,7 +30,7 @@ def compile_kernels(tangential: bool) -> float:
         stiffness=np.eye(1),
         load=np.ones(1),
         compliance=np.eye(unknowns),
-        rigid=np.eye(unknowns, 1),
+        jacobian=np.eye(unknowns, 1),
         gap=np.zeros(1),
         slip_before=np.ones(1) if tangential else np.empty(0),
         friction=0.1,

@@ -33,7 +33,7 @@ def compliances(model):
 def marched(model, compliances):
     """All 3000 steps, the contact operators of the mesh cycle included."""
     cycle = mesh_cycle(model, compliances)
-    return Marcher(cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient).run(model.steps, model.contact_steps)
+    return Marcher(cycle, model.equations_of_motion).run(model.steps, model.contact_steps)
 
 
 def test_mesh_and_condense_both_gears(benchmark, model):

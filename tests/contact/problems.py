@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem
 from fenics_gears.contact.laws import OPEN, Tolerance
+from fenics_gears.contact.step_solver import StepProblem
 
 
 def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, free=False) -> StepProblem:
@@ -27,7 +27,7 @@ def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, f
         stiffness=stiffness,
         load=load,
         compliance=compliance,
-        rigid=rigid,
+        jacobian=rigid,
         gap=0.02 * rng.normal(size=nodes),
         slip_before=0.02 * rng.normal(size=nodes) if friction else np.empty(0),
         friction=friction,
@@ -48,7 +48,7 @@ def reversing_problem() -> StepProblem:
         stiffness=np.diag([1e5, 1e5]),
         load=np.array([1e4, 0.0]),
         compliance=np.diag([4e-6] * n + [3e-6] * n),
-        rigid=np.array([[1.0, 0.0]] * n + [[0.0, 1.0]] * n),
+        jacobian=np.array([[1.0, 0.0]] * n + [[0.0, 1.0]] * n),
         gap=np.zeros(n),
         slip_before=np.array([-2e-3, -1e-3, 1e-3, 2.2e-3]),
         friction=0.3,

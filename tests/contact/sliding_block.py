@@ -6,17 +6,17 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from fenics_gears.contact.ladder import StepProblem, StepSolution, solve_step
-from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.mesh_cycle import CycleTraits, Position
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import Marcher, Record
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
 
 
 class SlidingBlock:
     """The contact of a step problem at any time; a whole step slides by its `slip_before`. `solved`: length of every step tried."""
 
-    divisible = True
+    traits = CycleTraits(divisible=True)
 
     def __init__(self, problem: StepProblem):
         self.problem, self.steps, self.solved = problem, 100, []
@@ -30,9 +30,9 @@ class SlidingBlock:
         """Part of a step."""
         problem, n = self.problem, len(self.problem.gap)
         operator = SimpleNamespace(
-            nodes=n, compliance=problem.compliance, rigid=problem.rigid, gap=problem.gap,
-            sliding=(step - before) * problem.slip_before,
-            previous_compliance=problem.compliance[n:], previous_rigid=problem.rigid[n:],
+            nodes=n, compliance=problem.compliance, jacobian=problem.jacobian, gap=problem.gap,
+            rigid_slip=(step - before) * problem.slip_before,
+            previous_compliance=problem.compliance[n:], previous_jacobian=problem.jacobian[n:],
         )  # fmt: skip
         self.solved.append(step - before)
         return Position(operator, np.arange(n))
@@ -48,7 +48,7 @@ def block_at_rest(problem: StepProblem, status: np.ndarray) -> tuple[Marcher, Re
     mass = 0.25 * step**2 * problem.stiffness
     names = ("rotation_2", "centre_x1", "centre_y1")[:k]
     block = Drivetrain(names, np.ones(k), np.zeros((k, k)), problem.load, mass, None)
-    marcher = Marcher(SlidingBlock(problem), block, step, problem.friction)
+    marcher = Marcher(SlidingBlock(problem), EquationsOfMotion(block, step, problem.friction))
     rest, nothing = np.zeros(k), np.zeros(len(problem.compliance))
     solution = StepSolution(nothing, rest, nothing, status, 0, 0)
     return marcher, Record(0, State(rest, rest, rest), marcher.cycle.position(0), solution)

@@ -65,7 +65,7 @@ def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, 0.9)
     cycle = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False, corner=corner)
     pairs = (corner_pair(stand_in_flanks, GRID, corner, place),)
-    row = cycle._position(0, pairs, None, 0.0, None).operator.rigid[0]
+    row = cycle._position(0, pairs, None, 0.0, None).operator.jacobian[0]
     radii, step, expected = (paper_pair.pinion.base_radius, paper_pair.wheel.base_radius), 1e-3, np.empty(6)
     for column in range(6):
         gear, axis = divmod(column, 3)
@@ -94,7 +94,7 @@ def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
         place = drive_place(paper_pair, 0, xi)
         with_corner, plain = corner_pair(stand_in_flanks, GRID, corner, place), tooth_pair(stand_in_flanks, GRID, place)
         assert with_corner.place == plain.place
-        for name in ("offsets", "lengths", "gap", "pinion_arm", "wheel_arm", "pinion_roll"):
+        for name in ("offsets", "lengths", "gap", "pinion_lever_arm", "wheel_lever_arm", "pinion_roll"):
             assert getattr(with_corner, name) == pytest.approx(getattr(plain, name), rel=1e-11, abs=1e-11)
         for ours, theirs in zip(with_corner.interpolation, plain.interpolation):
             assert ours.weights == pytest.approx(theirs.weights, abs=1e-11)
@@ -112,11 +112,11 @@ def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flan
     )
     assert (before.place.line is None) != (after.place.line is None)
     assert len(before.offsets) == len(after.offsets)
-    for name in ("offsets", "gap", "pinion_arm", "wheel_arm"):
+    for name in ("offsets", "gap", "pinion_lever_arm", "wheel_lever_arm"):
         assert getattr(before, name) == pytest.approx(getattr(after, name), abs=1e-5)
     assert np.array(before.place.axes) == pytest.approx(np.array(after.place.axes), abs=1e-6)
     for line in (before.place.line_in(paper_pair), after.place.line_in(paper_pair)):
-        assert line.arms == pytest.approx([gear.base_radius for gear in gears], abs=1e-5)
+        assert line.lever_arms == pytest.approx([gear.base_radius for gear in gears], abs=1e-5)
 
 
 @pytest.fixture(scope="module")
@@ -144,7 +144,7 @@ def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
     for step in corner_steps(cycle):
         operator = cycle.position(step).operator
         forces = np.random.default_rng(step).uniform(0.5, 1.5, 2 * operator.nodes)
-        on_gears = -(operator.rigid.T @ forces)[:6].reshape(2, 3) * np.stack([np.ones(2), np.ones(2), radii], axis=1)
+        on_gears = -(operator.jacobian.T @ forces)[:6].reshape(2, 3) * np.stack([np.ones(2), np.ones(2), radii], axis=1)
         (fx, fy, couple), (gx, gy, other) = on_gears
         apart = centres(paper_pair)[1] - centres(paper_pair)[0]
         assert [fx + gx, fy + gy] == pytest.approx([0.0, 0.0], abs=1e-10 * np.abs(forces).sum())
@@ -152,7 +152,7 @@ def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
 
 
 def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks, paper_pair):
-    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_rigid to those of G, to first order."""
+    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to first order."""
     differences, corner = [], corner_contact(paper_pair, 0.1)
     for steps in (2000, 4000):
         fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True, corner=corner)
@@ -162,7 +162,7 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
         n = operator.nodes
         differences.append((
             np.abs(operator.previous_compliance - operator.compliance[n:]).max() / np.abs(operator.compliance).max(),
-            np.abs(operator.previous_rigid - operator.rigid[n:]).max(),
+            np.abs(operator.previous_jacobian - operator.jacobian[n:]).max(),
         ))
     coarse, fine = np.array(differences)
     assert np.all(fine < 0.01)

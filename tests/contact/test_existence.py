@@ -9,9 +9,9 @@ from tests.contact.problems import all_open, random_problem
 
 from fenics_gears.contact.errors import MoreThanOneSolution, SelfLocking
 from fenics_gears.contact.existence import explained, locked_nodes, working
-from fenics_gears.contact.ladder import StepProblem, solve_step
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.newton import solve_sets
+from fenics_gears.contact.step_solver import StepProblem, solve_step
 from fenics_gears.contact.uniqueness import is_only_solution
 
 
@@ -23,13 +23,13 @@ def solutions(problem, sigma):
         forces, coordinates = np.zeros(2 * n), np.zeros(len(problem.load))
         try:
             solve_sets(
-                problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before,
+                problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before,
                 problem.friction, np.where(closed, slips, OPEN).astype(np.int8), forces, coordinates,
             )  # fmt: skip
         except np.linalg.LinAlgError:
             continue
-        openings = problem.gap - (problem.rigid @ coordinates - problem.compliance @ forces)[:n]
-        balance = problem.stiffness @ coordinates + problem.rigid.T @ forces - problem.load
+        openings = problem.gap - (problem.jacobian @ coordinates - problem.compliance @ forces)[:n]
+        balance = problem.stiffness @ coordinates + problem.jacobian.T @ forces - problem.load
         if forces[:n].min() >= 0.0 and openings.min() >= -1e-9 and np.abs(balance).max() <= 1e-6:
             found.append(forces)
     return found
@@ -38,7 +38,7 @@ def solutions(problem, sigma):
 def certified(problem, sigma, stiffness=None):
     stiffness = problem.stiffness if stiffness is None else stiffness
     closed = np.ones(len(sigma), dtype=bool)
-    return is_only_solution(stiffness, problem.compliance, problem.rigid, problem.friction, closed, sigma)
+    return is_only_solution(stiffness, problem.compliance, problem.jacobian, problem.friction, closed, sigma)
 
 
 @pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
@@ -52,7 +52,7 @@ def test_a_certified_solution_is_the_only_one(free):
         problem = random_problem(seed, 4, float(rng.uniform(0.05, 1.5)), coordinates=2, free=free)
         if free:
             # Arms of friction as gears have them: most of friction's moments are smaller than those of the normal forces.
-            problem.rigid[4:, 0] *= 0.3
+            problem.jacobian[4:, 0] *= 0.3
         sigma = rng.choice([-1.0, 1.0], 4)
         says = certified(problem, sigma)
         count[says] += 1
@@ -66,7 +66,7 @@ def test_a_load_held_by_contact_alone_is_the_limit_of_a_soft_spring():
     verdicts = set()
     for seed in range(200):
         problem = random_problem(seed, 4, 0.4, coordinates=2, free=True)
-        problem.rigid[4:, 0] *= 0.3
+        problem.jacobian[4:, 0] *= 0.3
         sigma = np.random.default_rng(seed).choice([-1.0, 1.0], 4)
         soft = [problem.stiffness + np.diag([spring, 0.0]) for spring in (1e-1, 1e-4)]
         verdict = certified(problem, sigma)
@@ -82,7 +82,7 @@ def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0
         stiffness=np.array([[stiffness]]),
         load=np.array([load]),
         compliance=1e-6 * np.array([[1.0, coupling], [coupling, 2.0]]),
-        rigid=np.array([[1.0], [arm]]),
+        jacobian=np.array([[1.0], [arm]]),
         gap=np.array([gap]),
         slip_before=np.array([-1.0]),
         friction=friction,
@@ -105,11 +105,11 @@ def test_friction_that_undoes_the_normal_force_locks(friction):
     solution = solve_step(problem, all_open(problem))
     assert solution.status[0] == STICK
     assert solution.forces[0] == pytest.approx((1.0 + 2e-6 * 100.0) / 3e-6, rel=1e-12)
-    weights = working(problem.rigid, problem.free_motion, solution.forces)
+    weights = working(problem.jacobian, problem.free_motion, solution.forces)
     assert weights.normal[0] == 1.0
     assert weights.sliding[0] == pytest.approx(100.0 / solution.forces[0], rel=1e-9)
     slides = replace(solution, forces=np.array([1.0, -friction]))
-    assert locked_nodes(working(problem.rigid, problem.free_motion, slides.forces)).all()
+    assert locked_nodes(working(problem.jacobian, problem.free_motion, slides.forces)).all()
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_friction_that_undoes_the_normal_force_locks(friction):
     ],
 )
 def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
-    """Of 100 000 random problems (test_ladder) the 18 without a solution say self-locking; two of them, by either reason.
+    """Of 100 000 random problems (test_step_solver) the 18 without a solution say self-locking; two of them, by either reason.
 
     The arms of forces say so by themselves: friction along the slip outweighs the normal forces.
     """
@@ -128,7 +128,7 @@ def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
     with pytest.raises(SelfLocking, match="self-locking: with a friction coefficient of 2 ") as failure:
         solve_step(problem, all_open(problem))
     assert words in failure.value.reason
-    arms = problem.rigid[nodes:, 0]
+    arms = problem.jacobian[nodes:, 0]
     assert np.any(1.0 - 2.0 * np.abs(arms) <= 0.0)
 
 

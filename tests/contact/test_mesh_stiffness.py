@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE
 
-from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.mesh_stiffness import NOTHING_TOUCHES, mesh_stiffness
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
@@ -23,7 +23,7 @@ LOAD = 7e3
 def statics(operator, load):
     """The static solution under a force (N) along the line of action on the wheel, which turns freely."""
     problem = StepProblem(
-        stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, rigid=operator.rigid, gap=operator.gap,
+        stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, jacobian=operator.jacobian, gap=operator.gap,
         slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
     )  # fmt: skip
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))

@@ -10,9 +10,9 @@ from scipy.optimize import nnls
 from tests.contact.laws_of_contact import law_residual, project
 from tests.contact.problems import all_open, random_problem
 
-from fenics_gears.contact.ladder import RUNGS, StepProblem, solve_step
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.newton import solve_sets
+from fenics_gears.contact.step_solver import METHODS, StepProblem, solve_step
 
 
 @given(st.integers(0, 10**9), st.integers(1, 12))
@@ -20,8 +20,8 @@ from fenics_gears.contact.newton import solve_sets
 def test_frictionless_step_is_the_minimum_of_the_energy(seed, nodes):
     """Other method: with q eliminated, p solves min 1/2 p^T W p - p^T d over p >= 0; SciPy's NNLS does that."""
     problem = random_problem(seed, nodes)
-    flexibility = problem.rigid @ np.linalg.solve(problem.stiffness, problem.rigid.T) + problem.compliance
-    drive = problem.rigid @ np.linalg.solve(problem.stiffness, problem.load) - problem.gap
+    flexibility = problem.jacobian @ np.linalg.solve(problem.stiffness, problem.jacobian.T) + problem.compliance
+    drive = problem.jacobian @ np.linalg.solve(problem.stiffness, problem.load) - problem.gap
     root = np.linalg.cholesky(flexibility)
     expected, _ = nnls(root.T, np.linalg.solve(root, drive))
     solution = solve_step(problem, all_open(problem))
@@ -37,10 +37,10 @@ def test_frictional_step_against_enumeration_of_all_sets():
             status = np.array(sets, dtype=np.int8)
             forces, q = np.zeros(8), np.zeros(3)
             solve_sets(
-                problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap,
+                problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap,
                 problem.slip_before, problem.friction, status, forces, q,
             )  # fmt: skip
-            u = problem.rigid @ q - problem.compliance @ forces
+            u = problem.jacobian @ q - problem.compliance @ forces
             residual = law_residual(forces, u, problem.gap, problem.slip_before, problem.friction)
             slip = u[4:] + problem.slip_before
             # law_residual calls "inside the cone" sticking; sets of zero force are told apart by the slip's sign.
@@ -78,7 +78,7 @@ def test_friction_tends_to_no_friction():
     """Row 10: the difference to mu = 0 is O(mu)."""
     plain = random_problem(7, friction=0.1)
     frictionless = StepProblem(
-        plain.stiffness, plain.load, plain.compliance[:8, :8], plain.rigid[:8], plain.gap, np.empty(0), 0.0, np.empty(0), plain.tolerance
+        plain.stiffness, plain.load, plain.compliance[:8, :8], plain.jacobian[:8], plain.gap, np.empty(0), 0.0, np.empty(0), plain.tolerance
     )
     reference = solve_step(frictionless, all_open(frictionless)).forces
     scale = np.abs(reference).max()
@@ -94,7 +94,7 @@ def test_one_contact_node_is_exact():
         stiffness=np.array([[2e5]]),
         load=np.array([5e3]),
         compliance=np.array([[3e-6]]),
-        rigid=np.ones((1, 1)),
+        jacobian=np.ones((1, 1)),
         gap=np.array([0.01]),
         slip_before=np.empty(0),
         friction=0.0,
@@ -116,7 +116,7 @@ def test_frictionless_cycle_is_solved_one_change_at_a_time():
             stiffness=np.array([[1e4]]),
             load=np.array([1e3]),
             compliance=1e-6 * (weights @ weights.T + 1e-3 * np.eye(n)),
-            rigid=np.ones((n, 1)),
+            jacobian=np.ones((n, 1)),
             gap=1e-3 * rng.random(n),
             slip_before=np.empty(0),
             friction=0.0,
@@ -125,7 +125,7 @@ def test_frictionless_cycle_is_solved_one_change_at_a_time():
         )
         start = rng.integers(0, 2, n).astype(np.int8)
         solution = solve_step(problem, start)
-        solved_by_last += RUNGS[solution.rung] == "one change at a time"
+        solved_by_last += METHODS[solution.method] == "one change at a time"
         root = np.linalg.cholesky(problem.compliance + 1e-4)
         expected, _ = nnls(root.T, np.linalg.solve(root, 0.1 - problem.gap))
         assert solution.forces == pytest.approx(expected, rel=1e-6, abs=1e-3)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.node_to_node import NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator, roll_interpolation
-from fenics_gears.contact.operator import CENTRE_COORDINATES, rigid_rows
+from fenics_gears.contact.operator import CENTRE_COORDINATES, displacement_jacobian
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.ring import rotation
@@ -61,7 +61,7 @@ def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, pap
     assert pinion[:, 1] == pytest.approx(nodes.offsets, abs=1e-9)
     assert wheel[:, 1] == pytest.approx(nodes.offsets, abs=1e-9)
     assert (wheel - pinion)[:, 0] == pytest.approx(nodes.gap, abs=sagitta)
-    assert pinion[:, 0] == pytest.approx(nodes.pinion_arm, abs=1e-9)
+    assert pinion[:, 0] == pytest.approx(nodes.pinion_lever_arm, abs=1e-9)
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -113,10 +113,10 @@ def test_last_rigid_displacement_of_the_same_material_points(paper_pair):
         place = canonical_point(paper_pair.pinion.base_radius, now[0].pinion_roll) @ rotation(now[0].place.contact_rolls[0] - turned).T
         exact = place[:, 0] / paper_pair.pinion.base_radius
         bound = np.abs(np.diff(before[0].pinion_roll)).max() ** 2 / 8.0 * (now[0].pinion_roll.max() + 0.05)
-        assert 0.1 * bound < np.abs(operator.previous_rigid[:, 2] - exact).max() < bound
-        translation = operator.previous_rigid[:, [1, 4]]
+        assert 0.1 * bound < np.abs(operator.previous_jacobian[:, 2] - exact).max() < bound
+        translation = operator.previous_jacobian[:, [1, 4]]
         assert translation == pytest.approx(np.tile([1.0, -1.0], (len(exact), 1)), abs=1e-13)
-        assert np.all(operator.previous_rigid[:, [0, 3, 6]] == 0.0)
+        assert np.all(operator.previous_jacobian[:, [0, 3, 6]] == 0.0)
 
 
 def test_published_arms_are_heights(paper_pair):
@@ -125,10 +125,10 @@ def test_published_arms_are_heights(paper_pair):
     radius = paper_pair.pinion.base_radius
     place = canonical_point(radius, now[0].pinion_roll) @ rotation(now[0].place.contact_rolls[0]).T
     n = operator.nodes
-    assert operator.rigid[:n, 2] * radius == pytest.approx(-place[:, 1], abs=1e-9)
-    assert operator.rigid[n:, 2] * radius == pytest.approx(place[:, 0], abs=1e-9)
-    involute = rigid_rows(now, operator.base_radii, (np.full(n, radius), np.full(n, operator.base_radii[1])), True)
-    assert np.abs(operator.rigid[:n, 2] - involute[:n, 2]).max() == pytest.approx(0.75 / radius, rel=1e-6)
+    assert operator.jacobian[:n, 2] * radius == pytest.approx(-place[:, 1], abs=1e-9)
+    assert operator.jacobian[n:, 2] * radius == pytest.approx(place[:, 0], abs=1e-9)
+    involute = displacement_jacobian(now, operator.base_radii, (np.full(n, radius), np.full(n, operator.base_radii[1])), True)
+    assert np.abs(operator.jacobian[:n, 2] - involute[:n, 2]).max() == pytest.approx(0.75 / radius, rel=1e-6)
 
 
 def test_no_sliver_beside_the_end_of_a_flank(paper_pair):

@@ -72,13 +72,13 @@ def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_p
         (paper_pair.wheel, 1, paper_pair.wheel.base_radius, 1.0, 5, -advance * paper_pair.rotation_ratio),
     ):
         offsets = np.concatenate([p.offsets for p in operator.pairs])
-        now = operator.arms[arm] - 1j * (radius + sign * offsets)
+        now = operator.friction_lever_arms[arm] - 1j * (radius + sign * offsets)
         earlier = now * np.exp(-1j * turn)
-        assert operator.previous_rigid[:, column] * radius == pytest.approx(earlier.real, rel=1e-12)
+        assert operator.previous_jacobian[:, column] * radius == pytest.approx(earlier.real, rel=1e-12)
 
 
 def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks):
-    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_rigid to those of G, to first order."""
+    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to first order."""
     differences = []
     for steps in (2000, 4000):
         fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True)
@@ -89,7 +89,7 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
         differences.append(
             (
                 np.abs(operator.previous_compliance - operator.compliance[n:]).max() / np.abs(operator.compliance).max(),
-                np.abs(operator.previous_rigid - operator.rigid[n:]).max(),
+                np.abs(operator.previous_jacobian - operator.jacobian[n:]).max(),
             )
         )
     coarse, fine = np.array(differences)
@@ -101,7 +101,7 @@ def test_frictionless_operators_have_no_tangential_rows(stand_in_flanks):
     """An effect that the scene does not name adds no unknowns and no arrays."""
     operator = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False).position(4).operator
     assert operator.compliance.shape == (operator.nodes, operator.nodes)
-    assert operator.sliding is None and operator.previous_compliance is None and operator.previous_rigid is None
+    assert operator.rigid_slip is None and operator.previous_compliance is None and operator.previous_jacobian is None
 
 
 def test_normal_rows_are_the_same_with_and_without_friction(stand_in_flanks, cycle):
@@ -117,10 +117,10 @@ def test_sliding_vanishes_at_the_pitch_point(cycle, paper_pair):
     """Definition of the pitch point: rigid sliding is zero there and of opposite sign on either side."""
     for step in range(STEPS):
         operator = cycle.position(step).operator
-        arm = operator.arms[0]
+        arm = operator.friction_lever_arms[0]
         expected = np.sign(arm - paper_pair.pitch_point)
         clear = np.abs(arm - paper_pair.pitch_point) > 0.1
-        assert np.array_equal(np.sign(operator.sliding[clear]), expected[clear])
+        assert np.array_equal(np.sign(operator.rigid_slip[clear]), expected[clear])
 
 
 def test_every_pair_that_can_carry_is_there(paper_pair):

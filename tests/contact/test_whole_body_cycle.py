@@ -38,7 +38,7 @@ def cycle(paper_pair, bodies, kind=WholeBodyCycle, tangential=True):
 
 
 def same(one, other) -> bool:
-    names = ("compliance", "rigid", "gap", "sliding", "previous_compliance", "previous_rigid")
+    names = ("compliance", "jacobian", "gap", "rigid_slip", "previous_compliance", "previous_jacobian")
     return np.array_equal(one.carried_from, other.carried_from) and all(
         np.array_equal(getattr(one.operator, name), getattr(other.operator, name)) for name in names
     )
@@ -52,7 +52,7 @@ def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
     for step in [*range(-1, 2 * STEPS), 40 * STEPS + 3]:
         assert same(found.position(step), expected.position(step))
     assert same(found.between(STEPS + 0.5, STEPS - 0.25), expected.between(STEPS + 0.5, STEPS - 0.25))
-    assert found.kinds == 1 and found.divisible and found.grid is GRID
+    assert found.kinds == 1 and found.traits.divisible and found.grid is GRID
     assert found.pair_number(STEPS, 0) == 1
 
 

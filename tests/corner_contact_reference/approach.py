@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from fenics_gears.contact.corner import CornerContact
-from fenics_gears.contact.ladder import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_reach
 from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.gear_compliance import flank_compliance
@@ -53,7 +53,7 @@ def solved(operator: ContactOperator, force: float) -> StepSolution:
     """The step's solution under a force (N) on the wheel's base circle; its coordinate is the wheel's arc, mm."""
     load, free = np.array([force]), np.array([np.sign(force)])
     problem = StepProblem(
-        np.zeros((1, 1)), load, operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(force)
+        np.zeros((1, 1)), load, operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(force)
     )
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))
 
@@ -62,5 +62,5 @@ def transmission_error(cycle: MeshCycle, pair: GearPair, couple: float, phase: f
     """Transmission error (rad, of the wheel) at a phase (mesh cycles), and the pinion's couple over the wheel's."""
     operator = cycle.position(round(phase * cycle.steps)).operator
     solution = solved(operator, couple / pair.wheel.base_radius)
-    arms = [float(np.sum(arm * solution.forces)) for arm in operator.normal_arms]
+    arms = [float(np.sum(arm * solution.forces)) for arm in operator.normal_lever_arms]
     return float(solution.coordinates[0]) / pair.wheel.base_radius, arms[0] / arms[1]

@@ -8,8 +8,8 @@ import xarray as xr
 from tests.docs.markdown import table
 from tests.effects.examples import EXAMPLES, text_of
 
-from fenics_gears.contact.ladder import RUNGS
-from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, conflicts, effect
+from fenics_gears.contact.step_solver import METHODS
+from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, conflicts, effect_named
 from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.read import scene_from_text
@@ -82,7 +82,7 @@ def page(result: xr.Dataset | None = None) -> str:
     lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
     lines += ["## Attributes", "", *_attributes(), ""]
     lines += [f"One attribute more for each rung of the solver's [ladder](model.md#the-ladder) that was used, the number of steps that it solved: `{RUNG}newton` and so on"]
-    lines += [f"({', '.join(RUNGS)}).", "", f"With `[accuracy] target`, one for the error of each knob: `{ESTIMATED}steps per mesh cycle` and so on."]
+    lines += [f"({', '.join(METHODS)}).", "", f"With `[accuracy] target`, one for the error of each knob: `{ESTIMATED}steps per mesh cycle` and so on."]
     return "\n".join(lines) + "\n"
 
 
@@ -100,7 +100,7 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
     for each in variables:
         name, dimensions, units, words = _row(result, each.name)
         assert (units, words) == (each.units, each.long_name), f"{each.name} is not as declared"
-        beside = f" (beside `[{effect(each.needs).written}]`)" if each.needs else ""
+        beside = f" (beside `[{effect_named(each.needs).written}]`)" if each.needs else ""
         rows.append((name, dimensions, units, words + beside))
     return table(("variable", "dimensions", "units", "is"), rows)
 

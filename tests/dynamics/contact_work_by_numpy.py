@@ -12,7 +12,7 @@ def contact_work(last: Record, record: Record) -> ContactWork:
     """The contact's work between two consecutive records."""
     nodes = _Nodes(last, record)
     rotation, changes = _normal(nodes, last, record)
-    if record.position.operator.sliding is None:
+    if record.position.operator.rigid_slip is None:
         return ContactWork(rotation, 0.0, changes)
     rotated, friction, changed = _tangential(nodes, last, record)
     return ContactWork(rotation + rotated, friction, changes + changed)
@@ -63,7 +63,7 @@ class _Nodes:
     def changed_arms(self) -> float:
         """p0 (G1 - G0) x1 + p1 (G1 - G0) x0 over the shared nodes, N mm."""
         now, before = self.both
-        change = self.record.position.operator.rigid[now] - self.last.position.operator.rigid[before]
+        change = self.record.position.operator.jacobian[now] - self.last.position.operator.jacobian[before]
         along_1, along_0 = change @ self.record.state.position, change @ self.last.state.position
         return float(self._forces_0 @ along_1 + self._forces_1 @ along_0)
 
@@ -81,7 +81,7 @@ class _Nodes:
 def _displacement(of: Record, rows: np.ndarray, columns: np.ndarray, position: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """G x - C p on `rows`, with the operators of one record and the position and forces of the other."""
     operator, loaded = of.position.operator, np.flatnonzero(forces)
-    return operator.rigid[rows] @ position - operator.compliance[rows[:, None], columns[loaded]] @ forces[loaded]
+    return operator.jacobian[rows] @ position - operator.compliance[rows[:, None], columns[loaded]] @ forces[loaded]
 
 
 def _normal(nodes: _Nodes, last: Record, record: Record) -> tuple[float, float]:
@@ -106,13 +106,13 @@ def _tangential(nodes: _Nodes, last: Record, record: Record) -> tuple[float, flo
     now, count = np.arange(operator.nodes), operator.nodes
     p_1, p_0 = record.solution.forces[count:], np.zeros(count)
     p_0[nodes.kept] = last.solution.forces[nodes.rows_before(nodes.kept_before, True)]
-    displaced = operator.previous_rigid @ last.state.position - operator.previous_compliance @ last.solution.forces
-    slip = record.solution.displacement[nodes.rows(now, True)] + operator.sliding - displaced
+    displaced = operator.previous_jacobian @ last.state.position - operator.previous_compliance @ last.solution.forces
+    slip = record.solution.displacement[nodes.rows(now, True)] + operator.rigid_slip - displaced
     u_0 = np.zeros(count)
     u_0[nodes.kept] = last.solution.displacement[nodes.rows_before(nodes.kept_before, True)]
     if len(nodes.new):
         u_0[nodes.new] = nodes.new_before(True)
-    rotation = 0.5 * float((p_0 + p_1) @ (operator.sliding - displaced + u_0))
+    rotation = 0.5 * float((p_0 + p_1) @ (operator.rigid_slip - displaced + u_0))
     friction = float(p_1 @ slip)
     changes = 0.5 * float((p_1 - p_0) @ slip)
     gone = nodes.rows_before(nodes.gone, True)

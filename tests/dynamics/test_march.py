@@ -8,7 +8,7 @@ from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.march import Marcher, Record
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
 from fenics_gears.model.drivetrain import drivetrain
 
 
@@ -62,7 +62,7 @@ def test_ctrl_c_keeps_what_was_done(paper_scene, paper_pair, stand_in_flanks):
     def interrupt(done, total):
         raise KeyboardInterrupt
 
-    march = Marcher(cycle, shafts, 1e-4, 0.0).run(100, 101, interrupt)
+    march = Marcher(cycle, EquationsOfMotion(shafts, 1e-4)).run(100, 101, interrupt)
     assert march.interrupted
     assert 1 <= len(march.records) <= 3
 
@@ -72,5 +72,5 @@ def test_only_the_last_steps_are_kept(paper_scene, paper_pair, stand_in_flanks):
     scene = frictionless(paper_scene)
     shafts = drivetrain(scene, paper_pair)
     cycle = MeshCycle(stand_in_flanks, GRID, 20, shafts.indices, tangential=False)
-    march = Marcher(cycle, shafts, 1e-4, 0.0).run(100, 41)
+    march = Marcher(cycle, EquationsOfMotion(shafts, 1e-4)).run(100, 41)
     assert [record.step for record in march.records] == list(range(60, 101))

@@ -14,7 +14,7 @@ from fenics_gears.contact.flank_gaps import FlankGaps, flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.effects import without
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.flank_errors import FlankErrors, GearErrors, Waviness
@@ -201,7 +201,7 @@ def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pa
         shafts = drivetrain(replace(scene, load=Load(load)), paper_pair)
         plain = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=False)
         gaps = flank_gaps(moved(name, deviation), paper_pair, steps)
-        record = Marcher(DeviatingCycle(plain, [gaps]), shafts, 1e-4, 0.0)._static_start(step)
+        record = Marcher(DeviatingCycle(plain, [gaps]), EquationsOfMotion(shafts, 1e-4))._static_start(step)
         return record.state.position[0], record.solution.forces, plain.position(step), record.solution.status
 
     torque = scene.load.wheel_torque

@@ -15,10 +15,10 @@ from tests.frozen_gears import GRID, frozen_marcher
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.dynamics.torque_ripple import varying_load
-from fenics_gears.effects import effect, result_variables
+from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.elasticity.cache import user_cache
@@ -170,7 +170,7 @@ def test_mean_mesh_force_while_rolling_is_the_momentum_balance(paper_scene, pape
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     shafts, clock = drivetrain(scene, paper_pair), RampClock(100.0, 140.0, 0, 6 * 50, 50)
     cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
-    marcher = Marcher(cycle, shafts, clock.duration(0, 1), 0.0, clock=clock, loads=(inertia_forces(clock, shafts, 24),))
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, clock.duration(0, 1), clock=clock, loads=(inertia_forces(clock, shafts, 24),)))
     records = list(marcher.run(6 * 50, 6 * 50 + 1).records)
     force = np.array([record.solution.forces.sum() for record in records])
     steps = np.array([clock.duration(a.step, b.step) for a, b in zip(records[:-1], records[1:])])
@@ -188,7 +188,7 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     model = model_of(replace(coarse(scene, 400, 1, start=300.0), speed_ramp=SpeedRamp(400.0)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
     # Every step is kept, but without pressures.
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.pace, model.clock, model.loads)
+    marcher = Marcher(cycle, model.equations_of_motion)
     records = marcher.run(model.steps, model.steps + 1).records
     states = np.array([record.state.position for record in records])
     error = model.drivetrain.value(states, "rotation_2") + 16 / 24 * model.drivetrain.value(states, "rotation_1")
@@ -218,7 +218,7 @@ def test_the_energy_account_closes_over_divided_steps(paper_scene, paper_pair, s
     clock = RampClock(100.0, 400.0, 0, 2 * 50, 50)
     ripple = varying_load(TorqueRipple((Harmonic(30.0, 50e3),)), shafts, 2.0 * np.pi / (24 * 50))
     loads = (inertia_forces(clock, shafts, 24), ripple)
-    marcher = Marcher(cycle, shafts, clock.duration(0, 1), 0.1, clock=clock, loads=loads)
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, clock.duration(0, 1), 0.1, clock=clock, loads=loads))
     records = [marcher.start()]
     for step in range(1, 101):
         records.append(marcher._divided(marcher.scheme(step), records[-1], step, None, 1))
@@ -256,13 +256,13 @@ def test_warnings_and_steps_go_by_the_range_of_frequencies(paper_scene):
 
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
-    """Authority: the rule of `dynamics.pace`, half the slowest period, on the ramp's true steps; above the frequency that the warning
+    """Authority: the rule of `dynamics.time_scales`, half the slowest period, on the ramp's true steps; above the frequency that the warning
     names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as its frequency would have."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
-    assert not model_of(crawl).pace.samples_vibration
+    assert not model_of(crawl).time_scales.samples_vibration
     (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]
     needed = float(re.search(r"above ([\d.e+]+) Hz", said)[1])
-    assert model_of(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).pace.samples_vibration
+    assert model_of(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).time_scales.samples_vibration
     steady = 1.0 / (0.01 * model_of(crawl).resolution.steps_per_mesh_cycle)
     assert model_of(crawl).time_step < 0.01 * steady
 
@@ -271,7 +271,7 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene):
     """House rule 9: no variable, one clock of equal steps, no import."""
     model = model_of(paper_scene)
     assert isinstance(model.clock, SteadyClock) and model.loads == ()
-    assert not {variable.name for variable in effect("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
+    assert not {variable.name for variable in effect_named("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
     program = (
         "import sys; from fenics_gears import load_scene; from fenics_gears.model.model import model_of\n"
         f"model = model_of(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r})); model.clock, model.loads\n"

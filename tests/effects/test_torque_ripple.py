@@ -112,7 +112,7 @@ def tied(marcher, shafts):
     """Stiffness (k, k), N/mm, of drivetrain and contact with the nodes that are closed at rest; and the record at rest."""
     rest = marcher.start()
     operator, closed = rest.position.operator, np.flatnonzero(rest.solution.status != OPEN)
-    rigid = operator.rigid[closed]
+    rigid = operator.jacobian[closed]
     return shafts.stiffness + rigid.T @ np.linalg.solve(operator.compliance[np.ix_(closed, closed)], rigid), rest
 
 
@@ -165,7 +165,7 @@ def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, sta
         closed = rest.solution.status
         operator, nodes = rest.position.operator, np.flatnonzero(closed != OPEN)
         forces = rest.solution.forces.copy()
-        forces[nodes] += np.linalg.solve(operator.compliance[np.ix_(nodes, nodes)], operator.rigid[nodes] @ answer.real)
+        forces[nodes] += np.linalg.solve(operator.compliance[np.ix_(nodes, nodes)], operator.jacobian[nodes] @ answer.real)
         record, positions = Record(0, start, rest.position, replace(rest.solution, forces=forces)), []
         for step in range(1, 2 * count + 1):
             record = marcher.step(marcher.dynamic, record, step)

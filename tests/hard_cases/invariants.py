@@ -9,7 +9,7 @@ import xarray as xr
 from tests.contact.laws_of_contact import law_residual
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.operator import rigid_rows
+from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import Model
 from fenics_gears.results import dataset
@@ -42,8 +42,7 @@ def run_of(model: Model, compliances: Compliances | None) -> Run:
     """March a scene on given gears (None: rigid ones) and keep every step; its result is made too, and is of numbers where it can be."""
     cycle = rigid_cycle(model) if compliances is None else mesh_cycle(model, compliances)
     without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
-    friction = model.scene.friction.coefficient if model.scene.friction else 0.0
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, friction, model.pace, model.clock, model.loads)
+    marcher = Marcher(cycle, model.equations_of_motion)
     recorder = Recorder(model, cycle)
     try:
         march, failure = marcher.run(model.steps, model.steps + 1, observe=recorder.take), None
@@ -76,7 +75,7 @@ def step_residuals(run: Run, before, record) -> dict[str, float]:
     """
     operator, forces = record.position.operator, record.solution.forces
     n = operator.nodes
-    displacement = operator.rigid @ record.state.position - operator.compliance @ forces
+    displacement = operator.jacobian @ record.state.position - operator.compliance @ forces
     slip_before = None if before is None else _slip_before(operator, before)
     laws = law_residual(forces, displacement, operator.gap, slip_before, run.friction)
     load = float(np.abs(run.model.drivetrain.load).max())
@@ -98,16 +97,16 @@ def step_residuals(run: Run, before, record) -> dict[str, float]:
 
 
 def _slip_before(operator, before) -> np.ndarray | None:
-    if operator.sliding is None:
+    if operator.rigid_slip is None:
         return None
-    return operator.sliding - (operator.previous_rigid @ before.state.position - operator.previous_compliance @ before.solution.forces)
+    return operator.rigid_slip - (operator.previous_jacobian @ before.state.position - operator.previous_compliance @ before.solution.forces)
 
 
 def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, float]:
     """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero, whatever the forces are."""
     pair = run.model.pair
     (radius_1, radius_2), frictional = operator.base_radii, len(forces) > operator.nodes
-    rows = rigid_rows(operator.pairs, operator.base_radii, operator.normal_arms, tangential=frictional)
+    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential=frictional)
     on_pinion, on_wheel = -(rows.T @ forces)[:3], -(rows.T @ forces)[3:6]
     total = float(np.abs(forces).sum()) or 1.0
     # In the frame of the drive flanks' line of action, the wheel's centre seen from the pinion's.
@@ -130,7 +129,7 @@ def _equilibrium(run: Run, record, force: float) -> dict[str, float]:
         return {}
     operator = record.position.operator
     springs = train.stiffness @ record.state.position
-    left = springs + operator.rigid.T @ record.solution.forces - run.marcher.load(record.step)
+    left = springs + operator.jacobian.T @ record.solution.forces - run.marcher.load(record.step)
     # Round-off of stiff springs' forces is part of what they carry.
     scale = max(force, float(np.abs(train.stiffness).max() * np.abs(record.state.position).max()))
     return {"equilibrium": float(np.abs(left).max()) / scale}

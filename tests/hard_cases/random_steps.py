@@ -9,7 +9,7 @@ from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import random_problem
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.ladder import RUNGS, StepProblem, StepSolution, solve_step
+from fenics_gears.contact.step_solver import METHODS, StepProblem, StepSolution, solve_step
 
 REASONS = ("no equilibrium", "self-locking", "more than one solution")
 
@@ -32,7 +32,7 @@ def solved(problem: StepProblem, start: np.ndarray) -> StepSolution | None:
         event(failure.reason.split(":")[0])
         assert problem.friction > 0.0 and failure.reason.startswith(REASONS), str(failure)
         return None
-    event(RUNGS[solution.rung])
+    event(METHODS[solution.method])
     return solution
 
 
@@ -63,13 +63,13 @@ def judged_steps(measured, drawn, limits, examples: int) -> None:
 def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]:
     """How far a solution misses the laws: lengths in um, forces in parts of the largest force, works of that times the largest length."""
     forces, n = solution.forces, len(problem.gap)
-    deflection, moved = problem.compliance @ forces, problem.rigid @ solution.coordinates
+    deflection, moved = problem.compliance @ forces, problem.jacobian @ solution.coordinates
     displacement = moved - deflection
     slip_before = problem.slip_before if problem.friction else None
     laws = law_residual(forces, displacement, problem.gap, slip_before, problem.friction)
     force = max(float(np.abs(forces).max()), float(np.abs(problem.load).max()))
     length = max(float(np.abs(each).max()) for each in (problem.gap, moved, deflection))
-    balance = problem.stiffness @ solution.coordinates + problem.rigid.T @ forces - problem.load
+    balance = problem.stiffness @ solution.coordinates + problem.jacobian.T @ forces - problem.load
     found = {
         "penetration": 1e3 * laws["penetration"],
         "tension": laws["tension"] / force,

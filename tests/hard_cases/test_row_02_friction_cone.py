@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from tests.contact.problems import all_open, random_problem
 from tests.hard_cases.random_steps import judged_steps, steps
 
-from fenics_gears.contact.ladder import solve_step
+from fenics_gears.contact.step_solver import solve_step
 
 # Of hard_cases.md and model.md section 4.
 LIMITS = {
@@ -34,7 +34,7 @@ def test_friction_dissipates_what_it_bounds(measured):
     for seed in range(200):
         problem = random_problem(seed, 6, friction=0.2)
         solution = solve_step(problem, all_open(problem))
-        slip = (problem.rigid @ solution.coordinates - problem.compliance @ solution.forces)[6:] + problem.slip_before
+        slip = (problem.jacobian @ solution.coordinates - problem.compliance @ solution.forces)[6:] + problem.slip_before
         lost = solution.forces[6:] * slip
         full = 0.2 * solution.forces[:6] * np.abs(slip)
         scale = np.abs(solution.forces).max() * np.abs(slip).max()

@@ -9,8 +9,8 @@ import pytest
 from tests.two_blocks import block_mesh, collocation, flank_of, straight_interpolation
 
 from fenics_gears.contact.interpolation import hat_integrals
-from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.elasticity.elements import ELEMENTS
 
 POISSONS_RATIO, FORCE, HEIGHTS = 0.3, 1e-3, (1.0, 0.6)
@@ -30,7 +30,7 @@ def pressed(name: str, along, offsets, interpolation):
         weights = interpolation(offsets, places, order, sense)
         compliance += weights @ flank @ weights.T
     problem = StepProblem(
-        stiffness=np.zeros((1, 1)), load=np.array([FORCE]), compliance=compliance, rigid=np.ones((len(offsets), 1)),
+        stiffness=np.zeros((1, 1)), load=np.array([FORCE]), compliance=compliance, jacobian=np.ones((len(offsets), 1)),
         gap=np.zeros(len(offsets)), slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1),
         tolerance=Tolerance(1e-12, 1e-12),
     )  # fmt: skip

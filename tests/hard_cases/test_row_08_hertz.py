@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from tests.coarse import frictionless, teeth_alone
 
-from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.operator import CompliancePairing, contact_operator
 from fenics_gears.contact.pressure import peak_pressures, without_oscillation
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
@@ -73,7 +73,7 @@ def pressed(flanks, xi, force, spacing, length):
     nodes = tooth_pair(flanks, ContactGrid(cells * spacing, cells + 1), drive_place(flanks.pair, 0, xi))
     operator = contact_operator(flanks, CompliancePairing(flanks), (nodes,), coordinates=[5])
     problem = StepProblem(
-        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, np.ones(1),
+        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, np.ones(1),
         Tolerance.of_load(force),
     )  # fmt: skip
     solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))

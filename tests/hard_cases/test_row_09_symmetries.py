@@ -8,10 +8,10 @@ from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 from tests.coarse_sector import relative
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import pair_places
 from fenics_gears.contact.operator import CompliancePairing, contact_operator
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
@@ -46,7 +46,7 @@ def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
     operator = contact_operator(flanks, pairing, pairs, coordinates=[5])
     load, free = np.array([force]), np.array([np.sign(force)])
     problem = StepProblem(
-        np.zeros((1, 1)), load, operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(abs(force))
+        np.zeros((1, 1)), load, operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(abs(force))
     )
     solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
     return solution.coordinates[0], solution.forces

@@ -46,7 +46,7 @@ def test_frictionless_scene_has_nothing_tangential(paper_scene, measured):
     tangential = [name for name in result.data_vars if "friction" in name or "traction" in name]
     measured("frictionless: tangential unknowns, motion off the line of action", f"{surplus}, {motion:.1g} mm", "0, 0")
     assert surplus == 0
-    assert all(operator.sliding is None and operator.previous_compliance is None for operator in operators)
-    assert all(len(operator.rigid) == operator.nodes for operator in operators)
+    assert all(operator.rigid_slip is None and operator.previous_compliance is None for operator in operators)
+    assert all(len(operator.jacobian) == operator.nodes for operator in operators)
     assert motion == 0.0
     assert tangential == []

@@ -40,7 +40,7 @@ def with_torque(scene, part):
     model = model_of(scene)
     _, cycle = prepared(model, SilentProgress(), user_cache())
     change = (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, 0.0, model.pace, model.clock, change)
+    marcher = Marcher(cycle, replace(model.equations_of_motion, loads=change))
     recorder = Recorder(model, cycle, loads=change)
     return dataset(recorder, marcher.run(model.steps, 1, observe=recorder.take))
 

@@ -9,11 +9,11 @@ from tests.contact.problems import all_open, random_problem
 from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.errors import NoStaticEquilibrium
-from fenics_gears.contact.ladder import solve_step
 from fenics_gears.contact.mesh_cycle import MeshCycle, Position
+from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.march import Marcher, Record
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
 from fenics_gears.model.drivetrain import drivetrain
 
 
@@ -84,7 +84,7 @@ def test_a_static_load_that_opens_all_gaps_is_named(absent, frictional, paper_sc
     scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque))
     shafts = drivetrain(scene, paper_pair)
     cycle = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), 40, shafts.indices, tangential=frictional)
-    marcher = Marcher(cycle, shafts, 1e-4, scene.friction.coefficient if frictional else 0.0)
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, scene.friction.coefficient if frictional else 0.0))
     with pytest.raises(NoStaticEquilibrium) as failure:
         marcher.run(1, 2)
     measured(f"error, {'friction' if frictional else 'frictionless'}", failure.value.reason, "names load and free motion")
@@ -100,7 +100,7 @@ def test_a_position_where_nothing_can_touch_is_named(paper_scene, paper_pair, st
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
     start, k = marcher.start(), len(shafts.coordinates)
     empty = SimpleNamespace(
-        nodes=0, compliance=np.zeros((0, 0)), rigid=np.zeros((0, k)), gap=np.empty(0), sliding=None,
+        nodes=0, compliance=np.zeros((0, 0)), jacobian=np.zeros((0, k)), gap=np.empty(0), rigid_slip=None,
     )  # fmt: skip
     marcher.cycle.position = lambda step: Position(empty, np.empty(0, dtype=np.int64))
     with pytest.raises(NoStaticEquilibrium) as failure:

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
-from fenics_gears.contact.ladder import StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.operator import CompliancePairing, contact_operator
 from fenics_gears.contact.rank import dependent_rows
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
@@ -38,7 +38,7 @@ def flanks(model):
 def pressed(operator, force):
     """Only the wheel turns, under `force` (N)."""
     problem = StepProblem(
-        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.rigid, operator.gap, np.empty(0), 0.0, np.ones(1),
+        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, np.ones(1),
         Tolerance.of_load(force),
     )  # fmt: skip
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))
@@ -51,7 +51,7 @@ def only(operator, node):
         operator,
         pairs=(replace(operator.pairs[0], offsets=operator.pairs[0].offsets[kept]),),
         compliance=np.ascontiguousarray(operator.compliance[kept, kept]),
-        rigid=np.ascontiguousarray(operator.rigid[kept]),
+        jacobian=np.ascontiguousarray(operator.jacobian[kept]),
         gap=operator.gap[kept],
     )
 

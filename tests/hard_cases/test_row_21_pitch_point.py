@@ -9,7 +9,7 @@ import pytest
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.model.drivetrain import drivetrain
 
 BESIDE = (0.0, 1e-12, -1e-12)
@@ -35,13 +35,13 @@ def past_the_pitch_point(scene, pair, flanks, beside, steps):
     shafts = drivetrain(scene, pair)
     cycle = Shifted(flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=True)
     cycle.beside = beside
-    return Marcher(cycle, shafts, 1.0 / (200.0 * steps), scene.friction.coefficient).run(AT + AFTER, AT + AFTER + 1)
+    return Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * steps), scene.friction.coefficient)).run(AT + AFTER, AT + AFTER + 1)
 
 
 def on_line(record):
     """Rigid slip (mm) over the step where the pair at the pitch point touches, on the line of action."""
     operator = record.position.operator
-    return float(np.abs(operator.sliding).min())
+    return float(np.abs(operator.rigid_slip).min())
 
 
 @pytest.mark.parametrize("friction", [0.1, 0.3])
@@ -57,7 +57,7 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     marches = [past_the_pitch_point(scene, paper_pair, stand_in_flanks, beside, FINE) for beside in BESIDE]
     courses, forces = set(), []
     for march in marches:
-        assert sum(march.rungs.values()) == AT + AFTER
+        assert sum(march.steps_by_method.values()) == AT + AFTER
         statuses = np.array([record.solution.status for record in march.records])
         courses |= {tuple(int(status) for status, _ in itertools.groupby(course)) for course in statuses.T}
         forces.append(np.array([record.solution.forces for record in march.records]))
@@ -65,7 +65,7 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     total = forces[0][:, n:].sum(axis=1)
     difference = max(np.abs(other - forces[0]).max() for other in forces[1:]) / np.abs(forces[0]).max()
     case = f"{'quasi-static' if changes else 'dynamic'}, {'rigid' if absent else 'elastic'} shafts, mu = {friction:g}"
-    rungs = ", ".join(f"{count} by {rung}" for rung, count in marches[0].rungs.items() if count)
+    rungs = ", ".join(f"{count} by {rung}" for rung, count in marches[0].steps_by_method.items() if count)
     measured(f"{case}: rigid slip where a step lands on the pitch point", on_line(marches[0].records[AT]), "that of the nodes' width", "mm")
     measured(f"{case}: steps", rungs, "none fails")
     measured(f"{case}: forces 1e-12 mm beside, of the largest", difference, "1e-9")
@@ -89,5 +89,5 @@ def test_no_step_fails_at_the_pitch_point(changes, steps, paper_scene, paper_pai
     difference = max(np.abs(other - last[0]).max() for other in last[1:]) / np.abs(last[0]).max()
     case = f"{'quasi-static' if changes else 'dynamic'}, {steps} steps a cycle"
     measured(f"{case}: coordinates 1e-12 mm beside, of the largest", difference, "1e-9")
-    assert [sum(march.rungs.values()) for march in marches] == 3 * [AT + AFTER]
+    assert [sum(march.steps_by_method.values()) for march in marches] == 3 * [AT + AFTER]
     assert difference <= 1e-9

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
 
-from fenics_gears.contact.ladder import LADDER
+from fenics_gears.contact.step_solver import NEWTON_AND_FALLBACKS
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.backward_euler import BackwardEuler
 from fenics_gears.dynamics.march import Marcher
@@ -66,7 +66,7 @@ def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coar
     for mesh_frequency in np.geomspace(0.01, 20e3, 40):
         model = model_of(at(coarse, mesh_frequency))
         steps = model.vibrations[0].steps_per_period(model.time_step)
-        marcher = Marcher(_AnyCycle(model.pair), model.drivetrain, model.time_step, 0.1, model.pace)
+        marcher = Marcher(_AnyCycle(model.pair), model.equations_of_motion)
         assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
     slowest = model_of(coarse).vibrations[0].frequency
     measured("mesh frequency below which backward Euler steps, 40 steps a cycle", 2.0 * slowest / 40, "2 f0/steps", "Hz")
@@ -128,7 +128,7 @@ def swept(scene, mesh_frequencies, frictions, cycles):
 
 
 def _told(runs, steps, rungs):
-    climbed = ", ".join(f"{name} {count}" for name, count in rungs.items() if name != LADDER[0]) or "none"
+    climbed = ", ".join(f"{name} {count}" for name, count in rungs.items() if name != NEWTON_AND_FALLBACKS[0]) or "none"
     return f"none in {steps} steps of {runs} runs; steps that left the first rung: {climbed}"
 
 

@@ -25,7 +25,7 @@ def pushed(marcher, shafts, speed):
 def tied_solution(rest, shafts, closed, push, duration):
     """Motion (k,), mm, from rest with the nodes `closed` held closed: the matrix exponential of a linear system."""
     operator = rest.position.operator
-    rigid = operator.rigid[closed]
+    rigid = operator.jacobian[closed]
     contact = rigid.T @ np.linalg.solve(operator.compliance[np.ix_(closed, closed)], rigid)
     k = len(push)
     inverse = np.linalg.inv(shafts.mass)

@@ -33,7 +33,7 @@ def marched(paper_scene):
     model = model_of(replace(coarse_scene(paper_scene), coast_flanks=CoastFlanks(), motion=Motion(200.0, 4, 2)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
     recorder = Recorder(model, cycle)
-    marcher = Marcher(cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient, model.pace, model.clock)
+    marcher = Marcher(cycle, model.equations_of_motion)
     march = marcher.run(model.steps, model.steps + 1, observe=recorder.take)
     assert model.steps > AT_ONCE
     return model, cycle, march.records, results.dataset(recorder, march)

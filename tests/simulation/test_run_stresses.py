@@ -10,7 +10,7 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 from fenics_gears import results
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.flank_forces import sector_of, unmirrored
-from fenics_gears.contact.operator import rigid_rows
+from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
@@ -51,7 +51,7 @@ def test_flanks_touch_where_the_pressure_is(run, stresses):
         arms = tuple(np.full(sum(len(each.offsets) for each in stored.pairs), radius) for radius in radii)
         motion = hub_motion(result, index)
         motion[:, 2] *= radii
-        approach = (rigid_rows(stored.pairs, radii, arms, tangential=False)[:, :6] @ motion.ravel()).copy()
+        approach = (displacement_jacobian(stored.pairs, radii, arms, tangential=False)[:, :6] @ motion.ravel()).copy()
         start = 0
         for touching, force in zip(stored.pairs, stored.forces):
             nodes = slice(start, start + len(touching.offsets))

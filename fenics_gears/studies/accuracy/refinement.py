@@ -141,7 +141,7 @@ def _order_in_time(scene: Scene) -> tuple[float, str]:
         return 1.0, "slip over a step stands for the rate of slip, and reverses a step late: h"
     if model.drivetrain.mass is None:
         return 1.5, "straight lines across the kinks where pairs come and go: h^1.5 in L2"
-    return (2.0, "average acceleration: h^2") if model.pace.averages_acceleration else (1.0, "backward Euler: h")
+    return (2.0, "average acceleration: h^2") if model.time_scales.averages_acceleration else (1.0, "backward Euler: h")
 
 
 def _levels(base: Setting, field: str, values, unit: float) -> tuple[Level, ...]:

@@ -127,9 +127,7 @@ class Point:
 
     def _march(self, cycle):
         model = self.model
-        marcher = Marcher(
-            cycle, model.drivetrain, model.time_step, model.scene.friction.coefficient, model.pace, model.clock, model.loads,
-        )  # fmt: skip
+        marcher = Marcher(cycle, model.equations_of_motion)
         return marcher.run(model.steps, model.contact_steps)
 
 

@@ -63,7 +63,7 @@ def test_every_section_is_there_and_says_what_the_result_holds(report, run):
         "Energy held",
     }
     assert wanted <= set(captions(page))
-    assert {"The pair", "Largest pressure of a contact node", "Largest tension in the fillets of either gear"} <= set(captions(page))
+    assert {"The pair", "Largest contact pressure", "Largest tension in the fillets of either gear"} <= set(captions(page))
     assert sum(each.startswith("Transmission error on the wheel's base circle") for each in captions(page)) == 1
     assert any(each.startswith("Contact pressure") for each in captions(page))
     pictures = [attributes for tag, attributes in page.tags if tag == "img"]

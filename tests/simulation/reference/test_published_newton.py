@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.ladder import PUBLISHED, StepProblem, cold_start, solve_step
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.published_newton import BETA, GAMMA, MOST_HALVINGS, Equations, iterates, merit
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, cold_start, solve_step
+from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
@@ -37,7 +37,7 @@ def random_problem(seed, tangential=True, friction=0.2):
         stiffness=stiffness,
         load=load,
         compliance=compliance,
-        rigid=rigid,
+        jacobian=rigid,
         gap=generator.uniform(0.0, 0.02, NODES),
         slip_before=generator.normal(size=NODES) * 0.02 if tangential else np.empty(0),
         friction=friction if tangential else 0.0,
@@ -119,7 +119,7 @@ def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, refere
     cycle = reference_route(model, SilentProgress(), reference_cache)[1]
     pulled = replace(model.drivetrain, load=-model.drivetrain.load)
     with pytest.raises(ContactNotConverged, match="no equilibrium") as caught:
-        Marcher(cycle, pulled, model.time_step, 0.0).run(2, 2)
+        Marcher(cycle, EquationsOfMotion(pulled, model.time_step)).run(2, 2)
     attempts = caught.value.attempts
     assert [name for name, *_ in attempts][:2] == [PUBLISHED, "newton"]
     assert all(np.all(np.isfinite(history)) for _, _, history, _ in attempts)

@@ -8,7 +8,7 @@ import numpy as np
 
 
 @dataclass(frozen=True)
-class Pace:
+class TimeScales:
     """What the time step samples and the mesh leaves time for.
 
     `samples_vibration`: two steps or more in a period of the slowest vibration, below which no sampling can hold one.
@@ -27,12 +27,12 @@ class Pace:
         return self.samples_vibration and not self.impulsive
 
 
-FOLLOWING = Pace()
+FOLLOWING = TimeScales()
 
 
-def pace(elastic_frequencies: np.ndarray, mesh_frequency: float, time_step: float) -> Pace:
-    """The pace of a mesh frequency (Hz) and a step (s) among a drivetrain's elastic natural frequencies (Hz), ascending."""
-    return Pace(
+def time_scales(elastic_frequencies: np.ndarray, mesh_frequency: float, time_step: float) -> TimeScales:
+    """The time scales of a mesh frequency (Hz) and a step (s) among a drivetrain's elastic natural frequencies (Hz), ascending."""
+    return TimeScales(
         samples_vibration=2.0 * time_step * elastic_frequencies[0] <= 1.0,
         follows_statics=mesh_frequency < elastic_frequencies[0],
         outruns_vibration=mesh_frequency > elastic_frequencies[-1],

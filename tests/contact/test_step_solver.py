@@ -16,16 +16,16 @@ from tests.contact.problems import all_open, random_problem, reversing_problem
 from tests.contact.sliding_block import block_at_rest
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
-from fenics_gears.contact.ladder import HALVED, LADDER, RUNGS, StepProblem, _rungs, cold_start, run_newton, solve_step
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.newton import CONVERGED
+from fenics_gears.contact.step_solver import HALVED, METHODS, NEWTON_AND_FALLBACKS, StepProblem, _methods, cold_start, run_newton, solve_step
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import MOST_HALVINGS, Marcher
+from fenics_gears.dynamics.march import MOST_HALVINGS, EquationsOfMotion, Marcher
 from fenics_gears.model.drivetrain import drivetrain
 
 # rung: (seed, nodes, friction, free)
@@ -51,9 +51,9 @@ def problem_of(seed, nodes, friction, free):
 
 def check_laws(problem, solution):
     """Equilibrium and the laws of contact, from the solution's forces and coordinates alone."""
-    displacement = problem.rigid @ solution.coordinates - problem.compliance @ solution.forces
+    displacement = problem.jacobian @ solution.coordinates - problem.compliance @ solution.forces
     residual = law_residual(solution.forces, displacement, problem.gap, problem.slip_before, problem.friction)
-    imbalance = problem.stiffness @ solution.coordinates + problem.rigid.T @ solution.forces - problem.load
+    imbalance = problem.stiffness @ solution.coordinates + problem.jacobian.T @ solution.forces - problem.load
     assert max(residual.values()) <= 1e-9
     assert np.abs(imbalance).max() <= 1e-9 * np.abs(problem.load).max()
 
@@ -62,10 +62,10 @@ def check_laws(problem, solution):
 def test_every_rung_is_needed_by_some_step(rung, problem):
     """Each rung solves, to the laws written out, a step on which every rung before it was tried and failed."""
     problem = problem_of(*problem)
-    outcomes = [attempt()[0][0] for index, attempt in _rungs(problem, all_open(problem), 40) if index < LADDER.index(rung)]
-    assert len(outcomes) == LADDER.index(rung) and CONVERGED not in outcomes
+    outcomes = [attempt()[0][0] for index, attempt in _methods(problem, all_open(problem), 40) if index < NEWTON_AND_FALLBACKS.index(rung)]
+    assert len(outcomes) == NEWTON_AND_FALLBACKS.index(rung) and CONVERGED not in outcomes
     solution = solve_step(problem, all_open(problem))
-    assert RUNGS[solution.rung] == rung
+    assert METHODS[solution.method] == rung
     check_laws(problem, solution)
 
 
@@ -86,11 +86,11 @@ def close_nodes(nodes=40, elements=15):
 def test_nodes_that_elasticity_hardly_tells_apart_are_solved(nodes, elements):
     """Newton and Murty's rule repeat their sets; the convex programme finds those that obey the laws."""
     problem = close_nodes(nodes, elements)
-    outcomes = [attempt()[0][0] for index, attempt in _rungs(problem, all_open(problem), 40) if index < LADDER.index("Tresca fixed point")]
+    outcomes = [attempt()[0][0] for index, attempt in _methods(problem, all_open(problem), 40) if index < NEWTON_AND_FALLBACKS.index("Tresca fixed point")]
     assert len(outcomes) == 2 and CONVERGED not in outcomes
     solution = solve_step(problem, all_open(problem))
-    assert RUNGS[solution.rung] == "Tresca fixed point"
-    opening = problem.gap - (problem.rigid @ solution.coordinates - problem.compliance @ solution.forces)
+    assert METHODS[solution.method] == "Tresca fixed point"
+    opening = problem.gap - (problem.jacobian @ solution.coordinates - problem.compliance @ solution.forces)
     assert solution.forces.sum() == pytest.approx(3000.0, rel=1e-9)
     assert opening.min() >= -problem.tolerance.length and solution.forces.min() >= -problem.tolerance.force
     assert np.abs(opening * solution.forces).max() <= problem.tolerance.length * 3000.0
@@ -102,7 +102,7 @@ def test_slip_that_reverses_all_at_once_goes_through_stick():
     (outcome, *_), _ = run_newton(problem, start, 40)
     assert outcome != CONVERGED
     solution = solve_step(problem, start)
-    assert RUNGS[solution.rung] == "slip through stick"
+    assert METHODS[solution.method] == "slip through stick"
     check_laws(problem, solution)
 
 
@@ -112,15 +112,15 @@ def test_frozen_friction_is_the_bounded_minimum_of_the_energy(seed, nodes):
     """Other method: with q eliminated the programme is bounded least squares; SciPy's active-set method solves that."""
     problem = random_problem(seed, nodes, friction=0.5)
     bounds = 3e3 * np.random.default_rng(seed).random(nodes)
-    flexibility = problem.rigid @ np.linalg.solve(problem.stiffness, problem.rigid.T) + problem.compliance
-    drive = problem.rigid @ np.linalg.solve(problem.stiffness, problem.load)
+    flexibility = problem.jacobian @ np.linalg.solve(problem.stiffness, problem.jacobian.T) + problem.compliance
+    drive = problem.jacobian @ np.linalg.solve(problem.stiffness, problem.load)
     drive += np.concatenate((-problem.gap, problem.slip_before))
     root = np.linalg.cholesky(flexibility)
     limits = np.concatenate((np.zeros(nodes), -bounds)), np.concatenate((np.full(nodes, np.inf), bounds))
     expected = lsq_linear(root.T, np.linalg.solve(root, drive), limits, method="bvls", tol=1e-14).x
     frozen = frozen_friction(problem, bounds)
     assert frozen.forces == pytest.approx(expected, rel=1e-6, abs=1e-6 * np.abs(expected).max())
-    coordinates = np.linalg.solve(problem.stiffness, problem.load - problem.rigid.T @ frozen.forces)
+    coordinates = np.linalg.solve(problem.stiffness, problem.load - problem.jacobian.T @ frozen.forces)
     assert frozen.coordinates == pytest.approx(coordinates, rel=1e-6, abs=1e-6 * np.abs(coordinates).max())
 
 
@@ -131,12 +131,12 @@ def test_a_step_without_a_solution_is_divided():
         solve_step(problem, all_open(problem))
     marcher, rest = block_at_rest(problem, all_open(problem))
     record = marcher.step(marcher.dynamic, rest, 1)
-    assert RUNGS[record.solution.rung] == HALVED
+    assert METHODS[record.solution.method] == HALVED
     assert marcher.cycle.solved == [1, 1, 0.5, 0.5]  # the state before is a position too
     # The last half: its own slip, from the tangents that its first half left.
     half, (middle, last) = AverageAcceleration(marcher.drivetrain, 0.5 * marcher.time_step), record.parts
     assert (middle.step, last.step) == (0.5, 1)
-    tangential = problem.rigid[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
+    tangential = problem.jacobian[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
     second = replace(
         problem, stiffness=half.stiffness, load=half.load(middle.state), slip_before=0.5 * problem.slip_before - tangential
     )
@@ -148,7 +148,7 @@ def jammed(scene, pair, flanks, absent, nodes, steps):
     scene = replace(scene, inertia=None, damping=None, **dict.fromkeys(absent))
     shafts = drivetrain(scene, pair)
     cycle = MeshCycle(flanks, ContactGrid(2.0, nodes), steps, shafts.indices, tangential=True)
-    return Marcher(cycle, shafts, 1e-3, 5.0).run(2 * steps, 2 * steps + 1)
+    return Marcher(cycle, EquationsOfMotion(shafts, 1e-3, 5.0)).run(2 * steps, 2 * steps + 1)
 
 
 @pytest.mark.parametrize("absent, nodes", [(("shafts",), 5), (("bearings",), 13)])
@@ -158,13 +158,13 @@ def test_gears_that_jam_need_divided_steps(absent, nodes, paper_scene, paper_pai
     Every part of every step obeys the laws written out.
     """
     march = jammed(paper_scene, paper_pair, stand_in_flanks, absent, nodes, 20)
-    assert march.rungs[HALVED] >= 1 and sum(march.rungs.values()) == 40
+    assert march.steps_by_method[HALVED] >= 1 and sum(march.steps_by_method.values()) == 40
     passed = [part for record in march.records for part in record.parts or (record,)]
     for last, record in zip(passed[:-1], passed[1:]):
         operator, forces = record.position.operator, record.solution.forces
-        tangential = operator.previous_rigid @ last.state.position - operator.previous_compliance @ last.solution.forces
-        displacement = operator.rigid @ record.state.position - operator.compliance @ forces
-        residual = law_residual(forces, displacement, operator.gap, operator.sliding - tangential, 5.0)
+        tangential = operator.previous_jacobian @ last.state.position - operator.previous_compliance @ last.solution.forces
+        displacement = operator.jacobian @ record.state.position - operator.compliance @ forces
+        residual = law_residual(forces, displacement, operator.gap, operator.rigid_slip - tangential, 5.0)
         assert max(residual["penetration"], residual["stick_slip"]) <= 1e-7
         assert max(residual["tension"], residual["cone_excess"]) <= 1e-6 * np.abs(forces).max()
         assert residual["wrong_way"] <= 1e-10 * np.abs(forces).max()
@@ -174,7 +174,7 @@ def test_gears_that_lock_say_so(paper_scene, paper_pair, stand_in_flanks):
     """One of the three marches of those 2000 that end without a solution, even in steps 64 times as short: typed, with the reason."""
     with pytest.raises(SelfLocking, match="self-locking: with a friction coefficient of 5 ") as failure:
         jammed(paper_scene, paper_pair, stand_in_flanks, ("bearings",), 13, 40)
-    assert [attempt[0] for attempt in failure.value.attempts] == [*LADDER, HALVED]
+    assert [attempt[0] for attempt in failure.value.attempts] == [*NEWTON_AND_FALLBACKS, HALVED]
     assert len(failure.value.partial.records) == failure.value.step
 
 
@@ -211,8 +211,8 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
     coarse, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, steps)
     coarse.longest = longest
     fine, _ = cycle_of(MeshCycle, scene, paper_pair, stand_in_flanks, parts * steps)
-    divided = Marcher(coarse, shafts, 1e-3 / steps, 0.1)
-    whole = Marcher(fine, shafts, 1e-3 / steps / parts, 0.1)
+    divided = Marcher(coarse, EquationsOfMotion(shafts, 1e-3 / steps, 0.1))
+    whole = Marcher(fine, EquationsOfMotion(shafts, 1e-3 / steps / parts, 0.1))
     start = whole.start()
     a = b = replace(start, position=coarse.position(0))
     b = replace(b, position=fine.position(0))
@@ -220,7 +220,7 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
         a = divided.step(divided.dynamic, a, step)
         for part in range(parts):
             b = whole.step(whole.dynamic, b, parts * (step - 1) + part + 1)
-        assert RUNGS[a.solution.rung] == HALVED
+        assert METHODS[a.solution.method] == HALVED
         assert a.state.position == pytest.approx(b.state.position, rel=1e-10, abs=1e-12)
         assert a.solution.forces == pytest.approx(b.solution.forces, rel=1e-7, abs=1e-6)
 
@@ -229,7 +229,7 @@ def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair,
     """Exact identity: the account of a march whose every step is divided in two is that of the march with twice the steps."""
     coarse, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
     fine, _ = cycle_of(MeshCycle, paper_scene, paper_pair, stand_in_flanks, 20)
-    whole, halves = Marcher(fine, shafts, 5e-5, 0.1), Marcher(coarse, shafts, 1e-4, 0.1)
+    whole, halves = Marcher(fine, EquationsOfMotion(shafts, 5e-5, 0.1)), Marcher(coarse, EquationsOfMotion(shafts, 1e-4, 0.1))
     start = whole.start()
     records = [[replace(start, position=cycle.position(0))] for cycle in (coarse, fine)]
     for march, marcher, steps in zip(records, (halves, whole), (20, 40)):
@@ -244,7 +244,7 @@ def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair,
 def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):
     """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the whole step's."""
     cycle, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
-    marcher = Marcher(cycle, shafts, 1e-4, 0.1)
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, 0.1))
     cycle.longest = 1.0
     start = marcher.start()
     cycle.longest = 0.0
@@ -259,7 +259,7 @@ def test_a_static_step_without_friction_is_not_divided(paper_scene, paper_pair, 
     """Its solution does not depend on the way to it: dividing the step cannot help."""
     scene = replace(paper_scene, friction=None, inertia=None, damping=None)
     cycle, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, 10)
-    marcher = Marcher(cycle, shafts, 1e-4, 0.0)
+    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4))
     start = marcher._static_start(0)
     with pytest.raises(ContactNotConverged) as failure:
         marcher.step(marcher.dynamic, start, 1)
@@ -270,10 +270,10 @@ def test_no_equilibrium_is_a_typed_error_with_its_history():
     """A load that pulls the flanks apart, held by nothing else: named, with residuals and sets of every rung."""
     problem = random_problem(0, 3, friction=0.3, coordinates=1, free=True)
     rigid = np.array([[1.0]] * 3 + [[0.1]] * 3)
-    problem = replace(problem, load=np.array([-100.0]), free_motion=np.array([-1.0]), rigid=rigid)
+    problem = replace(problem, load=np.array([-100.0]), free_motion=np.array([-1.0]), jacobian=rigid)
     with pytest.raises(NoStaticEquilibrium, match="no equilibrium") as failure:
         solve_step(problem, cold_start(problem.gap, np.zeros(3, dtype=int)))
     assert "a load of 100 N moves the drivetrain freely" in str(failure.value)
     assert "tension 1e+02 N" in str(failure.value)
-    assert [attempt[0] for attempt in failure.value.attempts] == list(LADDER)
+    assert [attempt[0] for attempt in failure.value.attempts] == list(NEWTON_AND_FALLBACKS)
     assert failure.value.attempts[0][2].shape[1] == 5

@@ -19,13 +19,13 @@ from fenics_gears.contact.newton import (
     newton,
 )
 
-LADDER = (
+NEWTON_AND_FALLBACKS = (
     "newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time", "Tresca fixed point",
 )  # fmt: skip
 PUBLISHED = "Newton with line search"
-# The march's own rung: it divides the step in two where the ladder ends without a solution.
+# The march's own method: it divides the step in two where the ladder ends without a solution.
 HALVED = "step halved"
-RUNGS = (*LADDER, PUBLISHED, HALVED)
+METHODS = (*NEWTON_AND_FALLBACKS, PUBLISHED, HALVED)
 HOMOTOPY_STEPS = 8
 
 
@@ -40,7 +40,7 @@ class StepProblem:
     stiffness: np.ndarray
     load: np.ndarray
     compliance: np.ndarray
-    rigid: np.ndarray
+    jacobian: np.ndarray
     gap: np.ndarray
     slip_before: np.ndarray
     friction: float
@@ -53,7 +53,7 @@ class StepProblem:
 class StepSolution:
     """Nodal forces (m,), N, centre coordinates (k,), mm, relative displacement (m,), mm, and the sets (n,).
 
-    `iterations`: of all rungs together; `rung`: index into RUNGS of the one that converged.
+    `iterations`: of Newton and all fallbacks together; `method`: index into METHODS of the one that converged.
     """
 
     forces: np.ndarray
@@ -61,7 +61,7 @@ class StepSolution:
     displacement: np.ndarray
     status: np.ndarray
     iterations: int
-    rung: int
+    method: int
 
 
 def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
@@ -76,21 +76,21 @@ def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
 def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 40, before: tuple = ()) -> StepSolution:
     """Solve one step from the sets `status` (n,) int8; `before`: attempts of other methods that failed.
 
-    Raises ContactNotConverged, of the kind that says why, with the history of every rung when none converges.
+    Raises ContactNotConverged, of the kind that says why, with the history of every method when none converges.
     """
     attempts, spent = list(before), sum(len(history) for _, _, history, _ in before)
-    for rung, attempt in _rungs(problem, status, max_iterations):
+    for method, attempt in _methods(problem, status, max_iterations):
         result, record = attempt()
-        attempts.append((LADDER[rung], OUTCOMES[result[0]], *record))
+        attempts.append((NEWTON_AND_FALLBACKS[method], OUTCOMES[result[0]], *record))
         spent += result[1]
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result
-            return StepSolution(forces, coordinates, displacement, sets, spent, rung)
+            return StepSolution(forces, coordinates, displacement, sets, spent, method)
     raise explained(problem, attempts)
 
 
-def _rungs(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[int, Callable]]:
-    """The rungs that apply, each with its place in LADDER; without friction the first and the last two.
+def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[int, Callable]]:
+    """The rungs that apply, each with its place in NEWTON_AND_FALLBACKS; without friction the first and the last two.
 
     Murty's rule stands before Tresca's fixed point since it costs about a hundredth, and finds what it finds exactly.
     """
@@ -123,7 +123,7 @@ def run_newton(
     current = status.copy()
     try:
         result = newton(
-            problem.stiffness, problem.load, problem.compliance, problem.rigid, problem.gap, problem.slip_before,
+            problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before,
             problem.friction if friction is None else friction, current,
             problem.free_motion, r_scale, rule, problem.tolerance.length, problem.tolerance.force, history, sets,
         )  # fmt: skip
