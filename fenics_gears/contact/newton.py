@@ -217,17 +217,14 @@ def newton(
         if len(free_motion) and n > 0 and not np.any(new != OPEN):
             new[first_node(gap, displacement, jacobian, free_motion)] = SLIP_FORWARD
             changed = np.any(new != status)
-        if not changed:
-            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
-                return CONVERGED, iteration + 1, forces, coordinates, displacement
-            return SINGULAR, iteration + 1, forces, coordinates, displacement
-        repeated = False
+        repeated = not changed
         for earlier in range(iteration + 1):
             repeated = repeated or np.all(sets[earlier] == new)
         if repeated:
+            outcome = CYCLED if changed else SINGULAR
             if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
-                # The sets alternate between solutions that are the same within the tolerance.
-                return CONVERGED, iteration + 1, forces, coordinates, displacement
-            return CYCLED, iteration + 1, forces, coordinates, displacement
+                # Sets may also alternate between solutions that are the same within the tolerance.
+                outcome = CONVERGED
+            return outcome, iteration + 1, forces, coordinates, displacement
         status[:] = new
     return CYCLED, limit, forces, coordinates, displacement

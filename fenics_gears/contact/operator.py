@@ -55,11 +55,6 @@ class ContactOperator:
         return len(self.gap)
 
     @cached_property
-    def friction_lever_arms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lever arms (n,), mm, of a tangential force about the pinion's and the wheel's centre."""
-        return over_nodes(self.pairs, "pinion_lever_arm"), over_nodes(self.pairs, "wheel_lever_arm")
-
-    @cached_property
     def node_pair(self) -> np.ndarray:
         """Position in `pairs` of the pair that each node (n,) belongs to."""
         return per_node(self.pairs, np.arange(len(self.pairs)))

@@ -29,8 +29,3 @@ def read_off(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
     inside = np.zeros(pressure.shape, dtype=bool)
     inside[..., :-2] = ~np.isnan(offsets[..., 2:])
     return np.where(inside, without_oscillation(pressure), pressure)
-
-
-def peak_pressures(pressure: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """Largest pressure (...,) over the last axis of (..., n), MPa, so averaged; `offsets` as in `read_off`."""
-    return read_off(pressure, offsets).max(axis=-1)

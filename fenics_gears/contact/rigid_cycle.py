@@ -78,7 +78,7 @@ class RigidCycle(Cycle):
             # True involutes touch on the line of action itself.
             offsets = np.unique(np.append(offsets, 0.0))
         removal = self._removal if place.flank == DRIVE else (None, None)
-        (pinion_roll, _), (x_1, x_2), gap = facing_points(self.pair, removal, place.contact_rolls, offsets)
+        (pinion_roll, _), (x_1, x_2), gap = facing_points(self.pair, removal, place, offsets)
         return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
 
     def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> RigidPosition:

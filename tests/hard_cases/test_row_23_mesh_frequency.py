@@ -73,7 +73,7 @@ def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coar
 
 
 class _AnyCycle:
-    steps, divisible = 40, False
+    steps = 40
 
     def __init__(self, pair):
         self.pair = pair
