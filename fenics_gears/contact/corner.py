@@ -2,9 +2,9 @@
 
 There the tip touches off the line of action, along the mate's own normal. That normal is tangent to the mate's base circle
 and passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the theoretical
-one, at the base radius from the mate's centre and at another arm from the tip's. Seen along it, a pair has contact nodes, gaps
-and compliance as any other pair, the tip standing at its window's edge. Where the edge leaves the path of contact both lines
-are one: nothing jumps, and no contact is counted twice.
+one, at the base radius from the mate's centre and at another distance from the tip's. Along it a pair has contact nodes, gaps
+and compliance as any other pair, with the tip at the end of its window. Where the edge leaves the path of contact the two lines
+coincide: nothing jumps, and no contact is counted twice.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.
 
 
 def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
-    """A sentence on edges that leave the flanks too little of the path of contact; between flanks only edges then carry."""
+    """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times only edges carry."""
     pinion, wheel = corner.edges
     start = pair.line_of_action_length - pair.wheel.base_radius * wheel.flank_roll
     ratio = (pair.pinion.base_radius * pinion.flank_roll - start) / pair.base_pitch
@@ -58,7 +58,7 @@ def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
 
 
 def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
-    """The place of a pair, seen along the mate's normal where a tip edge is beyond the path of contact; else as it is."""
+    """The place of a pair along the mate's normal where a tip edge is beyond the path of contact; else unchanged."""
     tip = corner.edge_beyond(place)
     if tip is None:
         return place

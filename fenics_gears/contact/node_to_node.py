@@ -72,7 +72,7 @@ def node_pairs(
 
 
 def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
-    """Offsets (mm) of the contact grid without an end node that all but stands on an end of either flank."""
+    """Offsets (mm) of the contact grid, without an end node that lies very near to an end of either flank."""
     offsets = node_offsets(pair, contact_rolls, grid)
     if len(offsets) < 3:
         return offsets
@@ -108,10 +108,10 @@ def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int)
 
 
 def height_lever_arms(pairs: tuple[NodePairs, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Arms (n,), mm, of forces along the line of action at the nodes: their heights above either centre.
+    """Lever arms (n,), mm, of forces along the line of action: the heights of the nodes above either centre.
 
-    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself, and being slanted off the line
-    of action it brings another point there; with that the arm would be rb. Without it contact shifts by R (phi2 - phi1), R the
+    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself; where it is slanted, another of
+    its points then stands at the node, and with that the lever arm would be rb. Without it contact shifts by R (phi2 - phi1), R the
     relative radius, and T1/rb1 differs from T2/rb2 by that over rb: 0.04 mm and 0.2 % on the paper's pair.
     """
     offsets = over_nodes(pairs, "offsets")

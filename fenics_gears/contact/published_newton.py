@@ -100,7 +100,7 @@ def merit(equations: Equations, displacement: np.ndarray, forces: np.ndarray) ->
 
 
 def _line_search(equations: Equations, present: Iterate) -> Iterate:
-    """The next iterate. Where no step fulfils the criterion the shortest is taken: the paper does not say, and this solves its pair."""
+    """The next iterate. Where no step fulfils the criterion the shortest is taken: the paper leaves that open, and this solves its pair."""
     step_u, step_p = equations.direction(present.displacement, present.forces)
     for halving in range(MOST_HALVINGS + 1):
         length = BETA**halving

@@ -1,4 +1,4 @@
-"""The mesh cycle of the reference route: both gears meshed anew at every position, so that flank nodes meet pair by pair."""
+"""The mesh cycle of the reference route: both gears are meshed anew at every position, so that flank nodes meet pair by pair."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fenics_gears.contact.tooth_pair import Removal
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.pair import GearPair
 
-# A position needs its own and that of the one before; positions are built in the order of time.
+# A position needs its own compliance and that of the position before; positions are built in the order of time.
 KEPT_COMPLIANCES = 3
 
 

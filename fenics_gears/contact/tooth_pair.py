@@ -1,4 +1,4 @@
-"""One tooth pair at one position: its contact nodes, gaps, sliding, and how they see either gear."""
+"""One tooth pair at one position: its contact nodes, their gaps, and their interpolation of both flanks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Removal = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class Flanks:
-    """What the contact layer needs of the two gears: geometry, compliance, and material removed from either flank.
+    """The two gears as contact sees them: geometry, compliance, and material removed from either flank.
 
     `removal`: functions of the roll angle (rad) giving mm along the flank normal, or None for a true involute.
     """
@@ -38,7 +38,7 @@ SENSES = (-1.0, 1.0)  # of offsets: towards the pinion's centre, away from the w
 
 @dataclass(frozen=True)
 class Line:
-    """A line along which flanks are seen: its distances `lever_arms` (mm) from both centres, `length` (mm) between the centres' feet on it."""
+    """A line of action: its distances `lever_arms` (mm) from both centres, and `length` (mm) between the feet of the centres on it."""
 
     lever_arms: tuple[float, float]
     length: float
@@ -49,8 +49,8 @@ class Place:
     """Where a pair of flanks stands: `index` of the pinion's tooth, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
 
     Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of action's
-    direction and the one across it in space, `turn` the sign of rotations. `line`: where the flanks are seen along another line
-    than that of action, see `contact.corner`; its direction is in `axes`, and `contact_rolls` are measured from it.
+    direction and the one across it in space, `turn` the sign of rotations. `line`: another line than the
+    theoretical line of action, of a tip edge (`contact.corner`); its direction is in `axes`, and `contact_rolls` are measured from it.
     """
 
     index: int
@@ -61,7 +61,7 @@ class Place:
     line: Line | None = None
 
     def line_in(self, pair: GearPair) -> Line:
-        """The line along which the flanks are seen, the line of action unless said otherwise."""
+        """The line of action of the flanks: the theoretical one but for tip edges."""
         return self.line or Line((pair.pinion.base_radius, pair.wheel.base_radius), pair.line_of_action_length)
 
     @property
@@ -91,7 +91,7 @@ class PairNodes:
     """Contact nodes (n,) of the flanks at `place`.
 
     `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open), `pinion_lever_arm` and `wheel_lever_arm` (mm: distance of the point of contact from the tangent points T1 and T2 along the line of
+    open), `pinion_lever_arm` and `wheel_lever_arm` (mm, of friction: distance of the point of contact from T1 and T2 along the line of
     action), `pinion_roll` (rad).
     """
 

@@ -142,7 +142,7 @@ class Marcher:
             for step in range(1, steps + 1):
                 record = self.step(self.scheme(step), record, step)
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
-                march.steps_by_method[METHODS[record.solution.method]] += 1
+                march.steps_by_method[record.solution.method] += 1
                 march.records.append(record)
                 observe(record)
                 if not record.solution.status[record.position.operator.on_drive_flanks].any():
@@ -242,7 +242,7 @@ class Marcher:
                 record = self._divided(finer, record, end, failed, halvings + 1)
             parts += record.parts or (record,)
         iterations = sum(part.solution.iterations for part in parts)
-        return replace(record, solution=replace(record.solution, iterations=iterations, method=METHODS.index(HALVED)), parts=parts)
+        return replace(record, solution=replace(record.solution, iterations=iterations, method=HALVED), parts=parts)
 
     def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
         """From `last` to `position` in one go."""
