@@ -2,9 +2,9 @@
 
 There the tip touches off the line of action, along the mate's own normal. That normal is tangent to the mate's base circle
 and passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the theoretical
-one, at the base radius from the mate's centre and at another arm from the tip's. Seen along it, a pair has contact nodes, gaps
-and compliance as any other pair, the tip standing at its window's edge. Where the edge leaves the path of contact both lines
-are one: nothing jumps, and no contact is counted twice.
+one, at the base radius from the mate's centre and at another distance from the tip's. Along it a pair has contact nodes, gaps
+and compliance as any other pair, with the tip at the end of its window. Where the edge leaves the path of contact the two lines
+coincide: nothing jumps, and no contact is counted twice.
 """
 
 from __future__ import annotations
@@ -13,14 +13,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import INTERPOLATIONS, hat_integrals
-from fenics_gears.contact.tooth_pair import DRIVE, Flanks, Line, Place, ToothPair
+from fenics_gears.contact.interpolation import INTERPOLATIONS
+from fenics_gears.contact.tooth_pair import SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
 from fenics_gears.contact.window import ContactGrid, offsets_between
 from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tip_edge import TipEdge, tip_edge
-
-SENSES = (-1.0, 1.0)  # of offsets: towards the pinion's centre, away from the wheel's
 
 
 @dataclass(frozen=True)
@@ -47,7 +45,7 @@ def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.
 
 
 def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
-    """A sentence on edges that leave the flanks too little of the path of contact; between flanks only edges then carry."""
+    """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times only edges carry."""
     pinion, wheel = corner.edges
     start = pair.line_of_action_length - pair.wheel.base_radius * wheel.flank_roll
     ratio = (pair.pinion.base_radius * pinion.flank_roll - start) / pair.base_pitch
@@ -60,7 +58,7 @@ def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
 
 
 def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
-    """The place of a pair, seen along the mate's normal where a tip edge is beyond the path of contact; else as it is."""
+    """The place of a pair along the mate's normal where a tip edge is beyond the path of contact; else unchanged."""
     tip = corner.edge_beyond(place)
     if tip is None:
         return place
@@ -103,39 +101,12 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     offsets = offsets_between(*edge_limits(pair, corner, place), grid)
     if not len(offsets):
         return None
-    view = INTERPOLATIONS[grid.interpolation]
-    at = view.places(offsets)
-    removals = flanks.removal if place.flank == DRIVE else (None, None)
-    surfaces = [
-        _surface(gear, edge, roll, line.lever_arms[side] + SENSES[side] * at, removals[side])
-        for side, (gear, edge, roll) in enumerate(zip(gears, corner.edges, place.contact_rolls))
-    ]
-    x_1, x_2 = surfaces
-    meeting = 0.5 * (view.seen(offsets, x_1 - x_2) + line.length)
-    rolls = [
-        roll_angle_at_height(gear.base_radius, roll, arm + sense * offsets)
-        for gear, roll, arm, sense in zip(gears, place.contact_rolls, line.lever_arms, SENSES)
-    ]
-    interpolation = tuple(
-        view.of_flank(
-            # That function measures offsets from the line at the gear's own base radius.
-            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense,
-            flank.rolls_of(place.ahead(number)), flank.element_order,
-        )
-        for number, (gear, own, roll, arm, sense, flank) in enumerate(
-            zip(gears, rolls, place.contact_rolls, line.lever_arms, SENSES, flanks.compliance)
-        )
-    )  # fmt: skip
-    return ToothPair(
-        place=place,
-        offsets=offsets,
-        lengths=hat_integrals(offsets),
-        gap=view.seen(offsets, line.length - x_1 - x_2),
-        pinion_lever_arm=meeting,
-        wheel_lever_arm=line.length - meeting,
-        pinion_roll=rolls[0],
-        interpolation=interpolation,
+    at, removals = INTERPOLATIONS[grid.interpolation].places(offsets), flanks.removal_at(place)
+    x_1, x_2 = (
+        _surface(gear, edge, roll, arm + sense * at, removal)
+        for gear, edge, roll, arm, sense, removal in zip(gears, corner.edges, place.contact_rolls, line.lever_arms, SENSES, removals)
     )
+    return nodes_on_flanks(flanks, grid, place, offsets, (x_1, x_2), line.length - x_1 - x_2)
 
 
 def edge_limits(pair: GearPair, corner: CornerContact, place: Place) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""A mesh cycle whose gaps are not the same in every cycle: errors of single teeth, run-out."""
+"""A mesh cycle whose gaps differ from cycle to cycle: errors of single teeth, run-out."""
 
 from __future__ import annotations
 

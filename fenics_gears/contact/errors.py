@@ -1,4 +1,4 @@
-"""The error of a contact step that no rung of the ladder could solve."""
+"""Errors of a contact step that neither Newton nor any of its fallbacks could solve."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from fenics_gears.errors import ComputationError
 
 
 class ContactNotConverged(ComputationError):
-    """No solution of a contact step was found: says the step, the rungs tried, the residuals and the alternating sets.
+    """No solution of a contact step was found: names the step, the methods tried, the residuals and the alternating sets.
 
-    Attributes: `time` (s) and `step`, None until the march fills them in; `attempts`: list of (rung, outcome, residual
-    history (iterations, 5), sets (iterations, nodes)); `partial`: the dataset of what was done before, or None.
+    Attributes: `time` (s) and `step`, None until the march fills them in; `attempts`: list of (method, outcome, residual
+    history (iterations, 5), sets (iterations, nodes)); `partial`: the dataset of the steps before, or None.
     """
 
     def __init__(self, attempts, reason: str, time: float | None = None, step: int | None = None):
@@ -24,17 +24,17 @@ class ContactNotConverged(ComputationError):
     def __str__(self) -> str:
         place = "" if self.time is None else f" at step {self.step}, t = {self.time:.6g} s"
         lines = [f"contact did not converge{place}: {self.reason}"]
-        for rung, outcome, history, sets in self.attempts:
-            lines.append(f"  {rung}: {outcome} after {len(history)} iterations{_last_residual(history)}{_alternating(sets)}")
+        for method, outcome, history, sets in self.attempts:
+            lines.append(f"  {method}: {outcome} after {len(history)} iterations{_last_residual(history)}{_alternating(sets)}")
         return "\n".join(lines)
 
 
 class NoStaticEquilibrium(ContactNotConverged):
-    """Nothing holds the load: it moves the drivetrain freely, and contact pulls the other way or not at all."""
+    """Nothing holds the load: it moves the drivetrain freely, and no contact force opposes it."""
 
 
 class SelfLocking(ContactNotConverged):
-    """Friction undoes what the normal forces hold: however hard the teeth press, the load is not met."""
+    """Friction cancels the normal forces: however hard the teeth press, they do not balance the load."""
 
 
 class MoreThanOneSolution(ContactNotConverged):

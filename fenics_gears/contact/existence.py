@@ -1,7 +1,7 @@
-"""Why a contact step has no solution: what the load, the friction and the flexibility of the contact nodes say about it.
+"""Why a contact step has no solution: by its load, its friction and the flexibility of the contact nodes.
 
-Where only contact holds the load, forces must balance it along the motion f that nothing else holds: with a normal force p_n at a
-node, and friction that opposes its slip (sign sigma), the load along f is met by (a_n + sigma mu a_t) p_n, a = G f.
+Where only contact holds the load, contact forces must balance it along the motion f that nothing else holds: a normal force p_n at a
+node with friction that opposes its slip (sign sigma) gives (a_n + sigma mu a_t) p_n along f, a = G f.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LAST_SETS = 6
 
 @dataclass(frozen=True)
 class Balance:
-    """What a unit normal force at each node does against the load along the free motion, (n,).
+    """How much of the load along the free motion a unit normal force at each node balances, (n,).
 
     `normal`: by itself; `sliding`: with the friction that opposes the node's slip; `most`: with the friction that helps most.
     """
@@ -31,7 +31,7 @@ class Balance:
 
 
 def balance(jacobian: np.ndarray, motion: np.ndarray, friction: float, slip_sign: np.ndarray) -> Balance:
-    """Normal and friction forces against a load along `motion` (k,); `jacobian` (m, k); `slip_sign` (n,), empty without friction."""
+    """Balance along `motion` (k,); `jacobian` (m, k); `slip_sign` (n,), empty without friction."""
     along = jacobian @ motion
     n = len(along) - len(slip_sign)
     normal = along[:n]
@@ -41,7 +41,7 @@ def balance(jacobian: np.ndarray, motion: np.ndarray, friction: float, slip_sign
 
 
 def working(jacobian: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Balance:
-    """The same of the nodes that a solution, `forces` (m,), presses, by the friction that acts there; zero elsewhere."""
+    """Balance of the nodes that a solution, `forces` (m,), presses, with the friction that acts there; zero elsewhere."""
     along, n = jacobian @ motion, len(forces) // 2
     pressed = forces[:n] > 0.0
     normal = np.where(pressed, along[:n], 0.0)
@@ -50,12 +50,12 @@ def working(jacobian: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Bal
 
 
 def locked_nodes(weights: Balance) -> np.ndarray:
-    """Nodes (n,) whose normal force holds the load, but whose friction undoes it or more."""
+    """Nodes (n,) whose normal force holds the load while their friction cancels it or more."""
     return (weights.normal > 0.0) & (weights.sliding <= 0.0)
 
 
 def explained(problem, attempts) -> ContactNotConverged:
-    """The error of a step that no rung solved, of the kind that says why."""
+    """The error of a step that no method solved, of the kind that says why."""
     words = problem.free_words or f"a load of {np.abs(problem.load).max(initial=0.0):.4g} N moves the drivetrain freely"
     if not len(problem.gap):
         return NoStaticEquilibrium(
@@ -111,7 +111,7 @@ def _locking(problem, visited: np.ndarray, weights: Balance | None) -> str:
 
 
 def _own_response(problem, signs: np.ndarray) -> np.ndarray:
-    """By how much a sliding node (n,) gives way under its own normal force, mm/N."""
+    """How far a sliding node (n,) yields under its own normal force, mm/N."""
     from fenics_gears.contact.uniqueness import flexibility
 
     n, matrix = len(signs), flexibility(problem.stiffness, problem.compliance, problem.jacobian)
@@ -135,8 +135,8 @@ def _several(problem, visited: np.ndarray) -> str:
 
 def _reason(problem, attempts) -> str:
     if attempts[-1][1] == OUTCOMES[CYCLED]:
-        return "every rung of the ladder ended with alternating sets"
+        return "Newton and each of its fallbacks ended with sets that alternate"
     return (
         "the sets settle, but the equations cannot be solved within the tolerance: "
-        "the scene's stiffnesses or loads are too far apart"
+        "the scene's stiffnesses or loads differ by too many orders of magnitude"
     )

@@ -1,4 +1,4 @@
-"""From forces at contact nodes to forces on the nodes of either gear's flanks, as the flank compliance sees them: `N^T p`."""
+"""Forces on the nodes of either gear's flanks from forces at contact nodes, `N^T p`, as the flank compliance has them."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What deviations of single teeth add to the gaps of the contact nodes, step by step.
+"""Gaps that deviations of single teeth add to those of the contact nodes, step by step.
 
-The gap of a node is linear in the deviations of the two teeth that meet there. What multiplies them depends on the position in the mesh
-cycle alone and is kept; a step then picks the teeth that it finds there. Where displacements are averaged over a node's hat
-function, so are deviations.
+The gap of a node is linear in the deviations of the two teeth that meet there. The factors depend on the position in the mesh
+cycle alone and are kept; each step multiplies them by the deviations of the teeth then in mesh. Where displacements are averaged over
+a node's hat function, so are deviations.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ FEWEST_STEPS_A_WAVE = 2
 
 @dataclass(frozen=True)
 class _Nodes:
-    """The contact nodes of one pair at a position: where they stand among all; for either gear its tooth's index and the gap (n, m)
-    that a unit of each of its deviations makes."""
+    """The contact nodes of one pair at a position: where they stand among all; for either gear the index of its tooth and the gap (n, m)
+    per unit of each deviation."""
 
     nodes: slice
     teeth: tuple[int, int]
@@ -37,7 +37,7 @@ class _Nodes:
 
 
 class FlankGaps:
-    """Gaps (n,), mm, that deviations of the teeth add at a step and its position; `steps` of a mesh cycle."""
+    """Additional gaps (n,), mm, by deviations of the teeth at a step and its position; `steps` of a mesh cycle."""
 
     def __init__(self, pair: GearPair, deviations: tuple[FlankDeviations, FlankDeviations], steps: int):
         self._pair, self._deviations, self._steps = pair, deviations, steps
@@ -72,7 +72,7 @@ class FlankGaps:
     def _shapes(self, gear: int, pair: PairNodes) -> np.ndarray:
         """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form and both parts of the waviness.
 
-        Profiles of coast flanks are true; but a tooth out of place has both its flanks there.
+        Profiles of coast flanks are true; an index deviation displaces both flanks of a tooth.
         """
         own, body, arm = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).lever_arms[gear]
         displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
@@ -106,8 +106,8 @@ def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes) -> lis
 def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) -> np.ndarray:
     """The deviations of each tooth (z, m), mm, in the order of the shapes.
 
-    Waves go on from tooth to tooth: the pinion's line of action meets roll angle v of tooth i when the gear has turned by v + i times
-    the angular pitch; on the wheel, where roll angles fall, by the latter less v.
+    Waves continue from tooth to tooth: roll angle v of the pinion's tooth i is on the line of action when the pinion has turned by v + i
+    times the angular pitch; on the wheel, where roll angles fall, by i times the angular pitch less v.
     """
     columns = [deviations.index, deviations.slope, deviations.form]
     if deviations.waviness is not None:

@@ -1,4 +1,4 @@
-"""How contact nodes see the flanks: averages over their hat functions of displacements, gaps, positions, or values at their points.
+"""How contact nodes see the flanks: displacements, gaps and positions averaged over their hat functions, or taken at their points.
 
 Contact force and gap use the same averages, so that energy and symmetry are kept: a nodal force acts as the line load
 `p_j hat_j / integral(hat_j)`, and a nodal displacement or gap is `integral(hat_j u) / integral(hat_j)` (model.md section 2).
@@ -121,14 +121,14 @@ def flank_interpolation(
 
 
 class Averages:
-    """A contact node sees averages over its hat function; nothing jumps as it passes nodes of the flank."""
+    """A contact node sees averages over its hat function, so that nothing jumps as it passes nodes of the flank."""
 
     def places(self, offsets: np.ndarray) -> np.ndarray:
-        """Offsets (mm, any shape) at which what is seen from nodes at `offsets` (n,) has to be known."""
+        """Offsets (mm, any shape) at which nodes at `offsets` (n,) need the values that they see."""
         return quadrature_offsets(offsets)
 
     def seen(self, offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
-        """What the nodes (n,) see of values given at their `places`."""
+        """Values (n,) that the nodes see of those at their `places`."""
         return hat_average(offsets, values)
 
     def of_flank(self, *arguments) -> FlankInterpolation:

@@ -1,4 +1,4 @@
-"""Whether contact presses hardest where a relief starts with a kink: linear elasticity has infinite pressure there, as at an edge."""
+"""Whether the largest pressure is at the kink where a linear relief starts: linear elasticity has infinite pressure there, as at an edge."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator, node_slices
 from fenics_gears.geometry.involute import flank_point
 
-# Of Hertz's half ellipse the largest pressure is this many times the pressure's mean, weighted by itself.
+# The largest pressure of Hertz's half ellipse over its mean, weighted by the pressure itself.
 HERTZ_PEAK = 3.0 * pi / 8.0
-# A peak by so much above that of a half ellipse of the same mean is the kink's own, not the load's: the paper's pair with linear relief of 31
-# and 60 um has 1.12 and 1.20, with half the element size 1.21 and 1.33, with parabolic relief at most 0.99.
+# A peak this many times that of a half ellipse of the same mean comes from the kink, not from the load: the paper's pair with linear relief
+# of 31 and 60 um has 1.12 and 1.20, with half the element size 1.21 and 1.33, with parabolic relief at most 0.99.
 NOTABLE_PEAK = 1.1
 
 Solved = Iterable[tuple[ContactOperator, np.ndarray]]
 
 
 def kink_at_the_peak(cycle: Cycle, solved: Solved, kinks: Mapping[str, float]) -> tuple[str | None, float]:
-    """The gear whose kink has the largest pressure of some solved steps, None where it lies elsewhere, and that pressure (MPa).
+    """The gear whose kink has the largest pressure of some solved steps, None where the peak lies elsewhere, and that pressure (MPa).
 
     solved: contact operator and nodal forces (N) of each step. kinks: roll angle (rad) of the kink in the flank of the "pinion", of the
-    "wheel" or of both. The node that is pressed most lies within a node's spacing of the kink and stands out of its contact.
+    "wheel" or of both. A peak is the kink's where it stands out of its contact and lies within a node's spacing of the kink.
     """
     pressed = max(_pressed(cycle, solved), key=lambda each: each[1].max(), default=None)
     if pressed is None:

@@ -1,4 +1,4 @@
-"""Signorini's and Coulomb's laws at a contact node, as projections [24], [25], and when a solution obeys them."""
+"""Signorini's and Coulomb's laws at a contact node, as projections [24], [25], and the tolerance of a solution."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from numba import njit
 
-# What a contact node does. Without friction a closed node counts as SLIP_FORWARD: it carries no tangential force.
+# States of a contact node. Without friction a closed node counts as SLIP_FORWARD: it carries no tangential force.
 OPEN, SLIP_FORWARD, SLIP_BACKWARD, STICK = 0, 1, 2, 3
-# N. Without a load the closed nodes carry what rounding leaves, below this.
+# N. Without a load closed nodes carry round-off, below this.
 NO_FORCE = 1e-9
 STATUS_NAMES = ("open", "slips forward", "slips backward", "sticks")
 

@@ -40,7 +40,7 @@ def pair_places(
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips touch by
     their edges too; places are theoretical ones all the same.
     """
-    # Asked for by the reach of teeth, the memory of a result and the cycle itself; edges of tips are no key.
+    # Cached, since the reach of teeth, the size of a result and the cycle itself all ask for it; tip edges cannot be a key.
     return _pair_places(pair, grid, phase, coast_flanks) if corner is None else _places(pair, grid, phase, coast_flanks, corner)
 
 
@@ -71,7 +71,7 @@ def _places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool,
 def tooth_reach(
     pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
 ) -> Reach:
-    """How far apart flanks are that interact at a step, from the step before it, or between both."""
+    """How many teeth apart flanks are that interact at a step, with those of the step before, or between both."""
     places = [pair_places(pair, grid, step / steps, coast_flanks, corner) for step in range(steps)]
     # Every pair's index rises by one with the end of a cycle. What touches between two steps touches at one of them too.
     before = [tuple(replace(place, index=place.index + 1) for place in places[-1]), *places[:-1]]
@@ -86,7 +86,7 @@ def tooth_reach(
 
 
 def pairs_at_once(positions: Iterable[Iterable[Place]]) -> int:
-    """How many tooth pairs, one after the other, can touch at once at any of some positions, drive and coast flank of a pair counted once."""
+    """Largest number of consecutive tooth pairs that can touch at one of some positions; drive and coast flank of a pair count once."""
     spans = [0]
     for places in positions:
         indices = [place.index for place in places]

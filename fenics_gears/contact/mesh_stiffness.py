@@ -1,6 +1,6 @@
 """The stiffness of the mesh at a step, from its contact solution.
 
-Deflection delta (mm): by how much the undeformed flanks would overlap along the line of action, that is the transmission error of the teeth
+Deflection delta (mm): overlap of the undeformed flanks along the line of action, that is the transmission error of the teeth
 beyond that of rigid flanks. Secant stiffness F/delta (N/mm) is the mesh stiffness of ISO 6336-1, load over deformation; the tangent dF/ddelta
 is the spring that small vibrations meet: the closed contact nodes stay closed and friction forces stay as they are.
 """
@@ -19,9 +19,9 @@ from fenics_gears.contact.step_solver import StepSolution
 
 @dataclass(frozen=True)
 class MeshStiffness:
-    """Of the flanks, drive or coast, that carry more: `force` N, `deflection` mm, `secant` and `tangent` N/mm, number of `pairs` that carry.
+    """Of the drive or coast flanks, whichever carry more: `force` N, `deflection` mm, `secant` and `tangent` N/mm, number of loaded `pairs`.
 
-    All are zero where nothing presses.
+    All are zero where nothing touches.
     """
 
     force: float
@@ -49,7 +49,7 @@ def mesh_stiffness(operator: ContactOperator, solution: StepSolution) -> MeshSti
 
 
 def _highest(overlap: np.ndarray, node_pair: np.ndarray) -> float:
-    """Largest overlap (mm) of flanks whose overlap (n,) at evenly spaced nodes is known: of the parabola through the largest and its neighbours.
+    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: vertex of the parabola through the largest and its neighbours.
 
     The deepest overlap lies between two nodes as a rule; at nodes alone it would be too small by up to spacing^2/(8 rho).
     """
@@ -62,5 +62,5 @@ def _highest(overlap: np.ndarray, node_pair: np.ndarray) -> float:
 
 
 def _tangent(compliance: np.ndarray, nodes: np.ndarray) -> float:
-    """Force (N) by which some nodes of a compliance (m, m), mm/N, answer when all of them approach by 1 mm."""
+    """Force (N) on some nodes of a compliance (m, m), mm/N, when all of them approach by 1 mm."""
     return float(dposv(compliance[nodes[:, None], nodes], np.ones(len(nodes)))[1].sum())

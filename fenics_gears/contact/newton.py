@@ -124,7 +124,7 @@ def _update_status(status, forces, displacement, compliance, gap, slip_before, f
 
 @njit(cache=True)
 def _force_round_off(stiffness, load, compliance, gap, coordinates):
-    """Forces (N) below which nothing is known: the round-off of the load, and of what springs and teeth make of the lengths."""
+    """Round-off (N) of the forces: that of the load, and that of the lengths times the stiffnesses of springs and teeth."""
     terms = np.max(np.abs(load)) + np.max(np.abs(stiffness) @ np.abs(coordinates))
     if len(gap):
         terms += 1e-2 * max(np.max(np.abs(coordinates)), np.max(np.abs(gap))) / compliance[0, 0]
@@ -135,7 +135,7 @@ def _force_round_off(stiffness, load, compliance, gap, coordinates):
 def measure(residual, stiffness, load, compliance, jacobian, gap, slip_before, friction, status, forces, coordinates, displacement):
     """Violation of the laws and of equilibrium by the present solution, into `residual` (5,).
 
-    Equilibrium is solved, not iterated: what is left within the round-off of a row's terms is no violation. A slip against its
+    Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip against its
     friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
     """
     n, tangential = len(gap), len(slip_before) > 0
@@ -160,8 +160,8 @@ def measure(residual, stiffness, load, compliance, jacobian, gap, slip_before, f
 
 @njit(cache=True)
 def _within(residual, length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
-    # Equilibrium is solved, not iterated: only round-off of the largest terms may be left of it. Likewise a gap is the
-    # difference of displacements and cannot be known better than their round-off.
+    # Equilibrium is solved, not iterated: only the round-off of its largest terms may be left. A gap is a difference of
+    # displacements and is known to their round-off only.
     round_off = _force_round_off(stiffness, load, compliance, gap, coordinates)
     length_tolerance = length_tolerance + 1e-14 * np.max(np.abs(coordinates))
     return (
@@ -194,8 +194,8 @@ def newton(
     """Active-set Newton from the sets `status` (n,) int8, changed in place to those of the solution.
 
     `stiffness` (k, k) and `load` (k,): effective drivetrain; `slip_before` (n,): w_old, empty without friction;
-    `free_motion` (k,): where without any contact nothing holds the load, how it then moves the drivetrain; the set never empties
-    then. Empty where the drivetrain holds the load. `history` (iterations, 5) and
+    `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one node at least stays closed;
+    empty where the drivetrain holds the load. `history` (iterations, 5) and
     `sets` (iterations, n) are filled with residuals and sets. Returns (outcome, iterations, forces, coordinates, u).
     """
     n, m, k = len(gap), len(compliance), len(load)
@@ -217,17 +217,14 @@ def newton(
         if len(free_motion) and n > 0 and not np.any(new != OPEN):
             new[first_node(gap, displacement, jacobian, free_motion)] = SLIP_FORWARD
             changed = np.any(new != status)
-        if not changed:
-            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
-                return CONVERGED, iteration + 1, forces, coordinates, displacement
-            return SINGULAR, iteration + 1, forces, coordinates, displacement
-        repeated = False
+        repeated = not changed
         for earlier in range(iteration + 1):
             repeated = repeated or np.all(sets[earlier] == new)
         if repeated:
+            outcome = CYCLED if changed else SINGULAR
             if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
-                # The sets alternate between solutions that are the same within the tolerance.
-                return CONVERGED, iteration + 1, forces, coordinates, displacement
-            return CYCLED, iteration + 1, forces, coordinates, displacement
+                # Sets may also alternate between solutions that are the same within the tolerance.
+                outcome = CONVERGED
+            return outcome, iteration + 1, forces, coordinates, displacement
         status[:] = new
     return CYCLED, limit, forces, coordinates, displacement

@@ -55,7 +55,7 @@ def node_pairs(
         middle, cells = 0.5 * (vertices[1:] + vertices[:-1]), np.diff(vertices)
         # The force of an even pressure on a second-order element: 1/6, 4/6, 1/6 (Simpson).
         offsets, lengths = _alternating(vertices, middle), _alternating(lengths / 3.0, cells * 2.0 / 3.0)
-    rolls, arms, gap = facing_points(pair, removal, place.contact_rolls, offsets)
+    rolls, arms, gap = facing_points(pair, removal, place, offsets)
     if order == 2:
         # Elements are straight-sided: their middle nodes stand on the chord.
         arms = tuple(_alternating(arm[::2], 0.5 * (arm[2::2] + arm[:-2:2])) for arm in arms)
@@ -72,7 +72,7 @@ def node_pairs(
 
 
 def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
-    """Offsets (mm) of the contact grid without an end node that all but stands on an end of either flank."""
+    """Offsets (mm) of the contact grid, without an end node that lies very near to an end of either flank."""
     offsets = node_offsets(pair, contact_rolls, grid)
     if len(offsets) < 3:
         return offsets
@@ -108,10 +108,10 @@ def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int)
 
 
 def height_lever_arms(pairs: tuple[NodePairs, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Arms (n,), mm, of forces along the line of action at the nodes: their heights above either centre.
+    """Lever arms (n,), mm, of forces along the line of action: the heights of the nodes above either centre.
 
-    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself, and being slanted off the line
-    of action it brings another point there; with that the arm would be rb. Without it contact shifts by R (phi2 - phi1), R the
+    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself; where it is slanted, another of
+    its points then stands at the node, and with that the lever arm would be rb. Without it contact shifts by R (phi2 - phi1), R the
     relative radius, and T1/rb1 differs from T2/rb2 by that over rb: 0.04 mm and 0.2 % on the paper's pair.
     """
     offsets = over_nodes(pairs, "offsets")

@@ -1,4 +1,4 @@
-"""The contact equations at one position of the gears: which nodes may touch, and how they respond.
+"""The contact equations at one position of the gears: the nodes that may touch, and their response.
 
 Unknowns of the mixed form (model.md section 4) are nodal forces `p` and centre coordinates `q`; the relative displacement
 of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents where friction asks for them.
@@ -19,7 +19,7 @@ from fenics_gears.geometry.pair import GearPair
 
 # The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
 # coordinate is a length and every row a force, and no equation is scaled against another. The output shaft's end goes by its
-# twist rb2 (phi3 - phi2): as a difference of two rotations the twist of a stiff shaft would be lost in round-off.
+# twist rb2 (phi3 - phi2): as the difference of two rotations the twist of a stiff shaft would be lost in round-off.
 CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_twist")
 
 
@@ -35,7 +35,7 @@ class ContactOperator:
     the material points touching now had at the end of the step before is `previous_jacobian q - E p`. The last three are
     None without friction.
 
-    `dependent_rows`: how many rows of the compliance elasticity gave as combinations of others, see `contact.rank`.
+    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -53,11 +53,6 @@ class ContactOperator:
     def nodes(self) -> int:
         """Number of contact nodes."""
         return len(self.gap)
-
-    @cached_property
-    def friction_lever_arms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lever arms (n,), mm, of a tangential force about the pinion's and the wheel's centre."""
-        return over_nodes(self.pairs, "pinion_lever_arm"), over_nodes(self.pairs, "wheel_lever_arm")
 
     @cached_property
     def node_pair(self) -> np.ndarray:

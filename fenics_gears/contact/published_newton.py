@@ -32,45 +32,44 @@ class Equations:
 
     def status(self, displacement: np.ndarray, forces: np.ndarray) -> np.ndarray:
         """What each node does (n,), read off the projections."""
-        n = len(self.gap)
-        closed = forces[:n] + self.r[:n] * (displacement[:n] - self.gap) > 0.0
+        normal, tangential, limit = self._projected(displacement, forces)
         if not len(self.slip_before):
-            return np.where(closed, SLIP_FORWARD, OPEN).astype(np.int8)
-        trial = forces[n:] + self.r[n:] * (displacement[n:] + self.slip_before)
-        sticks = np.abs(trial) <= self.friction * np.maximum(forces[:n], 0.0)
-        friction = np.where(sticks, STICK, np.where(trial > 0.0, SLIP_FORWARD, SLIP_BACKWARD))
-        return np.where(closed, friction, OPEN).astype(np.int8)
+            return np.where(normal > 0.0, SLIP_FORWARD, OPEN).astype(np.int8)
+        slips = np.where(tangential > 0.0, SLIP_FORWARD, SLIP_BACKWARD)
+        return np.where(normal > 0.0, np.where(np.abs(tangential) <= limit, STICK, slips), OPEN).astype(np.int8)
 
     def residual(self, displacement: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """H1 and H2 (m,), N."""
-        n = len(self.gap)
-        asked = np.maximum(forces[:n] + self.r[:n] * (displacement[:n] - self.gap), 0.0)
-        if len(self.slip_before):
-            limit = self.friction * np.maximum(forces[:n], 0.0)
-            trial = forces[n:] + self.r[n:] * (displacement[n:] + self.slip_before)
-            asked = np.concatenate([asked, np.clip(trial, -limit, limit)])
-        return self.stiffness @ displacement + forces + self.load, forces - asked
+        normal, tangential, limit = self._projected(displacement, forces)
+        demanded = np.concatenate([np.maximum(normal, 0.0), np.clip(tangential, -limit, limit)])
+        return self.stiffness @ displacement + forces + self.load, forces - demanded
 
     def direction(self, displacement: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The search direction z of (u, p): H + H'(y; z) = 0. Raises numpy.linalg.LinAlgError where there is none."""
-        n, m = len(self.gap), len(self.r)
+        n = len(self.gap)
         first, second = self.residual(displacement, forces)
-        by_displacement, by_force, slope = np.zeros(m), np.ones(m), np.zeros(n)
-        pressed = forces[:n] + self.r[:n] * (displacement[:n] - self.gap) > 0.0
-        by_displacement[:n], by_force[:n] = np.where(pressed, -self.r[:n], 0.0), np.where(pressed, 0.0, 1.0)
-        if len(self.slip_before):
-            trial = forces[n:] + self.r[n:] * (displacement[n:] + self.slip_before)
-            sticks = np.abs(trial) <= self.friction * np.maximum(forces[:n], 0.0)
-            by_displacement[n:], by_force[n:] = np.where(sticks, -self.r[n:], 0.0), np.where(sticks, 0.0, 1.0)
-            slope = np.where(sticks | (forces[:n] <= 0.0), 0.0, -self.friction * np.sign(trial))
+        normal, tangential, limit = self._projected(displacement, forces)
+        sticks = np.abs(tangential) <= limit
+        held = np.concatenate([normal > 0.0, sticks])
+        by_displacement, by_force = np.where(held, -self.r, 0.0), np.where(held, 0.0, 1.0)
         # z_p = -H1 - K z_u, inserted into the rows of H2'.
         matrix = np.diag(by_displacement) - by_force[:, None] * self.stiffness
         right_side = -second + by_force * first
         if len(self.slip_before):
+            slope = np.where(sticks | (forces[:n] <= 0.0), 0.0, -self.friction * np.sign(tangential))
             matrix[n:] -= slope[:, None] * self.stiffness[:n]
             right_side[n:] += slope * first[:n]
         step = np.linalg.solve(matrix, right_side)
         return step, -first - self.stiffness @ step
+
+    def _projected(self, displacement: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Normal and tangential forces (n,) that the projections cut off, and friction's limit (n,), N; the last two empty without friction."""
+        n = len(self.gap)
+        normal = forces[:n] + self.r[:n] * (displacement[:n] - self.gap)
+        if not len(self.slip_before):
+            return normal, self.slip_before, self.slip_before
+        tangential = forces[n:] + self.r[n:] * (displacement[n:] + self.slip_before)
+        return normal, tangential, self.friction * np.maximum(forces[:n], 0.0)
 
 
 @dataclass(frozen=True)
@@ -101,7 +100,7 @@ def merit(equations: Equations, displacement: np.ndarray, forces: np.ndarray) ->
 
 
 def _line_search(equations: Equations, present: Iterate) -> Iterate:
-    """The next iterate. Where no step fulfils the criterion the shortest is taken: the paper does not say, and this solves its pair."""
+    """The next iterate. Where no step fulfils the criterion the shortest is taken: the paper leaves that open, and this solves its pair."""
     step_u, step_p = equations.direction(present.displacement, present.forces)
     for halving in range(MOST_HALVINGS + 1):
         length = BETA**halving

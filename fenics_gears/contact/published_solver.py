@@ -1,4 +1,4 @@
-"""A step solved as the paper does it, with the active-set ladder where its method ends without a solution."""
+"""A step solved by the paper's Newton method; by the program's own Newton and its fallbacks where that finds no solution."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.newton import measure
 from fenics_gears.contact.published_newton import Equations, Iterate, iterates
 from fenics_gears.contact.relative_stiffness import RelativeStiffness
-from fenics_gears.contact.step_solver import METHODS, PUBLISHED, StepProblem, StepSolution, solve_step
+from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, StepSolution, solve_step
 
 MOST_ITERATIONS = 60
 NO_DIRECTION, TOO_MANY = "no search direction", "the merit function stays too large"
@@ -32,7 +32,7 @@ class RemeshedPosition(Position):
 
 
 class PublishedSolver:
-    """Newton with line search [B] on [24], [25] and [C.1]; what it cannot solve goes to the ladder, on the same equations.
+    """Newton with line search [B] on [24], [25] and [C.1]; what it cannot solve goes to `solve_step`, on the same equations.
 
     The equations are reduced to the relative displacement once for each position and effective stiffness.
     """
@@ -62,7 +62,7 @@ class PublishedSolver:
         closed = sets != OPEN
         forces = np.where(np.tile(closed, len(final.forces) // len(closed)), final.forces, 0.0)
         coordinates = reduced.coordinates(problem.load, final.displacement)
-        return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, METHODS.index(PUBLISHED))
+        return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, PUBLISHED)
 
     def reduced(self, position: RemeshedPosition, problem: StepProblem) -> RelativeStiffness:
         """The equilibrium equations [C.1] of a position and an effective stiffness."""
@@ -103,7 +103,7 @@ def _newton(equations: Equations, displacement, forces, force_tolerance: float) 
             if len(tried) > 1 and iterate.merit <= 0.5 * (SMALL * force_tolerance) ** 2:
                 return tried, ""
             if len(tried) > MOST_ITERATIONS:
-                # Round-off can keep a solution from getting smaller than the tolerance.
+                # Round-off may leave a residual above SMALL times the tolerance.
                 return tried, "" if iterate.merit <= 0.5 * force_tolerance**2 else TOO_MANY
     except np.linalg.LinAlgError:
         pass
@@ -111,7 +111,7 @@ def _newton(equations: Equations, displacement, forces, force_tolerance: float) 
 
 
 def _attempt(reduced: RelativeStiffness, problem: StepProblem, equations: Equations, tried: list[Iterate], outcome: str):
-    """What the ladder's error wants to know of an attempt: name, outcome, residuals and sets of every iterate."""
+    """An attempt as ContactNotConverged lists it: name, outcome, residuals and sets of every iterate."""
     history, sets = np.zeros((len(tried), 5)), np.zeros((len(tried), len(problem.gap)), dtype=np.int8)
     for row, iterate in enumerate(tried):
         sets[row] = equations.status(iterate.displacement, iterate.forces)

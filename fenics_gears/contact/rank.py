@@ -1,7 +1,7 @@
-"""Contact nodes that elasticity cannot tell apart: the rank of a contact compliance, and what is made of one that lacks it.
+"""Rank of a contact compliance, and a thin layer for contact nodes that elasticity cannot tell apart.
 
-Nodes that coincide, or more of them on an element than it has degrees of freedom, give way together: how a force is shared
-between them has no answer in elasticity. Each node then gets a thin layer of its own, and nodes that coincide share alike.
+Nodes that coincide, or more nodes on an element than it has degrees of freedom, yield together: elasticity does not determine
+how they share a force. Each node then gets a thin elastic layer of its own, and nodes that coincide share the force evenly.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg.lapack import dpstrf
 
-# In parts of the largest self-compliance of a node. The layer is thick enough for Newton to converge (not so below 1e-5) and moves the
-# transmission error of the paper's pair by 1e-5 of itself, a hundredth of what such a grid gets wrong.
+# In parts of the largest self-compliance of a node. Newton does not converge with a layer below 1e-5; this one changes the
+# transmission error of the paper's pair by 1e-5 of itself, a hundredth of the error that such a grid has anyway.
 SMALLEST_PIVOT = 1e-10
 LAYER = 1e-4
 

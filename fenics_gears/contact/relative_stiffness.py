@@ -1,12 +1,12 @@
 """The paper's equilibrium equations in the relative displacement of the contact nodes alone: [22], then [C.1].
 
-Each gear is taken in its own frame, x outwards along its flank's normal at the line of action, so that both gears answer a
-contact force alike: K_i u_i + p + f_i = 0, and the relative displacement u is u_1 + u_2. (The wheel's frame is turned by half a
+Each gear is taken in its own frame, x outwards along its flank's normal at the line of action, so that both gears respond alike to a
+contact force: K_i u_i + p + f_i = 0, and the relative displacement u is u_1 + u_2. (The wheel's frame is turned by half a
 turn: the paper's u_c^2 and F_e^2 are -u_2 and -f_2.)
 
-[22] eliminates the centre through K_inv = [K_qq + K^i]^-1, which stands also where the drivetrain alone holds nothing (K^i
-singular, a wheel without mass): the flank nodes hold the centre. K_i is then singular and only contact holds it. The stiffnesses
-being differences of far larger ones, some 1e-10 of the load is lost in round-off, whatever the time step.
+[22] eliminates the centre through K_inv = [K_qq + K^i]^-1, which exists even where the drivetrain alone holds nothing (K^i
+singular, a wheel without mass): the flank nodes hold the centre. K_i is then singular and only contact holds the gear. These
+stiffnesses are differences of far larger ones: about 1e-10 of the load is lost in round-off, whatever the time step.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class RelativeStiffness:
 
     `gears`: stiffness (2n + 3, 2n + 3) of pinion and wheel over their nodes' normals, tangents and (dx, dy, phi); `effective`
     (k, k): effective stiffness of the drivetrain over `coordinates`, positions in CENTRE_COORDINATES; `base_radii`, mm.
-    What is linear in drivetrain forces F and displacement u is kept as small matrices, since a run keeps many of these.
+    Maps from drivetrain forces F and displacement u are kept as small matrices, since a run keeps many of these objects.
     """
 
     def __init__(self, gears, effective: np.ndarray, coordinates: list[int], base_radii, tangential: bool):

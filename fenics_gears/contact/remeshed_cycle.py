@@ -1,58 +1,58 @@
-"""The mesh cycle of the reference route: both gears meshed anew at every position, so that flank nodes meet pair by pair."""
+"""The mesh cycle of the reference route: both gears are meshed anew at every position, so that flank nodes meet pair by pair."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.node_to_node import NodePairs, NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator
+from fenics_gears.contact.mesh_cycle import Cycle, pair_places
+from fenics_gears.contact.node_to_node import NodePairs, NodeResponse, by_direction, node_pairs, node_to_node_operator
 from fenics_gears.contact.published_solver import PublishedSolver, RemeshedPosition
-from fenics_gears.contact.tooth_pair import Place, Removal
+from fenics_gears.contact.tooth_pair import Removal
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
 
-GEARS = (0, 1)
-# A position needs its own and that of the one before; positions are built in the order of time.
+# A position needs its own compliance and that of the position before; positions are built in the order of time.
 KEPT_COMPLIANCES = 3
 
 
-class RemeshedCycle(Cycle):
-    """Contact nodes that are nodes of both gears' meshes; `order`: of the finite element; `grid` spaces its vertices.
+def paired_nodes(
+    pair: GearPair, removal: tuple[Removal | None, Removal | None], grid: ContactGrid, order: int, steps: int
+) -> list[tuple[NodePairs, ...]]:
+    """The contact nodes of every tooth pair at each position of a mesh cycle; `order`: of the finite element; `grid` spaces its vertices."""
+    places = (pair_places(pair, grid, step / steps) for step in range(steps))
+    found = ([node_pairs(pair, removal, grid, order, place) for place in each] for each in places)
+    return [tuple(nodes for nodes in each if nodes is not None) for each in found]
 
-    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts. Positions can be asked for once
-    `stiffness` is set: for each position that of pinion and wheel, N/mm per mm of face width, on the nodes of `teeth`.
+
+class RemeshedCycle(Cycle):
+    """Contact nodes that are nodes of both gears' meshes: `pairs` at each position, `grid` and `order` as of `paired_nodes`.
+
+    `stiffness`: at each position that of pinion and wheel, N/mm per mm of face width, on the nodes of `loaded_teeth`;
+    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.
     """
 
     def __init__(
         self,
         pair: GearPair,
-        removal: tuple[Removal | None, Removal | None],
+        pairs: Sequence[tuple[NodePairs, ...]],
+        stiffness: Sequence[tuple[np.ndarray, np.ndarray]],
         grid: ContactGrid,
         order: int,
-        steps: int,
         coordinates: list[int],
         tangential: bool,
     ):
-        super().__init__(pair, ContactGrid(grid.length, order * (grid.nodes - 1) + 1), steps)
-        self.stiffness: list[tuple[np.ndarray, np.ndarray]] = []
-        self._removal, self._vertices, self._order = removal, grid, order
+        super().__init__(pair, ContactGrid(grid.length, order * (grid.nodes - 1) + 1), len(pairs))
+        self._pairs, self._stiffness = dict(enumerate(pairs)), stiffness
         self._coordinates, self._tangential = coordinates, tangential
         self._compliances: dict[int, tuple[np.ndarray, np.ndarray]] = {}
         self._solver = PublishedSolver(coordinates)
 
     def solve(self, position: RemeshedPosition, problem, status, last):
-        """Newton with line search [B], the program's own ladder where it finds no solution."""
+        """Newton with line search [B]; the program's own Newton and its fallbacks where that finds no solution."""
         return self._solver(position, problem, status, last)
-
-    def teeth(self, index: int) -> tuple[tuple[LoadedTooth, ...], tuple[LoadedTooth, ...]]:
-        """The loaded teeth of pinion and wheel at position `index`, with the flank vertices that contact wants there."""
-        return tuple(loaded_teeth(self.pairs_at(index), gear, self._order) for gear in GEARS)
-
-    def _pair(self, place: Place) -> NodePairs | None:
-        return node_pairs(self.pair, self._removal, self._vertices, self._order, place)
 
     def _position(self, index: int, pairs, previous, advance: float, carried: np.ndarray) -> RemeshedPosition:
         before = None
@@ -69,7 +69,7 @@ class RemeshedCycle(Cycle):
 
     def _own_stiffness(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         pairs, widths = self.pairs_at(index), self.pair.face_widths
-        return tuple(by_direction(widths[gear] * self.stiffness[index][gear], pairs, gear) for gear in GEARS)
+        return tuple(by_direction(widths[gear] * self._stiffness[index][gear], pairs, gear) for gear in range(2))
 
     def _compliance(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         """Flank compliance of either gear, hub held."""

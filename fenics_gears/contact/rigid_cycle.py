@@ -1,8 +1,8 @@
-"""The mesh cycle of rigid flanks: the pair whose gap is smallest carries all, and its gap is the kinematic transmission error.
+"""The mesh cycle of rigid flanks: the tooth pair with the smallest gap carries the whole force, and its gap is the kinematic transmission error.
 
 All contact nodes of the drive flanks move alike with the gears, by the base radii and along the line of action; so do those of the coast
-flanks. Of either side only the node with the smallest gap can touch. Where several pairs have it, as true involutes do wherever two
-pairs are in mesh, their shares of the force are not determined; the step's solution puts all on the first of them.
+flanks. On either side only the node with the smallest gap can touch. Where several pairs have the same gap, as true involutes do wherever two
+pairs are in mesh, their shares of the force are not determined; the step's solution puts the whole force on the first of them.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
 from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
 from fenics_gears.contact.operator import ContactOperator, operator_on_lines, over_nodes
-from fenics_gears.contact.step_solver import StepProblem, StepSolution
+from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.geometry.pair import GearPair
@@ -33,7 +33,7 @@ class RigidPosition(Position):
 
 
 class RigidCycle(Cycle):
-    """Contact nodes on flanks that do not give way; without friction.
+    """Contact nodes on rigid flanks; without friction.
 
     `coordinates`: which centre coordinates are unknowns; `removal`: material removed from either drive flank.
     """
@@ -56,7 +56,7 @@ class RigidCycle(Cycle):
     def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
         """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks, else with both.
 
-        Both touch where elastic bearings let the centres give way to teeth that are wider than the spaces between them. Raises
+        Both touch where teeth are wider than the spaces between them and elastic bearings let the centres move apart. Raises
         ContactNotConverged where none of them holds the load.
         """
         leaders = [int(nodes[np.argmin(problem.gap[nodes])]) for nodes in position.sides if len(nodes)]
@@ -67,7 +67,7 @@ class RigidCycle(Cycle):
                 status = np.zeros(len(problem.gap), dtype=np.int8)
                 status[touching] = SLIP_FORWARD
                 displacement = problem.jacobian @ coordinates
-                return StepSolution(forces, coordinates, displacement, status, iterations, method=0)
+                return StepSolution(forces, coordinates, displacement, status, iterations, NEWTON)
         raise no_equilibrium(why_none_holds(problem, leaders), len(problem.gap))
 
     def _pair(self, place: Place) -> PairNodes | None:
@@ -78,12 +78,12 @@ class RigidCycle(Cycle):
             # True involutes touch on the line of action itself.
             offsets = np.unique(np.append(offsets, 0.0))
         removal = self._removal if place.flank == DRIVE else (None, None)
-        (pinion_roll, _), (x_1, x_2), gap = facing_points(self.pair, removal, place.contact_rolls, offsets)
+        (pinion_roll, _), (x_1, x_2), gap = facing_points(self.pair, removal, place, offsets)
         return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
 
     def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> RigidPosition:
         nodes, before = len(over_nodes(pairs, "gap")), len(over_nodes(previous, "gap"))
-        # Nothing gives way: one zero seen from everywhere.
+        # Rigid: views of a single zero.
         rows = 2 * nodes if self.frictional else nodes
         previous_compliance = np.broadcast_to(0.0, (nodes, 2 * before)) if self.frictional else None
         compliance = np.broadcast_to(0.0, (rows, rows))
@@ -92,7 +92,7 @@ class RigidCycle(Cycle):
 
 
 def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:
-    """Positions in `operator.pairs` of those that touch where `node` does: of several the shares are not determined."""
+    """Positions in `operator.pairs` of those that touch when `node` does; the shares of several are not determined."""
     side = operator.on_drive_flanks == operator.on_drive_flanks[node]
     return np.unique(operator.node_pair[side & (operator.gap <= operator.gap[node] + SAME_GAP)])
 
@@ -118,14 +118,14 @@ def tied(problem: StepProblem, rows: np.ndarray, pushes: np.ndarray, gap: np.nda
     """Forces (t,) and coordinates (k,) with `rows` (t, k) of the flanks closed to their `gap` (t,), where a unit force pushes the drivetrain
     by `pushes` (k, t); forces None where that cannot be solved."""
     k, t = len(problem.load), len(gap)
-    # The forces in units of the load's stiffness over a length, so that the matrix is not torn between magnitudes.
+    # Forces are carried as lengths, by the largest stiffness, so that all entries of the matrix are of one size.
     unit = np.abs(problem.stiffness).max(initial=0.0) or 1.0
     matrix = np.zeros((k + t, k + t))
     matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, unit * pushes, unit * rows
     right = np.append(problem.load, unit * gap)
     try:
         solution = np.linalg.solve(matrix, right)
-        # Slow masses are no stiffness to speak of: the load over it is a length beside which the gap is lost in round-off.
+        # Iterative refinement: where slow masses are hardly any stiffness, load over stiffness is a length beside which the gap is round-off.
         solution += np.linalg.solve(matrix, right - matrix @ solution)
     except np.linalg.LinAlgError:
         return None, np.zeros(k)
@@ -133,7 +133,7 @@ def tied(problem: StepProblem, rows: np.ndarray, pushes: np.ndarray, gap: np.nda
 
 
 def _independent(rows: np.ndarray) -> bool:
-    """Whether drive and coast flanks hold the gears differently: where their centres are fixed, one takes what the other gives."""
+    """Whether drive and coast flanks hold the gears in different directions; with fixed centres they do not."""
     return np.linalg.matrix_rank(rows, tol=1e-9) == len(rows)
 
 
@@ -152,7 +152,7 @@ def why_none_holds(problem: StepProblem, leaders: list[int]) -> str:
     if len(leaders) == 2 and play < 0.0 and not _independent(problem.jacobian[leaders]):
         return (
             f"no equilibrium: rigid teeth are wedged between drive and coast flanks, by {-1e3 * play:.4g} um more than there is backlash: "
-            "raise gears.centre_distance, lower what the flanks deviate, or let them give way ([gears.material] or [bearings])"
+            "raise gears.centre_distance, lower the flank deviations, or make teeth or bearings elastic ([gears.material], [bearings])"
         )
     words = problem.free_words or "the load moves the drivetrain freely"
     return f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"

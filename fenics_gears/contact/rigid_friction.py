@@ -1,7 +1,7 @@
-"""Rigid flanks with friction, by common practice: pairs that touch together share the force evenly, each slides as its place has it.
+"""Rigid flanks with friction, by common practice: tooth pairs that touch share the force evenly, and slide as in the nominal motion.
 
-Rigid flanks do not say how they share a force, nor, at the pitch point, which way they slide. Each pair's friction is mu times its part of the
-force against the sliding of the nominal motion; the sliding of bearings and shafts does not change its sign.
+Rigid flanks determine neither how pairs share a force nor, at the pitch point, which way they slide. Each pair's friction is mu times its
+share of the force, against the sliding of the nominal motion; motion of bearings and shafts does not change its sign.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ import numpy as np
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.rigid_cycle import RigidCycle, RigidPosition, no_equilibrium, obeys, pairs_that_touch, tied, why_none_holds
-from fenics_gears.contact.step_solver import StepProblem, StepSolution
+from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
 
 
 class RigidFrictionCycle(RigidCycle):
-    """Contact nodes on flanks that do not give way, with friction; arguments as of RigidCycle."""
+    """Contact nodes on rigid flanks, with friction; arguments as of RigidCycle."""
 
     traits = replace(RigidCycle.traits, prescribes_friction=True)
     frictional = True
@@ -36,7 +36,7 @@ class RigidFrictionCycle(RigidCycle):
             if forces is not None and obeys(problem, leaders, touching, forces, coordinates):
                 slips = np.where(unit[count:] > 0.0, SLIP_FORWARD, np.where(unit[count:] < 0.0, SLIP_BACKWARD, STICK))
                 found = np.where(unit[:count] > 0.0, slips, 0).astype(np.int8)
-                return StepSolution(forces, coordinates, problem.jacobian @ coordinates, found, iterations, method=0)
+                return StepSolution(forces, coordinates, problem.jacobian @ coordinates, found, iterations, NEWTON)
         raise no_equilibrium(why_none_holds(problem, leaders), count)
 
 

@@ -1,9 +1,9 @@
-"""The mesh cycle of a mesh that is nothing but springs along the line of action: stiffness tables, stiffness by a standard.
+"""The mesh as springs along the line of action: stiffness tables, stiffness by a standard.
 
 A mesh spring that stiffens with its load, piecewise linear, is a row of linear springs side by side, each with a gap of its own:
-``F(u) = sum k_i (u - g_i)_+``. Each is a contact node, so that all that marches contact marches a mesh spring, and its energy is
-``sum p_i^2/(2 k_i)``, exactly. The springs of a tooth pair stand where its flanks meet on the line of action, with the arms that friction has
-there; across it they give way as much as along it.
+``F(u) = sum k_i (u - g_i)_+``. Each is a contact node, so that the march through time needs nothing new, and the energy is exactly
+``sum p_i^2/(2 k_i)``. The springs of a tooth pair stand where its flanks meet on the line of action, with the lever arms that friction has
+there; across that line they yield as much as along it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, coast_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.pair import GearPair
 
-# The springs of a pair stand at one point; so far apart (mm) they are known from one another from step to step.
+# The springs of a pair stand at one point; this distance (mm) between them tells them apart from step to step.
 APART = 1e-9
 
 

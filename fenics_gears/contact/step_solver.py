@@ -1,4 +1,4 @@
-"""One contact step, solved: Newton first, then the rungs of the fallback ladder (model.md section 4)."""
+"""One contact step, solved: Newton first, then its fallbacks one after the other (model.md section 4)."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ from fenics_gears.contact.newton import (
     newton,
 )
 
+NEWTON = "newton"
 NEWTON_AND_FALLBACKS = (
-    "newton", "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time", "Tresca fixed point",
+    NEWTON, "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time", "Tresca fixed point",
 )  # fmt: skip
 PUBLISHED = "Newton with line search"
-# The march's own method: it divides the step in two where the ladder ends without a solution.
+# The march itself divides the step in two where all of these end without a solution.
 HALVED = "step halved"
 METHODS = (*NEWTON_AND_FALLBACKS, PUBLISHED, HALVED)
 HOMOTOPY_STEPS = 8
@@ -33,8 +34,8 @@ HOMOTOPY_STEPS = 8
 class StepProblem:
     """The mixed form at one position and time: arrays as in `contact.newton.newton`.
 
-    `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain
-    where that alone cannot hold it, else empty; `free_words` say so of the scene, "the wheel turns freely under ...".
+    `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain where that alone cannot hold
+    it, else empty; `free_words`: the same for an error's message, "the wheel turns freely under ...".
     """
 
     stiffness: np.ndarray
@@ -53,7 +54,7 @@ class StepProblem:
 class StepSolution:
     """Nodal forces (m,), N, centre coordinates (k,), mm, relative displacement (m,), mm, and the sets (n,).
 
-    `iterations`: of Newton and all fallbacks together; `method`: index into METHODS of the one that converged.
+    `iterations`: of Newton and all fallbacks together; `method`: of METHODS the one that converged.
     """
 
     forces: np.ndarray
@@ -61,7 +62,7 @@ class StepSolution:
     displacement: np.ndarray
     status: np.ndarray
     iterations: int
-    method: int
+    method: str
 
 
 def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
@@ -81,7 +82,7 @@ def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 4
     attempts, spent = list(before), sum(len(history) for _, _, history, _ in before)
     for method, attempt in _methods(problem, status, max_iterations):
         result, record = attempt()
-        attempts.append((NEWTON_AND_FALLBACKS[method], OUTCOMES[result[0]], *record))
+        attempts.append((method, OUTCOMES[result[0]], *record))
         spent += result[1]
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result
@@ -89,23 +90,24 @@ def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 4
     raise explained(problem, attempts)
 
 
-def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[int, Callable]]:
-    """The rungs that apply, each with its place in NEWTON_AND_FALLBACKS; without friction the first and the last two.
+def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[str, Callable]]:
+    """The methods that apply, in the order of NEWTON_AND_FALLBACKS; without friction the first and the last two.
 
-    Murty's rule stands before Tresca's fixed point since it costs about a hundredth, and finds what it finds exactly.
+    Murty's rule stands before Tresca's fixed point: it costs about a hundredth, and its solutions are exact.
     """
-    yield 0, lambda: run_newton(problem, status, max_iterations)
+    newton, through, larger, smaller, from_zero, one_by_one, fixed_point = NEWTON_AND_FALLBACKS
+    yield newton, lambda: run_newton(problem, status, max_iterations)
     if len(problem.slip_before):
-        yield 1, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
-        yield 2, lambda: run_newton(problem, status, max_iterations, r_scale=10.0)
-        yield 3, lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
-        yield 4, lambda: _friction_from_zero(problem, status, max_iterations)
-    yield 5, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
+        yield through, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
+        yield larger, lambda: run_newton(problem, status, max_iterations, r_scale=10.0)
+        yield smaller, lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
+        yield from_zero, lambda: _friction_from_zero(problem, status, max_iterations)
+    yield one_by_one, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
     if len(problem.gap):
-        # Few runs come this far.
+        # Imported where it is needed, which is rare.
         from fenics_gears.contact.tresca import tresca
 
-        yield 6, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
+        yield fixed_point, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
 
 
 def run_newton(

@@ -1,7 +1,7 @@
-"""A table of the mesh stiffness: how far the mesh gives way under some loads at each phase, and how its pairs share them.
+"""A table of the mesh stiffness: how far the mesh yields under some loads at each phase, and how its tooth pairs share them.
 
-One quasi-static, frictionless mesh cycle of the full contact; between loads and phases the table is linear. That is the time-varying
-non-linear mesh spring of common practice: it knows neither speed nor friction nor what moves the gears but rotation.
+It is taken from one quasi-static, frictionless mesh cycle of the full contact; between loads and phases it is linear. This is the
+time-varying non-linear mesh spring of common practice: it depends neither on speed nor on friction, and on rotations of the gears alone.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from fenics_gears.contact.tooth_pair import COAST, DRIVE
 
 # In parts of the scene's load; above the last the curve goes on straight.
 LOADS = (0.0, 0.25, 0.5, 0.7, 0.85, 1.0, 1.15, 1.3, 1.6, 2.5)
-# A spring that adds less than this part to the stiffness is left out: round-off of a curve that is straight there.
+# A spring that adds less than this part to the stiffness is left out: it is round-off of a curve that is straight there.
 NEGLIGIBLE = 1e-9
 
 
@@ -43,7 +43,7 @@ class StiffnessTable:
         indices = [index for side, index in self.share if side == flank]
         shares = np.array([_at(self.share[flank, index], phase) for index in indices])
         slopes = np.maximum.accumulate(np.diff(self.loads) / np.diff(approach))
-        # Where a pair comes in, the others' slopes fall a little for the body that they share: that is left to the whole.
+        # Where a pair comes into contact the slopes of the others fall a little, since they share the gear body; the sum includes that.
         gained = np.maximum(np.diff(np.diff(shares, axis=1) / np.diff(approach), axis=1, prepend=0.0), 0.0)
         stiffness = np.diff(slopes, prepend=0.0) * gained / np.maximum(gained.sum(axis=0), np.finfo(float).tiny)
         found = []
@@ -77,7 +77,7 @@ def stiffness_table(cycle: Cycle, rotation: int, load: float, loads: tuple[float
             nodes = np.flatnonzero(operator.on_drive_flanks == (flank == DRIVE))
             approach[flank][step], forces = _curve(operator, nodes, rotation, levels)
             for place in np.unique(operator.node_pair[nodes]):
-                # The pairs at the end of a cycle by the numbers that they had in it.
+                # At the end of a cycle pairs are counted as in it.
                 index = operator.pairs[place].place.index - passed
                 rows = share.setdefault((flank, index), np.zeros((cycle.steps + 1, len(levels))))
                 rows[step] = forces[:, operator.node_pair[nodes] == place].sum(axis=1)

@@ -1,4 +1,4 @@
-"""One tooth pair at one position: its contact nodes, gaps, sliding, and how they see either gear."""
+"""One tooth pair at one position: its contact nodes, their gaps, and their interpolation of both flanks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Removal = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class Flanks:
-    """What the contact layer needs of the two gears: geometry, compliance, and material removed from either flank.
+    """The two gears as contact sees them: geometry, compliance, and material removed from either flank.
 
     `removal`: functions of the roll angle (rad) giving mm along the flank normal, or None for a true involute.
     """
@@ -27,13 +27,18 @@ class Flanks:
     compliance: tuple[FlankCompliance, FlankCompliance]
     removal: tuple[Removal | None, Removal | None] = (None, None)
 
+    def removal_at(self, place: Place) -> tuple[Removal | None, Removal | None]:
+        """Material removed from the flanks at a place: modifications are made on the drive flanks."""
+        return self.removal if place.flank == DRIVE else (None, None)
+
 
 DRIVE, COAST = 0, 1
+SENSES = (-1.0, 1.0)  # of offsets: towards the pinion's centre, away from the wheel's
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line along which flanks are seen: its distances `lever_arms` (mm) from both centres, `length` (mm) between the centres' feet on it."""
+    """A line of action: its distances `lever_arms` (mm) from both centres, and `length` (mm) between the feet of the centres on it."""
 
     lever_arms: tuple[float, float]
     length: float
@@ -44,8 +49,8 @@ class Place:
     """Where a pair of flanks stands: `index` of the pinion's tooth, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
 
     Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of action's
-    direction and the one across it in space, `turn` the sign of rotations. `line`: where the flanks are seen along another line
-    than that of action, see `contact.corner`; its direction is in `axes`, and `contact_rolls` are measured from it.
+    direction and the one across it in space, `turn` the sign of rotations. `line`: another line than the
+    theoretical line of action, of a tip edge (`contact.corner`); its direction is in `axes`, and `contact_rolls` are measured from it.
     """
 
     index: int
@@ -56,7 +61,7 @@ class Place:
     line: Line | None = None
 
     def line_in(self, pair: GearPair) -> Line:
-        """The line along which the flanks are seen, the line of action unless said otherwise."""
+        """The line of action of the flanks: the theoretical one but for tip edges."""
         return self.line or Line((pair.pinion.base_radius, pair.wheel.base_radius), pair.line_of_action_length)
 
     @property
@@ -86,7 +91,7 @@ class PairNodes:
     """Contact nodes (n,) of the flanks at `place`.
 
     `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open), `pinion_lever_arm` and `wheel_lever_arm` (mm: distance of the point of contact from the tangent points T1 and T2 along the line of
+    open), `pinion_lever_arm` and `wheel_lever_arm` (mm, of friction: distance of the point of contact from T1 and T2 along the line of
     action), `pinion_roll` (rad).
     """
 
@@ -106,29 +111,27 @@ class ToothPair(PairNodes):
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
 
-def rolls_at(pair: GearPair, contact_rolls: tuple[float, float], offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Roll angles (rad, any shape) on pinion and wheel of the flank points at offsets (mm), given those on the line of action."""
-    radii = (pair.pinion.base_radius, pair.wheel.base_radius)
-    heights = (radii[0] - offsets, radii[1] + offsets)
+def rolls_at(pair: GearPair, place: Place, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Roll angles (rad, any shape) on pinion and wheel of the flank points at offsets (mm) from the line of a place."""
+    gears, arms = (pair.pinion, pair.wheel), place.line_in(pair).lever_arms
     return tuple(
-        roll_angle_at_height(radius, contact_roll, height)
-        for radius, contact_roll, height in zip(radii, contact_rolls, heights)
+        roll_angle_at_height(gear.base_radius, roll, arm + sense * offsets)
+        for gear, roll, arm, sense in zip(gears, place.contact_rolls, arms, SENSES)
     )
 
 
-def facing_points(
-    pair: GearPair, removal: tuple[Removal | None, Removal | None], contact_rolls: tuple[float, float], offsets: np.ndarray
-):
-    """Flank points that face each other at offsets (mm, any shape): roll angles (rad) and distances from T1, T2 (mm) of both, gap (mm)."""
-    rolls, gears = rolls_at(pair, contact_rolls, offsets), (pair.pinion, pair.wheel)
-    arms = tuple(
-        flank_point(gear.base_radius, roll, contact_roll)[0] for gear, roll, contact_roll in zip(gears, rolls, contact_rolls)
-    )
-    gap = pair.line_of_action_length - arms[1] - arms[0]
+def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None], place: Place, offsets: np.ndarray):
+    """Flank points that face each other along the line of action at offsets (mm, any shape).
+
+    Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm).
+    """
+    rolls, gears = rolls_at(pair, place, offsets), (pair.pinion, pair.wheel)
+    distances = tuple(flank_point(gear.base_radius, roll, at)[0] for gear, roll, at in zip(gears, rolls, place.contact_rolls))
+    gap = pair.line_of_action_length - distances[1] - distances[0]
     for removed, roll in zip(removal, rolls):
         if removed is not None:
             gap = gap + removed(roll)
-    return rolls, arms, gap
+    return rolls, distances, gap
 
 
 def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | None:
@@ -136,29 +139,40 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
     offsets = node_offsets(flanks.pair, place.contact_rolls, grid)
     if not len(offsets):
         return None
-    pinion, wheel, view = flanks.pair.pinion, flanks.pair.wheel, INTERPOLATIONS[grid.interpolation]
-    # Modifications are made on the drive flanks.
-    removal = flanks.removal if place.flank == DRIVE else (None, None)
-    _, (x_1, x_2), gap = facing_points(flanks.pair, removal, place.contact_rolls, view.places(offsets))
-    node_rolls = rolls_at(flanks.pair, place.contact_rolls, offsets)
-    # Flanks that deform to touch meet midway between where they stand undeformed. Both forces of friction act there, so that
-    # action and reaction leave no couple.
-    meeting = 0.5 * (view.seen(offsets, x_1 - x_2) + flanks.pair.line_of_action_length)
+    at = INTERPOLATIONS[grid.interpolation].places(offsets)
+    _, distances, gap = facing_points(flanks.pair, flanks.removal_at(place), place, at)
+    return nodes_on_flanks(flanks, grid, place, offsets, distances, gap)
+
+
+def nodes_on_flanks(
+    flanks: Flanks, grid: ContactGrid, place: Place, offsets: np.ndarray, distances: tuple[np.ndarray, np.ndarray], gap: np.ndarray
+) -> ToothPair:
+    """Contact nodes at `offsets` (n,), mm, that see the flanks by the grid's interpolation.
+
+    `distances`: of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`, mm, where the interpolation wants them.
+    """
+    view, line = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair)
+    gears, rolls = (flanks.pair.pinion, flanks.pair.wheel), rolls_at(flanks.pair, place, offsets)
+    # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that action and
+    # reaction leave no torque.
+    meeting = 0.5 * (view.seen(offsets, distances[0] - distances[1]) + line.length)
     interpolation = tuple(
         view.of_flank(
-            offsets, rolls, gear.base_radius, contact_roll, sense, flank.rolls_of(place.ahead(number)), flank.element_order
+            # Offsets from the line at the gear's own base radius.
+            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense,
+            flank.rolls_of(place.ahead(number)), flank.element_order,
         )
-        for number, (gear, rolls, contact_roll, sense, flank) in enumerate(
-            zip((pinion, wheel), node_rolls, place.contact_rolls, (-1.0, 1.0), flanks.compliance)
+        for number, (gear, own, roll, arm, sense, flank) in enumerate(
+            zip(gears, rolls, place.contact_rolls, line.lever_arms, SENSES, flanks.compliance)
         )
-    )
+    )  # fmt: skip
     return ToothPair(
         place=place,
         offsets=offsets,
         lengths=hat_integrals(offsets),
         gap=view.seen(offsets, gap),
         pinion_lever_arm=meeting,
-        wheel_lever_arm=flanks.pair.line_of_action_length - meeting,
-        pinion_roll=node_rolls[0],
+        wheel_lever_arm=line.length - meeting,
+        pinion_roll=rolls[0],
         interpolation=interpolation,
     )

@@ -1,12 +1,13 @@
-"""Tresca's fixed point: friction bounds frozen at s = mu p_n, a convex quadratic programme for the forces, bounds renewed.
+"""Tresca's fixed point: a convex quadratic programme for the forces with friction bounds frozen at s = mu p_n, then new bounds.
 
 With frozen bounds the step is the minimum of the energy (model.md section 4): over p and z, with K = L L^T,
 
     1/2 p^T C p + 1/2 z^T z + gap . p_n - w_old . p_t   subject to   L z + G^T p = F,  p_n >= 0,  |p_t| <= s
 
 whose multipliers of the equality are the centre coordinates q, also where K is singular and only contact holds the load. The sets
-that the programme settles on are handed to Newton, so that the answer is as exact as any other rung's. Without friction there are no bounds, and
-one programme is enough: it also solves contact nodes so close that elasticity hardly tells them apart, where sets alternate for ever.
+that the programme settles on start Newton, so that the solution is as exact as by any other method. Without friction there are no
+bounds, and one programme is enough; it also solves contact nodes so close that elasticity hardly tells them apart, where Newton's sets
+alternate for ever.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.newton import CONVERGED, CYCLED, SINGULAR, measure
 
 MOST_PROGRAMMES = 100
-# Bounds that alternate are brought together by taking half of each change from here on.
+# From this programme on only half of each change of the bounds is taken, so that bounds that alternate converge.
 UNRELAXED = 20
 ACCURACY = {"show_progress": False, "abstol": 1e-13, "reltol": 1e-13, "feastol": 1e-11, "maxiters": 60}
 
@@ -35,9 +36,9 @@ class Frozen:
 
 
 def tresca(problem, status: np.ndarray, polish: Callable):
-    """The fixed point from no friction at all; `polish(sets)` solves from given sets, as `ladder.run_newton` does.
+    """The fixed point from no friction at all; `polish(sets)` solves from given sets, as `step_solver.run_newton` does.
 
-    Returns what `ladder.run_newton` returns, `polish`'s where it converges; iterations count programmes and Newton's together.
+    Returns what `step_solver.run_newton` returns, `polish`'s where it converges; iterations count programmes and Newton's together.
     """
     n, spent, relaxation = len(problem.gap), 0, 1.0
     history, sets, tried = [], [], set()

@@ -5,8 +5,8 @@ W = C + G K^-1 G^T. Two solutions would differ by d with d_j (M d)_j <= 0 at eve
 definite for some positive diagonal D; D = 1 is the certificate of the hard cases.
 
 Where contact alone holds the load, K is singular along a motion f, a = G_n f, b = a + diag(sigma mu) G_t f. Forces then differ
-by d with b . d = 0, and gaps may shift by any multiple of a besides. With D = diag(b/a) the shift does no work, (D a) . d = 0: what
-remains is sym(D M) positive definite on b . d = 0, with the regular part of K in M. b/a > 0 says that nothing locks. The same D
+by d with b . d = 0, and gaps may also shift by any multiple of a. With D = diag(b/a) the shift does no work, (D a) . d = 0: what
+remains is sym(D M) positive definite on b . d = 0, with the regular part of K in M. b/a > 0 means that nothing locks. The same D
 serves where inertia makes K regular but little: its part of D M is then b b^T/lambda, which is positive too.
 """
 
@@ -23,7 +23,7 @@ SINGULAR = 1e-14
 
 
 def flexibility(stiffness: np.ndarray, compliance: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
-    """W = C + G K^+ G^T (m, m), mm/N, without the motions that the stiffness does not hold."""
+    """W = C + G K^+ G^T (m, m), mm/N; motions that the stiffness does not hold are left out."""
     values, vectors = np.linalg.eigh(stiffness)
     held = values > SINGULAR * max(values[-1], 0.0)
     moved = jacobian @ vectors[:, held]

@@ -1,7 +1,7 @@
-"""Mesh cycles of a pair whose teeth are not all alike: which teeth are in mesh decides on the contact operators.
+"""Mesh cycles of a pair whose teeth are not all alike: contact operators depend on the teeth in mesh.
 
-Cycles in which the teeth in mesh respond alike share their operators; the others have their own. A gear with one cracked tooth has its
-own in the few cycles around that tooth.
+Cycles whose teeth in mesh respond alike share their operators; the others have their own: with one cracked tooth, the few cycles in
+which it can be in mesh.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from fenics_gears.contact.tooth_pair import Flanks, PairNodes
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 
-# Teeth respond alike where their compliances agree to this part of the largest, a fifth of what a default mesh errs by. The body carries
-# a crack's effect on: from tooth to tooth it falls by about half.
+# Teeth respond alike where their compliances agree to this part of the largest, a fifth of the error of a default mesh. The effect of a
+# crack on the next teeth falls by about half from tooth to tooth.
 ALIKE = 1e-4
 SAME_ROLL = 1e-9
 GEARS = (0, 1)
@@ -50,7 +50,7 @@ class TeethInMesh:
         return self.body.between(self.first + responding, self.first + loaded, sides)
 
     def key(self, responding: int, loaded: int) -> tuple[int, int]:
-        """What the compliance between two teeth is kept under."""
+        """Key of the compliance between two teeth."""
         return (self.first + responding) % self.body.teeth, (self.first + loaded) % self.body.teeth
 
 
@@ -96,7 +96,7 @@ class WholeBodyCycle(Cycle):
 
     @property
     def kinds(self) -> int:
-        """How many cycles with operators of their own have been met."""
+        """Number of different cycles so far, each with operators of its own."""
         return len(self._cycles)
 
     def _like(self, gear: int, number: int) -> int:

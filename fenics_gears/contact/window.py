@@ -2,7 +2,7 @@
 
 A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows
 the moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with
-it: nodes then leave at the far, open end of the window one by one, and nothing jumps where the load is.
+it: nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from fenics_gears.geometry.pair import GearPair
 
 @dataclass(frozen=True)
 class ContactGrid:
-    """What spans the contact nodes: window length in mm, nodes in a whole window, and by its name how they see the flanks."""
+    """Length of the contact window in mm, contact nodes in a whole window, and the name of their interpolation of the flanks."""
 
     length: float
     nodes: int

@@ -1,4 +1,4 @@
-"""When a step is: steps stand at equal phases of the mesh, and a clock says at what time."""
+"""Times of the steps: steps stand at equal phases of the mesh, and a clock gives the time of each."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ class Clock(Protocol):
         """Time of a step, s."""
 
     def duration(self, first: float, last: float) -> float:
-        """Time from one step to another, s, free of the round-off of a difference of times."""
+        """Time from one step to another, s, without the round-off of a difference of times."""
 
 
 @dataclass(frozen=True)
 class SteadyClock:
-    """All steps as long as the next: `time_step`, s."""
+    """All steps of one length, `time_step`, s."""
 
     time_step: float
 

@@ -37,10 +37,10 @@ def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss
 
 
 def loss_attributes(separations: Sequence[tuple[int, float]], first: int, last: int, clock: Clock) -> dict[str, float]:
-    """What a result says of lost contact between two steps: how often; the first time, the longest (s), the share of the time, the widest
-    opening (mm).
+    """Attributes of a result on lost contact between two steps: how often; time of the first and length of the longest loss (s), share of
+    the time, widest opening (mm).
 
-    The last four are there only where contact was lost.
+    The last four only where contact was lost.
     """
     losses = contact_losses(separations)
     if not losses:

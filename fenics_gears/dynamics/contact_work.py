@@ -1,4 +1,4 @@
-"""Work of the contact over one step, split without remainder as `dynamics.energy_account` says; compiled, since every step asks for it."""
+"""Work of the contact over one step, split without remainder as in `dynamics.energy_account`; compiled, since every step needs it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NONE, NO_ROWS = np.empty(0), np.empty((0, 0))
 
 @dataclass(frozen=True)
 class ContactWork:
-    """Work of the contact over one step, N mm: `rotation` done by the prescribed rotation, `friction` lost, `changes` of the algorithm."""
+    """Work of the contact over one step, N mm: `rotation`: done by the prescribed rotation; `friction`: lost; `changes`: by the algorithm where contact changes."""
 
     rotation: float
     friction: float
@@ -56,7 +56,7 @@ def _work(
     for node in successor:
         if node >= 0:
             fresh[node] = False
-    # Rows now and before of what both ends have, and the forces there.
+    # Rows, before and now, of the nodes that both ends of the step have.
     rows_0, rows_1 = np.empty(kinds * n_0, dtype=np.int64), np.empty(kinds * n_0, dtype=np.int64)
     kept = 0
     for kind in range(kinds):
@@ -82,7 +82,7 @@ def _work(
             changes -= 0.5 * forces_1[node] * (gap_1[node] - _at_other(node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0))
         if kinds == 1:
             continue
-        # `slid`: by the nominal motion and what the same points were displaced by before; `moved`: as now the node would have been.
+        # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that the node had then.
         before = carried[node] if not fresh[node] else -1
         p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
         if p_0 == 0.0 and p_1 == 0.0:

@@ -1,4 +1,4 @@
-"""Whether the faces of cracks stand apart under the contact forces of a run, or would have to pass through each other."""
+"""Openings of cracks under the contact forces of a run, and a warning where their faces would pass through each other."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from fenics_gears.contact.whole_body_cycle import GEARS, first_tooth
 from fenics_gears.dynamics.march import Record
 
 NAMES = ("pinion", "wheel")
-# Overlaps (mm) below this are round-off, and no news.
+# Overlaps (mm) below this are round-off.
 LEAST_OVERLAP = 1e-6
 
 
 def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
     """Distances (k,), mm, of facing points of the cracks of the pinion (0) or the wheel (1); negative where they would overlap.
 
-    Of forces on teeth within the reach of the body's compliance; those farther away hardly move a crack.
+    From forces on teeth within the reach of the body's compliance; others hardly move a crack.
     """
     body, operator, forces = cycle.bodies[gear], record.position.operator, record.solution.forces
     by_kind = forces.reshape(-1, operator.nodes)
@@ -33,7 +33,7 @@ def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
 
 
 def crack_openings(cycle, records: Sequence[Record]) -> dict[str, np.ndarray]:
-    """Smallest and largest of them at each record, (records,), mm, by the gear's name; only of gears that have cracks."""
+    """Smallest and largest opening at each record, (records,), mm, by the gear's name; only of gears that have cracks."""
     found = {}
     for gear in GEARS:
         if not cycle.bodies[gear].alike and cycle.bodies[gear].openings:
@@ -51,7 +51,7 @@ def closed_cracks(watched: Mapping[str, np.ndarray]) -> list[str]:
         if overlaps:
             found.append(
                 f"the faces of a crack in the {name} would pass through each other in {overlaps} of {len(least)} steps, by up to "
-                f"{-1e3 * least.min():.3g} um (it opens by up to {1e3 * max(largest.max(), 0.0):.3g} um): a real crack is closed there and carries, "
-                "the gear is stiffer then than computed"
+                f"{-1e3 * least.min():.3g} um (it opens by up to {1e3 * max(largest.max(), 0.0):.3g} um): a real crack closes there and carries load, "
+                "so that the gear is stiffer than computed"
             )
     return found

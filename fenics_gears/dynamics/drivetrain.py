@@ -19,7 +19,7 @@ from fenics_gears.geometry.pair import GearPair
 if TYPE_CHECKING:
     from fenics_gears.dynamics.gear_inertia import LumpedGear
 
-# The load's moment of inertia over the wheel's: their sum keeps six digits of the wheel's.
+# The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
 MOST_OF_WHEEL = 1e10
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 # Each centre's translations: of which gear, in which direction.
@@ -55,7 +55,7 @@ class Drivetrain:
 
     @property
     def free_motion(self) -> np.ndarray:
-        """How the load moves the drivetrain where, without mass, only contact holds it (k,); empty where the stiffness does."""
+        """How the load moves the drivetrain (k,) where, without mass, only contact holds it; empty where its stiffness does."""
         values, vectors = np.linalg.eigh(self.stiffness)
         if values[0] > 1e-14 * max(values[-1], 0.0) and values[-1] > 0.0:
             return np.empty(0)
@@ -70,8 +70,8 @@ class Drivetrain:
         if not len(motion):
             return ""
         turning = int(np.argmax(np.abs(motion)))
-        couple = 1e-3 * self.load[turning] * self.radii[turning]
-        return f"{FREE.get(self.coordinates[turning], 'the drivetrain')} turns freely under its couple of {couple:.4g} N m"
+        torque = 1e-3 * self.load[turning] * self.radii[turning]
+        return f"{FREE.get(self.coordinates[turning], 'the drivetrain')} turns freely under its torque of {torque:.4g} N m"
 
     def value(self, states: np.ndarray, name: str) -> np.ndarray:
         """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it fixed."""
@@ -85,7 +85,7 @@ class Drivetrain:
 
 @dataclass(frozen=True)
 class Supports:
-    """What moves and resists in a drivetrain; None for what a scene does not have. `gears`: "pinion" and "wheel" as lumped masses, with `inertia`."""
+    """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel" as lumped masses."""
 
     shafts: Shafts | None = None
     bearings: Bearings | None = None
@@ -95,10 +95,10 @@ class Supports:
 
 
 def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
-    """The drivetrain of a pair under a torque (N mm) on the wheel's shaft; what nothing frees does not appear.
+    """The drivetrain of a pair under a torque (N mm) on the wheel's shaft; coordinates that cannot move do not appear.
 
-    `mesh_stiffness`, N/mm: of one tooth pair, roughly; damping ratios are of the modes with it. Raises SceneError for a load so heavy that
-    the wheel is nothing beside it.
+    `mesh_stiffness`, N/mm: of one tooth pair, roughly; damping ratios are of the modes with it. Raises SceneError for a load beside
+    which the wheel's own moment of inertia is lost in round-off.
     """
     names = _moving_coordinates(supports)
     radius = {"rotation_1": pair.pinion.base_radius, "rotation_2": pair.wheel.base_radius, "shaft_twist": pair.wheel.base_radius}
@@ -113,15 +113,15 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         mass = _mass(names, supports.inertia, supports.gears)
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
-    undamped = Drivetrain(names, radii, stiffness, of_couple(names, radii, wheel_torque), mass, damping=None)
+    undamped = Drivetrain(names, radii, stiffness, forces_of_torque(names, radii, wheel_torque), mass, damping=None)
     if supports.damping is None or mass is None:
         return undamped
     return replace(undamped, damping=_damping(supports.damping, undamped, mesh_stiffness))
 
 
-def of_couple(names: tuple[str, ...], radii: np.ndarray, couple: float) -> np.ndarray:
-    """Forces (k,), N, of a couple (N mm) on the output shaft's end, which moves with the wheel and with the twist."""
-    return np.array([couple if name in ("rotation_2", "shaft_twist") else 0.0 for name in names]) / radii
+def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -> np.ndarray:
+    """Forces (k,), N, of a torque (N mm) on the output shaft's end, which moves with the wheel and with the twist."""
+    return np.array([torque if name in ("rotation_2", "shaft_twist") else 0.0 for name in names]) / radii
 
 
 def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
@@ -170,6 +170,6 @@ def _damping(damping: Damping, undamped: Drivetrain, mesh_stiffness: float) -> n
         from fenics_gears.dynamics.modal_damping import modal_damping
 
         return modal_damping(undamped, mesh_stiffness, damping.ratios)
-    # No spring and no mass joins both sides of the mesh: a row's factors are its column's too.
+    # No spring and no mass connects both sides of the mesh: a row and its column have the same factors.
     alpha, beta = (np.array([[damping.of(SIDE[name], each)] for name in undamped.coordinates]) for each in RAYLEIGH)
     return alpha * undamped.stiffness + beta * undamped.mass

@@ -1,4 +1,4 @@
-"""What a scene says of masses, shafts, bearings and damping, in N, mm, s and rad."""
+"""Data of masses, shafts, bearings and damping, in N, mm, s and rad."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ class GearInertia:
 
 @dataclass(frozen=True)
 class Inertia(GearInertia):
-    """Of both gears, what `pinion` and `wheel` have of their own, and the moment of inertia of the `load` (None: as of both gears)."""
+    """Inertia of both gears, of `pinion` and `wheel` where they have their own, and moment of inertia of the `load` (None: as of both gears)."""
 
     pinion: GearInertia | None = None
     wheel: GearInertia | None = None
     load: float | None = None
 
     def of(self, gear: str) -> GearInertia:
-        """What the "pinion" or the "wheel" has; of its own, by its own density, or as of both."""
+        """Inertia of the "pinion" or the "wheel": its own, by its own density, or that of both."""
         own = getattr(self, gear) or GearInertia()
         if own.density is not None:
             return own
@@ -46,7 +46,7 @@ class Shaft:
 
 @dataclass(frozen=True)
 class Shafts:
-    """Torsional stiffness, N mm/rad, of either shaft that has none of its own, and what `input` and `output` have."""
+    """Torsional stiffness, N mm/rad, of both shafts, and of `input` and `output` where they have their own."""
 
     torsional_stiffness: float | None = None
     input: Shaft | None = None
@@ -60,7 +60,7 @@ class Shafts:
 
 @dataclass(frozen=True)
 class Support:
-    """Translational stiffness of one shaft's support, N/mm: in every direction, along and off the line of action; None as the other shaft's."""
+    """Translational stiffness of one shaft's support, N/mm: in every direction, along and across the line of action; None: as of both shafts."""
 
     stiffness: float | None = None
     stiffness_x: float | None = None
@@ -74,7 +74,7 @@ class Support:
 
 @dataclass(frozen=True)
 class Bearings(Support):
-    """Support of both shafts, and what `pinion` and `wheel` have of their own."""
+    """Support of both shafts, and of `pinion` and `wheel` where they have their own."""
 
     pinion: Support | None = None
     wheel: Support | None = None
@@ -91,7 +91,7 @@ RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ra
 
 @dataclass(frozen=True)
 class Rayleigh:
-    """Rayleigh damping of a shaft with its gear: alpha K + beta M, alpha in s, beta in 1/s; None as of both shafts."""
+    """Rayleigh damping of a shaft with its gear: alpha K + beta M, alpha in s, beta in 1/s; None: as of both shafts."""
 
     stiffness_proportional: float | None = None
     mass_proportional: float | None = None
@@ -99,7 +99,7 @@ class Rayleigh:
 
 @dataclass(frozen=True)
 class Damping(Rayleigh):
-    """Rayleigh damping of both shafts and what `pinion` and `wheel`, each with its shaft, have of their own; or `ratios` alone.
+    """Rayleigh damping of both shafts, and of `pinion` and `wheel`, each with its shaft, where they have their own; or `ratios` alone.
 
     `ratios`: of the critical damping, by mode from the lowest frequency on; the last holds for all that follow.
     """

@@ -1,16 +1,16 @@
-"""Where the energy of a march goes, step by step: an account that closes to round-off.
+"""Energy account of a march, step by step, which closes to round-off.
 
 Average acceleration gives the drivetrain's part exactly: over a step, with the contact forces p and dx = x1 - x0,
 
     change of (kinetic + springs) = F dx - dx D dx/dt - dx (G0^T p0 + G1^T p1)/2.
 
-With u = G x - C p at both ends, the contact's part splits, without remainder, into the change of the teeth's energy 1/2 p C p; what
-friction takes, p1 slip1, as backward Euler has it; what the changing geometry (G, C, gaps, rigid sliding) does, which is the work
-of the prescribed rotation; and the algorithm's own term at changes of contact, 1/2 sum(p0 gap1 - p1 gap0) and its like for friction.
-A node that only one end of the step has keeps there the compliance and the arms of the other end.
+With u = G x - C p at both ends, the contact's part splits, without remainder, into the change of the teeth's energy 1/2 p C p; the
+friction loss p1 slip1, as of backward Euler; the work of the prescribed rotation, by the changing geometry (G, C, gaps, rigid slip);
+and the algorithm's own term at changes of contact, 1/2 sum(p0 gap1 - p1 gap0), and the same for friction. A node that only one end
+of the step has is given the compliance and the lever arms of that end at the other.
 
-F is the mean of the loads at both ends of the step, where they vary. Backward Euler, which steps where no vibration is sampled and
-between rigid flanks, has another balance: what it dissipates is in the defect.
+F is the mean of the loads at both ends of the step, where they vary. Backward Euler, which is used where no vibration is sampled and
+for rigid flanks, has another balance: its dissipation is in the defect.
 
 The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load times nominal
 speed, is added to input and output alike.
@@ -31,7 +31,7 @@ from fenics_gears.dynamics.march import Record, VaryingLoad
 
 @dataclass(frozen=True)
 class Account:
-    """Work since the first record, (records,), N mm, and what is missing to the change of energy."""
+    """Work since the first record, (records,), N mm, and its `defect` from the change of energy."""
 
     rotation: np.ndarray
     load: np.ndarray

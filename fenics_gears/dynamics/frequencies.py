@@ -1,4 +1,4 @@
-"""Natural frequencies of the drivetrain with the mesh as a spring along the line of action, and how well a time step holds them."""
+"""Natural frequencies of the drivetrain with the mesh as a spring along the line of action, and their errors by a time step."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from scipy.linalg import eigh, null_space
 
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
-# Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also pulls across.
+# Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also acts across.
 MESH_DIRECTION = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
 ACROSS_DIRECTION = {"centre_y1": 1.0, "centre_y2": -1.0}
-# A rigid motion's frequency is round-off beside the highest one; a shape that moves the flanks by less than this is not excited.
+# Below this part of the highest frequency a motion is rigid; a shape that moves the flanks by less than this part is not excited.
 RIGID, STILL = 1e-6, 1e-6
 # Average acceleration lengthens a period by (omega dt)^2/12 of it: 1 % where omega dt = 0.346, 18.1 steps a period.
 PERIOD_ERROR = 0.01
@@ -22,7 +22,7 @@ STEPS_OF_A_RESOLVED_PERIOD = 2.0 * pi / sqrt(12.0 * PERIOD_ERROR)
 
 @dataclass(frozen=True)
 class Vibration:
-    """One elastic mode: `frequency` (Hz), `damping_ratio` of the critical damping, `excited`: whether contact forces move it."""
+    """One elastic mode: `frequency` (Hz), `damping_ratio` of the critical damping, `excited`: whether contact forces excite it."""
 
     frequency: float
     damping_ratio: float
@@ -38,7 +38,7 @@ class Vibration:
         return 1.0 / (self.frequency * time_step)
 
     def period_error(self, time_step: float) -> float:
-        """By how much of it average acceleration lengthens the period."""
+        """Part of the period by which average acceleration lengthens it."""
         half_angle = pi * self.frequency * time_step
         return half_angle / atan(half_angle) - 1.0
 
@@ -49,12 +49,12 @@ def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float) -> np.nda
 
 
 def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = False) -> list[Vibration]:
-    """The elastic modes by frequency; `friction`: whether contact also pulls across the line of action."""
+    """The elastic modes by frequency; `friction`: whether contact forces also act across the line of action."""
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
     directions = [MESH_DIRECTION, ACROSS_DIRECTION] if friction else [MESH_DIRECTION]
     moved = np.abs([[direction.get(name, 0.0) for name in drivetrain.coordinates] for direction in directions] @ shapes).max(axis=0)
     if np.isinf(mesh_stiffness):
-        # Tied flanks do not move apart, whatever the mode; their errors drive all that moves them together.
+        # Tied flanks do not move apart in any mode; their errors excite every mode.
         moved = np.full(len(frequencies), np.inf)
     damping = np.zeros_like(drivetrain.stiffness) if drivetrain.damping is None else drivetrain.damping
     damped = np.einsum("ci,cd,di->i", shapes, damping, shapes)

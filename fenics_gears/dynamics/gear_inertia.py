@@ -1,4 +1,4 @@
-"""Mass and moment of inertia of each gear: as given, or of its body by a density."""
+"""Mass and moment of inertia of each gear: as given, or from its cross-section by a density."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class LumpedGear:
 
 
 def lumped(inertia: Inertia, pair: GearPair, section: Callable[[str], CrossSection]) -> dict[str, LumpedGear]:
-    """What "pinion" and "wheel" are in the equations of motion; `section`: a gear's cross-section, asked for only where a density is given."""
+    """Lumped masses of "pinion" and "wheel"; `section`: a gear's cross-section, called only where a density is given."""
     return {name: _lumped(inertia, name, pair.face_widths[number], section) for number, name in enumerate(GEARS)}
 
 

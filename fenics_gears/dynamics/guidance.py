@@ -1,4 +1,4 @@
-"""What to say about a time step and a mesh frequency beside the drivetrain's vibrations."""
+"""Warnings about a time step and a mesh frequency beside the drivetrain's vibrations."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from math import ceil
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
 from fenics_gears.dynamics.time_scales import TimeScales
 
-# Effects on the transmission error below this part of its peak-to-peak value are not worth a word.
+# Effects on the transmission error below this part of its peak-to-peak value give no warning.
 NOTABLE = 0.01
 
 
@@ -24,10 +24,10 @@ def steps_to_resolve(frequency: float, mesh_frequency: float) -> int:
 
 
 def effect_of_the_step(vibration: Vibration, mesh_frequency: float, time_step: float) -> float:
-    """About the part of the peak-to-peak transmission error that a mode's false period changes.
+    """Estimate of the part of the peak-to-peak transmission error that a mode's wrong period changes.
 
     The mesh's harmonics fall as the square of their number; the one that meets the mode is amplified by the resonance, which the
-    false frequency shifts by a part of its width. Within a factor of three of the error measured on the paper's pair up to the tenth
+    wrong frequency shifts by a part of its width. Within a factor of three of the error measured on the paper's pair up to the tenth
     harmonic, of five to seven at the twentieth, where little is left of either.
     """
     harmonic = max(vibration.frequency / mesh_frequency, 1.0)
@@ -37,18 +37,18 @@ def effect_of_the_step(vibration: Vibration, mesh_frequency: float, time_step: f
 
 
 def effect_of_inertia(slowest: Vibration, mesh_frequency: float) -> float:
-    """About the part of its peak-to-peak value by which inertia and damping change the quasi-static transmission error.
+    """Estimate of the part of its peak-to-peak value by which inertia and damping change the quasi-static transmission error.
 
-    r^2 by inertia and 2 zeta r by damping, with r the mesh frequency over the slowest natural frequency; without damping r, by the
-    vibrations that hand-over leaves.
+    r^2 by inertia and 2 zeta r by damping, with r the mesh frequency over the lowest natural frequency; without damping r, by the
+    vibrations that remain when load passes from pair to pair.
     """
     ratio = mesh_frequency / slowest.frequency
     return ratio**2 + 2.0 * slowest.damping_ratio * ratio if slowest.damping_ratio > 0.0 else max(ratio, ratio**2)
 
 
 def judged_frequency(elastic: Sequence[Vibration], mesh_frequencies: tuple[float, float]) -> float:
-    """Of a run's lowest and highest mesh frequency (Hz) the one to judge by: the lowest, whose steps are the longest, unless inertia
-    matters at the highest only."""
+    """The mesh frequency (Hz) to judge a run by: its lowest, whose steps are the longest, or its highest where inertia matters only
+    there."""
     slowest = next((vibration for vibration in elastic if vibration.excited), elastic[0])
     lowest, highest = mesh_frequencies
     return lowest if effect_of_inertia(slowest, lowest) >= NOTABLE else highest
@@ -57,9 +57,9 @@ def judged_frequency(elastic: Sequence[Vibration], mesh_frequencies: tuple[float
 def time_step_warnings(
     elastic: Sequence[Vibration], mesh_frequency: float, steps_per_mesh_cycle: int, time_scales: TimeScales, longest_step: float = 0.0
 ) -> list[str]:
-    """Sentences on vibrations that the step does not resolve, and on inertia that does not matter; `elastic`: modes by frequency.
+    """Warnings about vibrations that the step does not resolve, and about inertia that does not matter; `elastic`: modes by frequency.
 
-    `longest_step`, s: of a run whose speed changes, by which its method in time is chosen (`time_scales`).
+    `longest_step`, s: of a run whose speed changes; its method in time follows from it (`time_scales`).
     """
     time_step = 1.0 / (mesh_frequency * steps_per_mesh_cycle)
     excited = [vibration for vibration in elastic if vibration.excited] or list(elastic)
@@ -95,7 +95,7 @@ def time_step_warnings(
 
 
 def _listed(vibrations: Sequence[Vibration], time_step: float) -> str:
-    """Each frequency once, with how many vibrations have it."""
+    """Each frequency once, with the number of vibrations that have it."""
     counts = Counter(f"{each.frequency:.4g} Hz ({each.steps_per_period(time_step):.3g} steps a period)" for each in vibrations)
     return ", ".join(words if count == 1 else f"{count} vibrations at {words}" for words, count in counts.items())
 
@@ -103,8 +103,8 @@ def _listed(vibrations: Sequence[Vibration], time_step: float) -> str:
 def _not_sampled(slowest: Vibration, time_step: float) -> str:
     return (
         f"A step of {time_step:.3g} s is {slowest.frequency * time_step:.3g} periods of the lowest natural frequency of about {slowest.frequency:.4g} Hz "
-        f"(periods are right within {PERIOD_ERROR:.0%} up to {resolved_frequency(time_step):.4g} Hz), so that backward Euler steps "
-        "instead of average acceleration and nothing rings"
+        f"(periods are right within {PERIOD_ERROR:.0%} up to {resolved_frequency(time_step):.4g} Hz), so that backward Euler replaces "
+        "average acceleration and all vibrations are damped out"
     )
 
 

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 
 SECONDS_BETWEEN_REPORTS = 0.1
 NO_SLIP = np.empty(0)
-# The start assumes long sliding before it: as much slip as this many steps bring.
+# The start assumes long sliding before it, by this many steps.
 STEPS_SLID_BEFORE_START = 1e6
 # What acts on the centre coordinates besides the constant load: forces (k,), N, at a step.
 VaryingLoad = Callable[[float], np.ndarray]
-# A step is divided in two this often: the shortest is 1/64 of a step.
+# A step is divided in two at most this often: the shortest part is 1/64 of a step.
 MOST_HALVINGS = 6
 
 
@@ -70,7 +70,7 @@ class March:
     """A march so far.
 
     `records`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
-    `separations`: step and smallest opening (mm) of every step at which no drive flank touched; `locked`: steps at which friction
+    `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at which friction
     locks a closed node (`contact.existence`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
     (k, k), N/mm: of every step.
     """
@@ -142,7 +142,7 @@ class Marcher:
             for step in range(1, steps + 1):
                 record = self.step(self.scheme(step), record, step)
                 march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
-                march.steps_by_method[METHODS[record.solution.method]] += 1
+                march.steps_by_method[record.solution.method] += 1
                 march.records.append(record)
                 observe(record)
                 if not record.solution.status[record.position.operator.on_drive_flanks].any():
@@ -176,8 +176,8 @@ class Marcher:
     def start(self) -> Record:
         """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the equations of motion.
 
-        A mesh frequency above the drivetrain's lowest leaves the gears no time to follow: they start at rest in the frame of the nominal
-        motion, and do not throw each other off. Above the highest they stand where the forces of a whole cycle balance.
+        With a mesh frequency above the lowest of the drivetrain the gears cannot follow: they start at rest in the frame of the nominal
+        motion, so as not to part at once. Above the highest they start where the forces of a whole cycle balance.
         """
         neighbours = [self._static_start(-1)]
         for step in (0, 1) if self.dynamic.inert else (0,):
@@ -212,7 +212,7 @@ class Marcher:
         return Record(0, state, static.position, mean.solution)
 
     def step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
-        """One step of `scheme` from `last`; divided where it has no solution as a whole."""
+        """One step of `scheme` from `last`, divided where the whole step has no solution."""
         try:
             return self._part(scheme, last, step, self.cycle.position(step))
         except ContactNotConverged as failure:
@@ -242,10 +242,10 @@ class Marcher:
                 record = self._divided(finer, record, end, failed, halvings + 1)
             parts += record.parts or (record,)
         iterations = sum(part.solution.iterations for part in parts)
-        return replace(record, solution=replace(record.solution, iterations=iterations, method=METHODS.index(HALVED)), parts=parts)
+        return replace(record, solution=replace(record.solution, iterations=iterations, method=HALVED), parts=parts)
 
     def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
-        """From `last` to `position` in one go."""
+        """From `last` to `position` without dividing."""
         operator = position.operator
         slip_before = NO_SLIP
         if operator.rigid_slip is not None:
@@ -265,7 +265,7 @@ class Marcher:
         return sum((load(step) for load in self.loads), scheme.load(state))
 
     def _locks(self, record: Record) -> bool:
-        """Whether friction at a closed node works against the load by more than its normal force holds."""
+        """Whether friction at a closed node cancels more of the load than its normal force holds."""
         motion = np.zeros(len(self.drivetrain.coordinates))
         wheel = self.drivetrain.coordinates.index("rotation_2")
         motion[wheel] = np.sign(self.load(record.step)[wheel])
@@ -294,7 +294,7 @@ class Marcher:
             raise
 
     def _moved_freely(self, scheme, load: np.ndarray) -> np.ndarray:
-        """How a load (k,) moves the drivetrain where only contact holds it; a load that varies may turn its sign."""
+        """How a load (k,) moves the drivetrain where only contact holds it; a varying load may change its sign."""
         if scheme.inert or not len(self._free_motion):
             return np.empty(0)
         return -self._free_motion if self._free_motion @ load < 0.0 else self._free_motion

@@ -1,11 +1,11 @@
-"""Where gears stand whose teeth pass faster than the drivetrain can follow: the forces of a whole mesh cycle balance on the average.
+"""The mean position of gears whose teeth pass faster than the drivetrain can follow: forces balance on the average of a mesh cycle.
 
 Held at centre coordinates q, the contact at each position of the cycle gives forces p_i(q). The mean position solves
 
     K q + mean(G_i^T p_i(q)) = F
 
-by Newton's method, with G^T C^-1 G over the closed nodes as the contact's stiffness. What is left of the balance at each position
-accelerates the gears; its integral over the cycle, less its mean, is the velocity at which the steady motion passes that position.
+by Newton's method, with G^T C^-1 G over the closed nodes as the contact's stiffness. The unbalanced force at each position
+accelerates the gears; its integral over the cycle, less the mean, is the velocity of the steady motion at that position.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_sta
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
 ITERATIONS = 20
-# The start of a run, not its solution: what is left of the balance rings, in proportion.
+# Of the largest load. An unbalanced rest only adds a vibration of its size to the start of a run.
 BALANCE = 1e-9
 
 Held = Callable[[Position, np.ndarray], StepSolution]
@@ -62,7 +62,7 @@ def mean_equilibrium(
 
 
 def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) -> Held:
-    """The contact of a position with the gears held at coordinates (k,): nothing of the drivetrain moves."""
+    """The contact of a position with the gears held at coordinates (k,)."""
     unit, nothing = np.eye(1), np.empty(0)
 
     def held(position: Position, coordinates: np.ndarray) -> StepSolution:
@@ -82,7 +82,7 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
 
 
 def _balance(drivetrain: Drivetrain, load: np.ndarray, position: Position, solution: StepSolution, coordinates: np.ndarray) -> np.ndarray:
-    """Force (k,), N, that load, springs and contact leave to accelerate the drivetrain."""
+    """Unbalanced force (k,), N, of load, springs and contact."""
     return load - drivetrain.stiffness @ coordinates - position.operator.jacobian.T @ solution.forces
 
 

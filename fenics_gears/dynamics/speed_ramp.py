@@ -1,10 +1,9 @@
 """A mesh frequency that changes linearly in time: the time of each step, and the inertia forces of the nominal motion.
 
 Steps stand at equal phases n = step / steps_per_mesh_cycle. With f' constant, n = (f^2 - f_0^2)/(2 f'): the square of the frequency
-is linear in the phase, and from one phase to another passes the time 2 (n_1 - n_0)/(f_0 + f_1).
+is linear in the phase, and the time from one phase to another is 2 (n_1 - n_0)/(f_0 + f_1).
 
-The frame of the nominal motion turns with the gears. Where it accelerates, every mass in it feels the force -M X'' of the nominal
-motion X: on arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing for the twist of a shaft.
+The frame of the nominal motion turns with the gears. Where it accelerates, inertia forces -M X'' of the nominal motion X act in it: on arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing for the twist of a shaft.
 Damping is that of the motion relative to the nominal one, as at a steady speed.
 """
 
@@ -53,9 +52,9 @@ class RampClock:
         return passed
 
     def acceleration_at(self, step: float) -> float:
-        """Change of the mesh frequency at a step, Hz/s; where a ramp begins after steady cycles half of it, the mean of both sides.
+        """Change of the mesh frequency at a step, Hz/s; the mean of both sides where a ramp begins after steady cycles.
 
-        A ramp that begins with the run has been going on before.
+        A ramp that begins with the run is taken as having begun before it.
         """
         if step == self.held and self.held > 0:
             return 0.5 * self.acceleration

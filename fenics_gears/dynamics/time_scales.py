@@ -1,4 +1,4 @@
-"""How fast the mesh and the time step are, compared with the drivetrain's vibrations: what the march starts from and steps by."""
+"""Mesh and time step compared with the drivetrain's vibrations, which decides on the start of a march and its method in time."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 
 @dataclass(frozen=True)
 class TimeScales:
-    """What the time step samples and the mesh leaves time for.
+    """Mesh and time step compared with vibrations.
 
-    `samples_vibration`: two steps or more in a period of the slowest vibration, below which no sampling can hold one.
-    `impulsive`: flanks are rigid and forces jump; average acceleration would turn their sign at every step from then on.
+    `samples_vibration`: a period of the slowest vibration has two steps or more, the least that can represent it.
     `follows_statics`: the mesh is slower than the slowest vibration. `outruns_vibration`: it is faster than the fastest.
+    `impulsive`: flanks are rigid and forces jump; with average acceleration they would change sign at every step from then on.
     """
 
     samples_vibration: bool = True

@@ -1,6 +1,6 @@
-"""A couple on the wheel's shaft that varies with the angle that the shaft has turned.
+"""A torque on the wheel's shaft that varies with the angle that the shaft has turned.
 
-The angle is that of the nominal motion: what the shaft's end deviates from it is small beside a period of any harmonic.
+The angle is that of the nominal motion: deviations of the shaft's end from it are small beside the period of any harmonic.
 """
 
 from __future__ import annotations
@@ -9,21 +9,21 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from fenics_gears.dynamics.drivetrain import Drivetrain, of_couple
+from fenics_gears.dynamics.drivetrain import Drivetrain, forces_of_torque
 from fenics_gears.dynamics.torque_ripple_data import TorqueRipple
 
 
-def couple(ripple: TorqueRipple, angles: Sequence[float]) -> np.ndarray:
-    """The varying part of the couple (n,), N mm, at angles (n,), rad, of the wheel's shaft."""
+def torque(ripple: TorqueRipple, angles: Sequence[float]) -> np.ndarray:
+    """The varying part of the torque (n,), N mm, at angles (n,), rad, of the wheel's shaft."""
     turned = np.asarray(angles)
     return sum((each.amplitude * np.cos(each.order * turned + each.phase) for each in ripple.harmonics), np.zeros(len(turned)))
 
 
 def varying_load(ripple: TorqueRipple, drivetrain: Drivetrain, shaft_step: float) -> Callable[[float], np.ndarray]:
     """Forces (k,), N, at a step; the wheel's shaft turns by `shaft_step` (rad) in each."""
-    unit = of_couple(drivetrain.coordinates, drivetrain.radii, 1.0)
+    unit = forces_of_torque(drivetrain.coordinates, drivetrain.radii, 1.0)
 
     def load(step: float) -> np.ndarray:
-        return unit * couple(ripple, [shaft_step * step])[0]
+        return unit * torque(ripple, [shaft_step * step])[0]
 
     return load

@@ -1,4 +1,4 @@
-"""What a scene says of a torque that varies with the turn of the shaft."""
+"""Data of a torque that varies with the turn of the shaft."""
 
 from __future__ import annotations
 
@@ -16,6 +16,6 @@ class Harmonic:
 
 @dataclass(frozen=True)
 class TorqueRipple:
-    """What adds to the couple on the wheel's shaft."""
+    """Harmonics that add to the torque on the wheel's shaft."""
 
     harmonics: tuple[Harmonic, ...]

@@ -116,10 +116,10 @@ def load(ripple: TorqueRipple, model):
 
 def results(ripple: TorqueRipple, scene, cycle, steps) -> dict:
     """The couple on the wheel's shaft (time,), N mm."""
-    from fenics_gears.dynamics.torque_ripple import couple
+    from fenics_gears.dynamics.torque_ripple import torque
 
     angle = shaft_step(scene, cycle.steps)
-    return {"wheel_couple": (("time",), scene.load.wheel_torque + couple(ripple, angle * steps))}
+    return {"wheel_couple": (("time",), scene.load.wheel_torque + torque(ripple, angle * steps))}
 
 
 def period(ripple: TorqueRipple, scene) -> int:

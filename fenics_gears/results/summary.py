@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from fenics_gears.contact.step_solver import NEWTON_AND_FALLBACKS, PUBLISHED
+from fenics_gears.contact.step_solver import NEWTON, PUBLISHED
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.attributes import ESTIMATED, RUNG
 from fenics_gears.results.key_numbers import HARMONIC_NAMES
@@ -131,7 +131,7 @@ def solver_rows(dataset) -> list[Row]:
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
         rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
-    return rows + _methods(dataset.attrs)
+    return rows + _rungs(dataset.attrs)
 
 
 def stage_rows(dataset) -> list[Row]:
@@ -168,9 +168,9 @@ def _estimated_error(attributes) -> list[Row]:
     ]
 
 
-def _methods(attributes) -> list[Row]:
+def _rungs(attributes) -> list[Row]:
     """How often a step needed a rung of the fallback ladder beyond its route's own method; nothing where none did."""
-    own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else NEWTON_AND_FALLBACKS[0]
+    own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else NEWTON
     used = {name.removeprefix(RUNG): int(count) for name, count in attributes.items() if name.startswith(RUNG)}
     used.pop(own, None)
     if not used:

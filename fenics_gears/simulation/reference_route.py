@@ -6,7 +6,8 @@ Slow; the published method, and the yardstick of the fast route, with which it s
 from __future__ import annotations
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.remeshed_cycle import RemeshedCycle
+from fenics_gears.contact.node_to_node import loaded_teeth
+from fenics_gears.contact.remeshed_cycle import RemeshedCycle, paired_nodes
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
@@ -30,17 +31,8 @@ def reference_route(
             f'{model.scene.name}: condensation = "{EVERY_STEP}" meshes nodes for the drive flanks only. '
             f'Leave [coast_flanks] out, or choose condensation = "{ONCE}".'
         )
-    resolution = model.resolution
-    cycle = RemeshedCycle(
-        model.pair,
-        model.removal,
-        resolution.contact_grid,
-        element_named(resolution.element).order,
-        resolution.steps_per_mesh_cycle,
-        model.drivetrain.indices,
-        tangential=model.scene.friction is not None,
-    )
-    teeth = [cycle.teeth(index) for index in range(cycle.steps)]
+    resolution, order = model.resolution, element_named(model.resolution.element).order
+    nodes = paired_nodes(model.pair, model.removal, resolution.contact_grid, order, resolution.steps_per_mesh_cycle)
     gears = []
     for number, name in enumerate(("pinion", "wheel")):
         progress.stage(f"remesh {name}")
@@ -48,7 +40,7 @@ def reference_route(
             remeshed_stiffness(
                 getattr(model.pair, name),
                 model.scene.gears.material_of(name),
-                [both[number] for both in teeth],
+                [loaded_teeth(pairs, number, order) for pairs in nodes],
                 element=resolution.element,
                 flank_element_size=resolution.flank_element_size,
                 body_element_size=resolution.body_element_size,
@@ -57,5 +49,13 @@ def reference_route(
                 report=progress.update,
             )
         )
-    cycle.stiffness = list(zip(*(gear.positions for gear in gears)))
+    cycle = RemeshedCycle(
+        model.pair,
+        nodes,
+        list(zip(*(gear.positions for gear in gears))),
+        resolution.contact_grid,
+        order,
+        model.drivetrain.indices,
+        tangential=model.scene.friction is not None,
+    )
     return tuple(gears), deviating(model, cycle)

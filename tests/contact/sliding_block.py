@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import CycleTraits, Position
-from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
+from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution, solve_step
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
@@ -38,7 +38,7 @@ class SlidingBlock:
         return Position(operator, np.arange(n))
 
     def solve(self, position, problem, status, last):
-        """By the ladder."""
+        """By Newton and its fallbacks."""
         return solve_step(problem, status)
 
 
@@ -50,5 +50,5 @@ def block_at_rest(problem: StepProblem, status: np.ndarray) -> tuple[Marcher, Re
     block = Drivetrain(names, np.ones(k), np.zeros((k, k)), problem.load, mass, None)
     marcher = Marcher(SlidingBlock(problem), EquationsOfMotion(block, step, problem.friction))
     rest, nothing = np.zeros(k), np.zeros(len(problem.compliance))
-    solution = StepSolution(nothing, rest, nothing, status, 0, 0)
+    solution = StepSolution(nothing, rest, nothing, status, 0, NEWTON)
     return marcher, Record(0, State(rest, rest, rest), marcher.cycle.position(0), solution)

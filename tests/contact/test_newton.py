@@ -12,7 +12,7 @@ from tests.contact.problems import all_open, random_problem
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.newton import solve_sets
-from fenics_gears.contact.step_solver import METHODS, StepProblem, solve_step
+from fenics_gears.contact.step_solver import StepProblem, solve_step
 
 
 @given(st.integers(0, 10**9), st.integers(1, 12))
@@ -125,7 +125,7 @@ def test_frictionless_cycle_is_solved_one_change_at_a_time():
         )
         start = rng.integers(0, 2, n).astype(np.int8)
         solution = solve_step(problem, start)
-        solved_by_last += METHODS[solution.method] == "one change at a time"
+        solved_by_last += solution.method == "one change at a time"
         root = np.linalg.cholesky(problem.compliance + 1e-4)
         expected, _ = nnls(root.T, np.linalg.solve(root, 0.1 - problem.gap))
         assert solution.forces == pytest.approx(expected, rel=1e-6, abs=1e-3)

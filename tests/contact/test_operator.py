@@ -8,6 +8,7 @@ import pytest
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.corner import corner_contact
 from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_reach
+from fenics_gears.contact.operator import over_nodes
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)
@@ -72,7 +73,7 @@ def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_p
         (paper_pair.wheel, 1, paper_pair.wheel.base_radius, 1.0, 5, -advance * paper_pair.rotation_ratio),
     ):
         offsets = np.concatenate([p.offsets for p in operator.pairs])
-        now = operator.friction_lever_arms[arm] - 1j * (radius + sign * offsets)
+        now = over_nodes(operator.pairs, ("pinion_lever_arm", "wheel_lever_arm")[arm]) - 1j * (radius + sign * offsets)
         earlier = now * np.exp(-1j * turn)
         assert operator.previous_jacobian[:, column] * radius == pytest.approx(earlier.real, rel=1e-12)
 
@@ -117,7 +118,7 @@ def test_sliding_vanishes_at_the_pitch_point(cycle, paper_pair):
     """Definition of the pitch point: rigid sliding is zero there and of opposite sign on either side."""
     for step in range(STEPS):
         operator = cycle.position(step).operator
-        arm = operator.friction_lever_arms[0]
+        arm = over_nodes(operator.pairs, "pinion_lever_arm")
         expected = np.sign(arm - paper_pair.pitch_point)
         clear = np.abs(arm - paper_pair.pitch_point) > 0.1
         assert np.array_equal(np.sign(operator.rigid_slip[clear]), expected[clear])

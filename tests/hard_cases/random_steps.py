@@ -9,7 +9,7 @@ from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import random_problem
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.step_solver import METHODS, StepProblem, StepSolution, solve_step
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 
 REASONS = ("no equilibrium", "self-locking", "more than one solution")
 
@@ -32,7 +32,7 @@ def solved(problem: StepProblem, start: np.ndarray) -> StepSolution | None:
         event(failure.reason.split(":")[0])
         assert problem.friction > 0.0 and failure.reason.startswith(REASONS), str(failure)
         return None
-    event(METHODS[solution.method])
+    event(solution.method)
     return solution
 
 

@@ -6,7 +6,7 @@ from tests.contact.problems import all_open, random_problem
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.newton import CONVERGED
-from fenics_gears.contact.step_solver import METHODS, StepSolution, run_newton, solve_step
+from fenics_gears.contact.step_solver import NEWTON, StepSolution, run_newton, solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.model.drivetrain import drivetrain
@@ -20,7 +20,7 @@ def scaled_step(problem, status, scale) -> StepSolution:
     (outcome, iterations, *solution), _ = run_newton(problem, status, 40, r_scale=scale)
     if outcome == CONVERGED:
         forces, coordinates, displacement, sets = solution
-        return StepSolution(forces, coordinates, displacement, sets, iterations, 0)
+        return StepSolution(forces, coordinates, displacement, sets, iterations, NEWTON)
     return solve_step(problem, status)
 
 
@@ -60,7 +60,7 @@ def test_the_paper_s_pair_does_not_depend_on_r(scale, paper_scene, paper_pair, s
         marches.append(Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * 40), paper_scene.friction.coefficient)).run(40, 41))
     pairs = list(zip(*(march.records for march in marches)))
     worst = max(np.abs(a.solution.forces - b.solution.forces).max() / np.abs(a.solution.forces).max() for a, b in pairs)
-    used = ", ".join(f"{count} by {rung}" for rung, count in marches[1].steps_by_method.items() if count and rung != METHODS[0])
+    used = ", ".join(f"{count} by {rung}" for rung, count in marches[1].steps_by_method.items() if count and rung != NEWTON)
     # Newton solves the static start, three steps of its own, too.
     measured(f"r x {scale:g}, the paper's pair: difference of forces over 40 steps", worst, "1e-9")
     measured(f"r x {scale:g}, the paper's pair: solved without the ladder", f"{cycle.by_itself} of 43", used or "none needed it")

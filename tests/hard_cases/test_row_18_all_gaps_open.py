@@ -90,7 +90,7 @@ def test_a_static_load_that_opens_all_gaps_is_named(absent, frictional, paper_sc
     measured(f"error, {'friction' if frictional else 'frictionless'}", failure.value.reason, "names load and free motion")
     assert failure.value.reason.startswith("no equilibrium")
     assert "all gaps open" in failure.value.reason
-    assert failure.value.reason.endswith("the wheel turns freely under its couple of -437 N m")
+    assert failure.value.reason.endswith("the wheel turns freely under its torque of -437 N m")
     assert failure.value.step == -1 and not failure.value.partial.records
 
 
@@ -107,4 +107,4 @@ def test_a_position_where_nothing_can_touch_is_named(paper_scene, paper_pair, st
         marcher.step(marcher.static, start, 1)
     measured("error where no tooth pair can touch", failure.value.reason, "names load and free motion")
     assert failure.value.reason.startswith("no equilibrium: no tooth pair can touch")
-    assert failure.value.reason.endswith("the wheel turns freely under its couple of 437 N m")
+    assert failure.value.reason.endswith("the wheel turns freely under its torque of 437 N m")

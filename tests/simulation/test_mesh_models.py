@@ -101,10 +101,8 @@ def test_table_in_motion(paper_scene):
 class WithoutBending:
     """A mesh cycle whose friction forces do not bend the teeth: no coupling of normal and tangential directions in the compliance."""
 
-    divisible = False
-
     def __init__(self, cycle):
-        self._cycle = cycle
+        self._cycle, self.traits = cycle, replace(cycle.traits, divisible=False)
 
     def __getattr__(self, name):
         return getattr(self._cycle, name)

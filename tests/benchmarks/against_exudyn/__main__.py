@@ -25,7 +25,7 @@ import numpy as np
 from fenics_gears import load_scene
 from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle
 from fenics_gears.contact.tooth_pair import DRIVE
-from fenics_gears.dynamics.drivetrain import of_couple
+from fenics_gears.dynamics.drivetrain import forces_of_torque
 from fenics_gears.dynamics.drivetrain_data import Bearings, Shaft, Shafts, Support
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
@@ -60,7 +60,7 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
         return [PairSprings(0, DRIVE, np.zeros(1), np.zeros(1), np.array([MESH]))]
 
     cycle = SpringCycle(pair, springs, 1, STEPS, shafts.indices, tangential=False, coast_flanks=False)
-    added = of_couple(shafts.coordinates, shafts.radii, COUPLE_AFTER)
+    added = forces_of_torque(shafts.coordinates, shafts.radii, COUPLE_AFTER)
     marcher = Marcher(cycle, EquationsOfMotion(shafts, STEP, loads=(lambda step: added * (step > 0),)))
     start = marcher.start()
     # At rest where the first couple holds it, accelerated by what is added, as Exudyn starts.
