@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 
 from fenics_gears.errors import GeometryError, SceneError
@@ -59,18 +58,13 @@ def _check_scene(imported, file: Path, output: Path) -> None:
 
     source = f"{file} as a scene"
     try:
-        scene = scene_from_text(imported.text, output.stem, source=source)
+        scene = scene_from_text(imported.text, output.stem, source=source, with_lines=False)
         removals(scene, gear_pair(scene.gears))
     except SceneError as error:
-        words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else _without_lines(str(error), source)
+        words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else str(error)
         gears = f"The pinion is {imported.stage.pinion.gear}, the wheel {imported.stage.wheel.gear}."
         assumed = "".join(f"\n    assumed: {each}" for each in imported.assumed if each.startswith("gears."))
         raise SceneError(f"{words}\n{gears}{assumed}") from error
-
-
-def _without_lines(words: str, source: str) -> str:
-    """The messages without the numbers of lines of a text that is not written."""
-    return re.sub(rf"^{re.escape(source)}:\d+:", lambda _: f"{source}:", words, flags=re.MULTILINE)
 
 
 def _summary(imported, output: Path) -> str:

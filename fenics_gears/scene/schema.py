@@ -5,10 +5,11 @@ Ranges are generous: what is physically possible is allowed. Whether teeth and d
 
 from __future__ import annotations
 
+import functools
 import re
 from typing import Any, Literal, Optional
 
-from pydantic import Field, create_model
+from pydantic import BaseModel, Field, create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
@@ -231,3 +232,20 @@ SceneText = create_model(
     __doc__="A whole scene file: the sections that are always there, and one optional section for each effect.",
     **{effect.section: (Optional[effect.text], None) for effect in top_level()},
 )
+
+
+def section_within(section: type[BaseModel], name: str) -> type[BaseModel] | None:
+    """The schema of a section within a section; None where the name is a plain field."""
+    annotation = section.model_fields[name].annotation
+    kinds = (annotation, *getattr(annotation, "__args__", ()))
+    return next((kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)), None)
+
+
+@functools.cache
+def known_paths(section: type[BaseModel] = SceneText, home: tuple[str, ...] = ()) -> dict[tuple[str, ...], bool]:
+    """Every path of a scene; True for a section, False for a field."""
+    found: dict[tuple[str, ...], bool] = {}
+    for name in section.model_fields:
+        inner, path = section_within(section, name), (*home, name)
+        found |= {path: inner is not None} | (known_paths(inner, path) if inner is not None else {})
+    return found

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, quasi_static
 
+from fenics_gears.dynamics.drivetrain_data import Bearings, Support
 from fenics_gears.effects import effect_named, result_variables
-from fenics_gears.effects.bearings import Bearings, Support
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.drivetrain import drivetrain

@@ -10,8 +10,9 @@ from typing import Any
 
 from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Allowed, AllowedEither, AllowedList, allowed_in
-from fenics_gears.scene.schema import SceneText
-from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
+from fenics_gears.inputs.written import as_toml
+from fenics_gears.scene.schema import SceneText, known_paths
+from fenics_gears.studies.fields import ABSENT, changed
 
 DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 RELIEF = {"depth": "31 um", "start": "HPSTC"}
