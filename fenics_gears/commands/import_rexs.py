@@ -29,11 +29,9 @@ def import_rexs(options: argparse.Namespace) -> int:
     choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
     imported = imported_scene(options.file, choice)
     _check_scene(imported, options.file, output)
-    from fenics_gears.system.output import written_aside
+    from fenics_gears.system.output import write_whole
 
-    written: list[Path] = []
-    with written_aside(output.parent, written) as aside:
-        (aside / output.name).write_text(imported.text, encoding="utf-8")
+    write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:
         print(_summary(imported, output))
     return 0

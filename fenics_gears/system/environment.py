@@ -34,7 +34,7 @@ def defaults(environment):
         for prefix in ("OMPI", "PRTE"):
             values[f"{prefix}_ALLOW_RUN_AS_ROOT"] = "1"
             values[f"{prefix}_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
-    ranks = max(_count(environment, name) for name in RANK_COUNTS)
+    ranks = started_ranks(environment)
     if ranks == max(1, _count(environment, "OMPI_COMM_WORLD_LOCAL_SIZE")):
         # On one machine ranks meet in shared memory; TCP only warns about interfaces it cannot pair.
         values["OMPI_MCA_btl"] = "^tcp,ofi"
@@ -42,6 +42,11 @@ def defaults(environment):
         # OpenBLAS and MKL follow OMP_NUM_THREADS unless they are told apart.
         values["OMP_NUM_THREADS"] = "1"
     return values
+
+
+def started_ranks(environment=os.environ):
+    """How many processes were started together; 1 for a process that was started alone."""
+    return max(_count(environment, name) for name in RANK_COUNTS)
 
 
 def _count(environment, name):
