@@ -95,5 +95,5 @@ def cycle_key(model: Model) -> tuple:
         resolution.steps_per_mesh_cycle,
     )
     in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.elasticity))
-    model = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, model), tuple(model.drivetrain.indices), scene.friction is not None
+    mesh_model = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, mesh_model), tuple(model.drivetrain.indices), scene.friction is not None
