@@ -1,4 +1,4 @@
-"""What commands share that run variants of a scene and measure times: a report, written as table and picture."""
+"""What the commands share that measure times of a scene's variants: they write a report as table and picture."""
 
 from __future__ import annotations
 

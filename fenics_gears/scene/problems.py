@@ -25,9 +25,9 @@ def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
 
 
 def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
-    """The problems without those that only repeat another: a second one of a field, a field missing because it is misspelt.
+    """The problems without those that follow from another: a second one of the same field, or a field that is missing because it is misspelt.
 
-    What a rule says of a name stands before that no scene has it.
+    Where a rule and the schema both complain of a name, the rule's message stays.
     """
     by_path: dict[Path, list[Problem]] = {}
     for problem in problems:

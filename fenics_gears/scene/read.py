@@ -126,15 +126,15 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     return same_names(data.GearPairData, gears, face_width=min(widths), pinion=pinion, wheel=wheel, material=material)
 
 
-# With these, teeth or couples differ from one mesh cycle to the next.
+# With these, teeth or torques differ from one mesh cycle to the next.
 CYCLES_DIFFER_BY = ("flank_errors", "eccentricity", "torque_ripple", "body_meshes")
 
 
 def _motion(checked) -> data.Motion:
-    """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth.
+    """The motion by its mesh frequency: a turn of the pinion has as many mesh cycles as it has teeth.
 
-    Where it is not said how many cycles are run, which a scene with inertia must: one, or a whole hunting tooth period where cycles differ.
-    Where it is not said how many are recorded: the last two, of a speed ramp or of a whole hunting tooth period all that fit.
+    Cycles that are run, unless given (with inertia they must be): one, or a whole hunting tooth period where cycles differ.
+    Cycles that are recorded, unless given: the last two; of a speed ramp or a whole hunting tooth period all that fit.
     """
     motion, gears = checked.motion, checked.gears
     frequency, speed_given = motion.mesh_frequency, True
@@ -147,7 +147,7 @@ def _motion(checked) -> data.Motion:
     fields = checked.output.contact_fields
     cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles is None
     if "mesh_cycles" not in motion.model_fields_set:
-        # True is no number of cycles, though Python has it as one.
+        # True is not a number of cycles, although Python counts it as 1.
         wanted = recorded or (fields if fields is not True and fields else 1)
         whole = any(getattr(checked, section) is not None for section in CYCLES_DIFFER_BY)
         cycles = max(whole_period if whole else 1, wanted)

@@ -1,6 +1,6 @@
 """The sections and fields of a scene file, with what each allows; those of an effect are in its own module.
 
-Ranges are generous: what is physically possible is allowed. Whether teeth and diameters make a gear is for ``geometry`` to say.
+Ranges are generous: what is physically possible is allowed. ``geometry`` checks whether teeth and diameters make a gear.
 """
 
 from __future__ import annotations
@@ -54,13 +54,13 @@ class Gears(Section):
 
 
 class Load(Section):
-    """``[load]``: a constant couple on the output shaft's end."""
+    """``[load]``: a constant torque on the output shaft's end."""
 
     wheel_torque: float = quantity(
         "-1e12 N m",
         "1e12 N m",
         "437 N m",
-        meaning="couple against the wheel's rotation; a negative one drives the pair from the wheel and needs `[coast_flanks]`",
+        meaning="torque against the wheel's rotation; a negative one drives the pair from the wheel and needs `[coast_flanks]`",
     )
 
 
@@ -85,7 +85,7 @@ class Motion(Section):
         1_000_000,
         30,
         meaning="how many mesh cycles are run",
-        otherwise="without `[inertia]` one, after which all repeats, or `\"hunting tooth period\"` where teeth or couples differ from cycle to cycle; "
+        otherwise="without `[inertia]` one, after which all repeats, or `\"hunting tooth period\"` where teeth or torques differ from cycle to cycle; "
         "with it, it must be given",
         words=WHOLE_PERIOD,
     )
@@ -99,7 +99,7 @@ class Motion(Section):
     )
 
 
-# Of a tooth pair.
+# For a tooth pair.
 MOST_CONTACT_NODES = 1000
 
 

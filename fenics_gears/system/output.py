@@ -12,7 +12,7 @@ from fenics_gears.errors import ComputationError, SceneError
 
 
 def check_writable(directory: Path) -> None:
-    """Say before the computation, not after it, that a result could not be written; creates nothing.
+    """Refuse before the computation a directory in which no result could be written; creates nothing.
 
     Raises SceneError.
     """
