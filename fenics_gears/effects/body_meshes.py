@@ -61,12 +61,12 @@ def _located(file: MeshFile, directory: Path) -> MeshFile:
     try:
         return replace(file, path=str(path), digest=hashlib.sha256(path.read_bytes()).hexdigest())
     except OSError:
-        # That it is missing is said by `check`; a scene that only is looked at needs no mesh.
+        # `check` reports a missing file; a scene that is only looked at needs no mesh.
         return replace(file, path=str(path))
 
 
 def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
-    """A section without a file says nothing; only the elastic model, condensed once, sees teeth that are not alike."""
+    """A section names a file; only the elastic model, condensed once, can have teeth that are not alike."""
     section = table(tree, "body_meshes")
     if section is None:
         return

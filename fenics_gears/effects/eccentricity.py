@@ -40,7 +40,7 @@ class EccentricityText(Section):
 
 
 def run_out_is_small_and_of_some_gear(tree: Tree) -> Iterator[Problem]:
-    """A section without a gear says nothing; what moves the flanks by parts of a tooth is no error."""
+    """A section names a gear, and its run-out is small against the tooth."""
     section = table(tree, "eccentricity")
     if section is not None and not section:
         message = "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the section out."

@@ -1,8 +1,8 @@
-"""What an effect is: the section that switches it on, and where it enters the model.
+"""What an effect is: the section that switches it on, and the hooks by which it enters the model.
 
 An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A module holds the section as it is
-written (``text``), its data in program units, what it says of itself, and hooks. A hook is called only when the scene names the
-effect; it imports what computes the effect itself, so that a scene without the effect does not load it.
+written (``text``), its data in program units, its description, and hooks. A hook is called only when the scene names the effect; it
+imports the effect's physics inside the function, so that a scene without the effect does not load it.
 """
 
 from __future__ import annotations
@@ -46,12 +46,12 @@ class Effect:
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
-    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None to leave it as it is.
+    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None for that of equal teeth.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
-    ``check(data, scene, pair)``: raises SceneError for what only shows in those files.
+    ``check(data, scene, pair)``: raises SceneError where those files are wrong.
     ``warnings(data, model)``: sentences that a user should read before the run.
-    ``watched(data, cycle, records)``: what of consecutive steps the effect's findings are made of, name to values (steps,).
-    ``findings(data, watched)``: sentences on where a run leaves what the effect assumes, by what was watched at all of its steps.
+    ``watched(data, cycle, records)``: values of consecutive steps that the effect's findings need, name to values (steps,).
+    ``findings(data, watched)``: sentences on where a run violates what the effect assumes, from the watched values of all steps.
     ``results(data, scene, cycle, steps)``: the effect's own variables at steps (time,), name to (dimensions, values).
     ``period(data, scene)``: mesh cycles after which what the effect does repeats; infinite where it never does. 1 unless given.
     """

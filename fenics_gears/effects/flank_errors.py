@@ -27,7 +27,6 @@ PITCH_ROUNDING = 0.05e-3
 # Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
 DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
 
-
 DRAWN = "drawn within the tolerance class, none without one"
 
 
@@ -87,7 +86,7 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
         return errors
     from fenics_gears.effects.flank_errors_file import FileProblem, deviations_in
 
-    # What is wrong is said by `check`; a scene that only is looked at needs no table.
+    # `check` reports what is wrong; a scene that is only looked at needs no table.
     try:
         found = deviations_in((directory / errors.file).resolve(), LISTS)
     except FileProblem as problem:

@@ -48,7 +48,7 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
 EFFECT = Effect(
     section="shafts",
     description="elastic torsion of the input and the output shaft",
-    absent="pinion hub turned as prescribed, couple straight on the wheel",
+    absent="pinion hub turned as prescribed, torque straight on the wheel",
     text=ShaftsText,
     data=Shafts,
     unknowns=("rotation of the pinion", "rotation of the output shaft's end"),

@@ -1,4 +1,4 @@
-"""Looking into a parsed scene file where some of it may be wrong."""
+"""Values of a parsed scene file, of which some may be wrong."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fenics_gears.inputs.written import as_written
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
 MOST_TEETH = 1000
-# In modules: errors of manufacture are far below, and the model moves flanks by them without moving their points of contact.
+# In modules. Real errors of manufacture are far smaller; the model moves flanks by them but not their points of contact.
 LARGEST_ERROR = 0.1
 
 
@@ -68,7 +68,7 @@ def material_sections(tree: Tree) -> list[Path]:
 
 
 def too_large_for_the_module(tree: Tree, path: Path, written: Any) -> Iterator[Problem]:
-    """The problem of an error of manufacture, a length or a list of lengths, that is no small part of the module."""
+    """The problem of an error of manufacture, a length or a list of lengths, that is not small against the module."""
     module = quantity_at(tree, "gears", "module")
     sizes = [abs(quantity_in(value) or 0.0) for value in (written if isinstance(written, list) else [written])]
     if module is not None and max(sizes, default=0.0) > LARGEST_ERROR * module > 0.0:

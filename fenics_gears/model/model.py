@@ -1,4 +1,4 @@
-"""A scene made ready: everything that follows from it without computing to speak of."""
+"""A scene made ready: all that follows from it before anything expensive is computed."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class Model:
 
     @property
     def warnings(self) -> list[str]:
-        """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
+        """Sentences for the user before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
         found = [*self._of_a_part(), *self._without_fields(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.materials)
         for sentences in from_effects(self.scene, "warnings", self):
@@ -135,7 +135,7 @@ class Model:
         return found
 
     def _of_a_part(self) -> list[str]:
-        """A sentence where fewer cycles are run than pass until all that differs between them has been gone through."""
+        """A sentence where fewer cycles are run than the common period has."""
         period, run = common_period(self.scene), self.scene.motion.mesh_cycles
         if not run < period < inf:
             return []
@@ -147,7 +147,7 @@ class Model:
         ]
 
     def _without_fields(self) -> list[str]:
-        """A sentence where contact fields of fewer cycles are stored than nobody has asked to leave out."""
+        """A sentence where a large result leaves out contact fields that the scene did not ask to leave out."""
         motion = self.scene.motion
         if not self.contact_cycles or self.contact_cycles >= motion.recorded_cycles:
             return []
@@ -160,11 +160,12 @@ class Model:
 
 # Positions of a mesh cycle at which tooth pairs in reach are counted.
 MOST_STEPS_SEEN = 1000
-# Of a result; less where a scene does not say how much is to be stored.
+# Largest result; and the largest where the scene does not say how many contact fields to store.
 MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 
+
 def model_of(scene: Scene) -> Model:
-    """Everything about a scene that needs no computing to speak of.
+    """The model of a scene: all that follows from it before anything expensive is computed.
 
     Raises GeometryError for impossible gears, SceneError for a result too large to be held, or for files that do not fit the scene.
     """

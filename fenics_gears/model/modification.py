@@ -1,4 +1,4 @@
-"""What the effects of a scene do to the flanks that all teeth of a gear share."""
+"""Reliefs and tip edges of a scene: changes of the flanks that all teeth of a gear share."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """What must hold between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own module.
 
-The rules read the parsed TOML file, so that they speak even where some field is wrong; a value that they cannot read is another's problem.
+The rules read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is reported elsewhere.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def broken_rules(tree: Tree) -> list[Problem]:
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
     known = [effect.section for effect in effects.top_level()]
     sections = {nearest(name, known) or meant((), name, known) or name for name in tree}  # a misspelt section is another problem
-    # Without [gears] nothing can be said.
+    # Without [gears] the teeth are unknown.
     if table(tree, "gears") is None or material_sections(tree):
         sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
@@ -52,7 +52,7 @@ def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
     yield Problem(("gears", "face_width"), None, f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel].")
 
 
-# A time that passes has a meaning with these alone; without them a scene is a sequence of positions, each in equilibrium.
+# Only with these does time matter; without them a scene is a sequence of positions, each in equilibrium.
 NEED_A_SPEED = ("inertia", "damping", "speed_ramp")
 
 

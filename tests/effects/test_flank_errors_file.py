@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.commands.cli import main
-from fenics_gears.commands.scene_file import checked_scene
+from fenics_gears.commands.shared import checked_scene
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations
 from fenics_gears.geometry.flank_error_data import GearErrors
