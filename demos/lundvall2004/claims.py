@@ -94,9 +94,9 @@ def claim_4(friction: xr.Dataset, plain: xr.Dataset) -> Claim:
     output = spread(friction, "reaction_couple", "wheel")
     listed = ", ".join(f"{names[n]} {varies[n]:.1%}" for n in names)
     return Claim(
-        "4", "friction makes the reactions R_x1, R_y1 and the input couple C_z1 vary though the output couple is constant", "Fig. 4",
-        "peak to peak (of the mean; R_y1 of the normal force) above 3 % with friction, below 1e-9 without; output couple constant to 1e-9",
-        f"{listed} with friction; at most {max(constant.values()):.0e} without; output couple {output:.0e}",
+        "4", "friction makes the reactions R_x1, R_y1 and the input torque C_z1 vary though the output torque is constant", "Fig. 4",
+        "peak to peak (of the mean; R_y1 of the normal force) above 3 % with friction, below 1e-9 without; output torque constant to 1e-9",
+        f"{listed} with friction; at most {max(constant.values()):.0e} without; output torque {output:.0e}",
         verdict(min(varies.values()) > 0.03 and max(constant.values()) < 1e-9 and output < 1e-9),
     )  # fmt: skip
 
