@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from tests.benchmarks.accuracy_overview import TITLES, overview, overview_picture, overview_section
+from tests.benchmarks.accuracy_saved import saved_report
 from tests.benchmarks.marked_section import write_section
 
 from fenics_gears.scene.data import Motion, Scene
@@ -71,9 +72,11 @@ def main() -> None:
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on single settings run again for their times")
-    parser.add_argument("--write-again", action="store_true", help="picture and table of docs/performance.md from what is saved, without measuring")
+    parser.add_argument("--write-again", action="store_true", help="all pictures, and the table of docs/performance.md, from what is saved, without measuring")
     options = parser.parse_args()
-    for name in [] if options.write_again else options.names:
+    for name in options.names if options.write_again else ():
+        save_figure(work_precision(saved_report(all_scenes[name], PICTURES / f"accuracy_{name}.csv")), PICTURES / f"accuracy_{name}.png")
+    for name in () if options.write_again else options.names:
         progress = LineProgress()
         print(name, flush=True)
         report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_single=options.timing_seconds)
