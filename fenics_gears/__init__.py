@@ -3,14 +3,14 @@
 import importlib
 
 __version__ = "0.1.0"
-__all__ = ["__version__", "load_scene", "simulate"]
+__all__ = ["__version__", "build_scene", "load_scene", "simulate"]
 
 # Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.
-_HOMES = {"load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.studies.simulate"}
+_HOMES = {"build_scene": "fenics_gears.scene.read", "load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.studies.simulate"}
 
 
 def __getattr__(name: str):
-    """Load ``load_scene`` or ``simulate`` on first use."""
+    """Load ``build_scene``, ``load_scene`` or ``simulate`` on first use."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     # What BLAS, MPI and VTK read from the environment must stand there before they are loaded.

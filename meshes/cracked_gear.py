@@ -15,11 +15,11 @@ from pathlib import Path
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import element_sizes
-from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_gear_mesh
 from fenics_gears.errors import GearsError, SceneError
 from fenics_gears.inputs.units import QuantityError, quantity
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
+from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 
 def _of_kind(kind: str):

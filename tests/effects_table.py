@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tests.effects.examples import EXAMPLES
 
-from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, effect
+from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, effect_named
 from fenics_gears.effects.effect import Effect
 
 PAGE = Path(__file__).parents[1] / "docs" / "effects.md"
@@ -31,7 +31,7 @@ def page() -> str:
     lines += ["| variable | units | is | effect |", "|---|---|---|---|"]
     for each in EFFECTS:
         for found in each.variables:
-            beside = f", beside `[{effect(found.needs).written}]`" if found.needs else ""
+            beside = f", beside `[{effect_named(found.needs).written}]`" if found.needs else ""
             lines.append(f"| `{found.name}` | {found.units} | {found.long_name} | `[{each.written}]`{beside} |")
     return "\n".join(lines) + "\n"
 
@@ -40,7 +40,7 @@ def _row(each: Effect) -> str:
     added = [f"{kind}: {', '.join(words)}" for kind, words in (("unknowns", each.unknowns), ("terms", each.terms)) if words]
     if each.variables:
         added.append("results: " + _names(each.variables))
-    needs, excludes = (", ".join(f"`[{effect(name).written}]`" for name in names) for names in (each.needs, each.excludes))
+    needs, excludes = (", ".join(f"`[{effect_named(name).written}]`" for name in names) for names in (each.needs, each.excludes))
     return f"| `[{each.written}]` | {each.description} | {each.absent} | {'; '.join(added)} | {needs} | {excludes} |"
 
 

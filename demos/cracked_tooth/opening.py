@@ -22,7 +22,7 @@ from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_interior import dofs_of
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
-from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, crack_line, cracked_gear_mesh
+from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Material

@@ -94,9 +94,9 @@ def claim_4(friction: xr.Dataset, plain: xr.Dataset) -> Claim:
     output = spread(friction, "reaction_couple", "wheel")
     listed = ", ".join(f"{names[n]} {varies[n]:.1%}" for n in names)
     return Claim(
-        "4", "friction makes the reactions R_x1, R_y1 and the input couple C_z1 vary though the output couple is constant", "Fig. 4",
-        "peak to peak (of the mean; R_y1 of the normal force) above 3 % with friction, below 1e-9 without; output couple constant to 1e-9",
-        f"{listed} with friction; at most {max(constant.values()):.0e} without; output couple {output:.0e}",
+        "4", "friction makes the reactions R_x1, R_y1 and the input torque C_z1 vary though the output torque is constant", "Fig. 4",
+        "peak to peak (of the mean; R_y1 of the normal force) above 3 % with friction, below 1e-9 without; output torque constant to 1e-9",
+        f"{listed} with friction; at most {max(constant.values()):.0e} without; output torque {output:.0e}",
         verdict(min(varies.values()) > 0.03 and max(constant.values()) < 1e-9 and output < 1e-9),
     )  # fmt: skip
 
@@ -117,12 +117,12 @@ def claim_5(static: xr.Dataset, dynamic: xr.Dataset) -> Claim:
     alike, behind, reminds = likeness > 0.98, lag > max(0.02, lag_before), sideways > 0.95
     return Claim(
         "5", "at 200 Hz the curves keep their shape, the frictionless one lagging behind", "Fig. 5",
-        "T_E with and without friction correlate above 0.98 once shifted; the frictionless one is behind by more than 0.02 cycles and more than "
+        "T_E with and without friction correlate above 0.98 after a shift in time; the frictionless one is behind by more than 0.02 cycles and more than "
         "in the static case; d_y2 correlates above 0.95 with its static curve",
         f"correlation {likeness:.3f}, lag {lag:.3f} cycles (static {lag_before:.3f}); d_y2 {sideways:.3f}; "
         f"with its static curve T_E correlates {to_static[0]:.2f} with friction, {to_static[1]:.2f} without",
         verdict(alike, behind, reminds),
-        "" if alike and behind else "the mesh frequency is far below the torsional modes: the curves are the static ones, which friction alone tells apart",
+        "" if alike and behind else "the mesh frequency is far below the torsional modes: the curves are the static ones, which differ only by friction",
     )  # fmt: skip
 
 
@@ -216,7 +216,7 @@ def claim_9(unmodified: xr.Dataset, modified: xr.Dataset, static: xr.Dataset) ->
     if not less.all():
         text += f", more from {frequency[~less].min():.0f} to {frequency[~less].max():.0f} Hz"
     return Claim(
-        "9", "relief gains less when friction acts", "Figs. 6, 9, 10", "the share of T_EPP that 31 um take away is smaller with friction: static, at the largest value, at every frequency",
+        "9", "relief gains less when friction acts", "Figs. 6, 9, 10", "the relative reduction of T_EPP by 31 um is smaller with friction: static, at the largest value, at every frequency",
         text, verdict(still[WITH] < still[WITHOUT], peaks[WITH] < peaks[WITHOUT], bool(less.all())), "" if less.all() else "friction adds little to T_EPP of the modified pair there, or lowers it, see 6c",
     )  # fmt: skip
 

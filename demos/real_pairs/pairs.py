@@ -8,7 +8,7 @@ from pathlib import Path
 from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
-SCENES = ("fzg_type_c", "nasa_28_28", "wu_19_48")
+SCENES = ("fzg_type_c", "ben_gurion_18_35", "meng_25_30")
 COLUMNS = ("pair", "mesh frequency (Hz)", "J1 (kg mm²)", "J2 (kg mm²)", "mode of the mesh (Hz)", "T_EPP without inertia (µm)", "T_EPP at speed (µm)", "dynamic factor")
 
 

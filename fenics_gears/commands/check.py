@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from fenics_gears.commands.scene_file import add_scene_argument, checked_scene
+from fenics_gears.commands.shared import add_scene_argument, checked_scene
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 
 from fenics_gears import __version__
 from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, picture, plot, report, run, study, tests
-from fenics_gears.commands.exit_codes import INTERRUPTED, NOBODY_READS
+from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from fenics_gears.commands.run_file import loaded_run, run_file
+from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file
 from fenics_gears.errors import SceneError
 
 CURVES_FILE = "curves.csv"
@@ -14,14 +14,14 @@ CURVES_FILE = "curves.csv"
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("export", parents=[shared], help="write the curves of a run as a table (CSV) for spreadsheets")
-    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")
+    add_run_argument(command)
     command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"what to write (default: {CURVES_FILE} beside run.nc)")
     command.set_defaults(command=export)
 
 
 def export(options: argparse.Namespace) -> int:
     """Write a run's table of curves."""
-    from fenics_gears.system.output import check_writable, written_aside
+    from fenics_gears.system.output import check_writable, write_whole
 
     file = run_file(options.run)
     output = options.output or file.parent / CURVES_FILE
@@ -29,10 +29,7 @@ def export(options: argparse.Namespace) -> int:
         raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
     check_writable(output.parent)
     from fenics_gears.results.curves_table import save_curves
+
     dataset = loaded_run(file)
-    written: list[Path] = []
-    with written_aside(output.parent, written) as aside:
-        save_curves(dataset, aside / output.name)
-    if not options.quiet:
-        print(output)
+    print_files([write_whole(output, lambda path: save_curves(dataset, path))], options.quiet)
     return 0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 
 from fenics_gears.errors import GeometryError, SceneError
@@ -30,11 +29,9 @@ def import_rexs(options: argparse.Namespace) -> int:
     choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
     imported = imported_scene(options.file, choice)
     _check_scene(imported, options.file, output)
-    from fenics_gears.system.output import written_aside
+    from fenics_gears.system.output import write_whole
 
-    written: list[Path] = []
-    with written_aside(output.parent, written) as aside:
-        (aside / output.name).write_text(imported.text, encoding="utf-8")
+    write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:
         print(_summary(imported, output))
     return 0
@@ -59,18 +56,13 @@ def _check_scene(imported, file: Path, output: Path) -> None:
 
     source = f"{file} as a scene"
     try:
-        scene = scene_from_text(imported.text, output.stem, source=source)
+        scene = scene_from_text(imported.text, output.stem, source=source, with_lines=False)
         removals(scene, gear_pair(scene.gears))
     except SceneError as error:
-        words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else _without_lines(str(error), source)
+        words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else str(error)
         gears = f"The pinion is {imported.stage.pinion.gear}, the wheel {imported.stage.wheel.gear}."
         assumed = "".join(f"\n    assumed: {each}" for each in imported.assumed if each.startswith("gears."))
         raise SceneError(f"{words}\n{gears}{assumed}") from error
-
-
-def _without_lines(words: str, source: str) -> str:
-    """The messages without the numbers of lines of a text that is not written."""
-    return re.sub(rf"^{re.escape(source)}:\d+:", lambda _: f"{source}:", words, flags=re.MULTILINE)
 
 
 def _summary(imported, output: Path) -> str:

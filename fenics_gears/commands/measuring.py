@@ -1,12 +1,12 @@
-"""What commands share that run variants of a scene and measure times: a report, written as table and picture."""
+"""What the commands share that measure times of a scene's variants: they write a report as table and picture."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.scene_file import checked_scene_and_directory
-from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.commands.shared import checked_scene_and_directory, shown_progress
 from fenics_gears.errors import SceneError
 from fenics_gears.system.job import communicator
 
@@ -23,11 +23,8 @@ def scene_to_measure(options, command: str):
 
 def measured(measure: Callable, quiet: bool):
     """The report that `measure(progress)` gives."""
-    progress = told_progress(quiet)
-    try:
+    with closing(shown_progress(quiet)) as progress:
         return measure(progress)
-    finally:
-        progress.close()
 
 
 def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:

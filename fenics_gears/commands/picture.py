@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.run_file import loaded_run, run_file
-from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file, shown_progress
 from fenics_gears.errors import SceneError
 
 PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
@@ -15,7 +15,7 @@ PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; export them for ParaView")
-    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")
+    add_run_argument(command)
     command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help="mesh cycles after the first stored step (default: 0)")
     command.add_argument("--scale", type=_scale, metavar="N", help="displacements are drawn N times as large (default: as fits the picture)")
     command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"what to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)")
@@ -35,46 +35,32 @@ def picture(options: argparse.Namespace) -> int:
     from fenics_gears.simulation.stored_forces import stored_index
 
     index = stored_index(dataset, options.at)
-    progress = told_progress(options.quiet)
-    progress.stage("factorise sectors")
-    try:
+    with closing(shown_progress(options.quiet)) as progress:
+        progress.stage("factorise sectors")
         written = _written(options, dataset, scene, index, output if drawn else None, progress)
-    finally:
-        progress.close()
-    if not options.quiet:
-        for path in written:
-            print(path)
+    print_files(written, options.quiet)
     return 0
 
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
     from fenics_gears.simulation.run_stresses import RunStresses
-    from fenics_gears.system.output import written_aside
+    from fenics_gears.system.output import write_whole
 
     written: list[Path] = []
     with RunStresses(dataset, scene) as runs:
         if options.vtu is not None:
             from fenics_gears.show.stress_grid import save_vtu
 
-            with written_aside(options.vtu.parent, written) as aside:
-                save_vtu(runs.at(index), aside / options.vtu.name)
+            written.append(write_whole(options.vtu, lambda path: save_vtu(runs.at(index), path)))
         if options.pvd is not None:
-            written.append(_series(runs, dataset, options.pvd, progress))
+            from fenics_gears.show.stress_series import save_series
+
+            progress.stage("recover stresses")
+            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update)))
         if output is not None:
             progress.stage("draw")
-            with written_aside(output.parent, written) as aside:
-                _draw(options, runs, dataset, index, aside / output.name, progress)
+            written.append(write_whole(output, lambda path: _draw(options, runs, dataset, index, path, progress)))
     return written
-
-
-def _series(runs, dataset, collection: Path, progress) -> Path:
-    from fenics_gears.show.stress_series import save_series
-    from fenics_gears.system.output import written_aside
-
-    progress.stage("recover stresses")
-    with written_aside(collection.parent, []) as aside:
-        save_series(runs, dataset, aside / collection.name, progress.update)
-    return collection
 
 
 def _draw(options, runs, dataset, index: int, path: Path, progress) -> None:

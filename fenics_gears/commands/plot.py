@@ -5,14 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from fenics_gears.commands.drawing import draw
-from fenics_gears.commands.run_file import loaded_run, run_file
+from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("plot", parents=[shared], help="draw the pictures of a run again")
-    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")
+    add_run_argument(command)
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: beside run.nc)")
     command.set_defaults(command=plot)
 
@@ -25,7 +24,7 @@ def plot(options: argparse.Namespace) -> int:
     directory = options.output or file.parent
     check_writable(directory)
     dataset = loaded_run(file)
-    for picture in draw(dataset, directory):
-        if not options.quiet:
-            print(picture)
+    from fenics_gears.show.plots import draw_run
+
+    print_files(draw_run(dataset, directory), options.quiet)
     return 0

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.run import RUN_FILE
-from fenics_gears.commands.told_progress import told_progress
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.commands.shared import CASES, RUN_FILE, STUDY_FILE, loaded_run, print_files, shown_progress
+from fenics_gears.errors import SceneError
 
 REPORT_FILE = "report.html"
 ENDINGS = (".html", ".htm")
-STUDY_FILE, CASES = "study.nc", "cases"
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -37,14 +36,9 @@ def report(options: argparse.Namespace) -> int:
     file, is_study = found_file(options.run)
     output = output_file(options.output, file, is_study)
     _check(options, output, is_study)
-    progress = told_progress(options.quiet)
-    try:
+    with closing(shown_progress(options.quiet)) as progress:
         written = (_study if is_study else _run)(options, file, output, progress)
-    finally:
-        progress.close()
-    if not options.quiet:
-        for path in written:
-            print(path)
+    print_files(written, options.quiet)
     return 0
 
 
@@ -91,11 +85,10 @@ def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
 
 
 def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
-    from fenics_gears import results
     from fenics_gears.show.report.run_page import run_page
     from fenics_gears.show.run import Run
 
-    run = Run(_read(results.load, file), file, at=options.at, stress=not options.no_stress)
+    run = Run(loaded_run(file), file, at=options.at, stress=not options.no_stress)
     written = []
     if options.at is not None and run.steps:
         from fenics_gears.simulation.stored_forces import stored_index
@@ -103,22 +96,14 @@ def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> lis
         stored_index(run.dataset, options.at)
     if options.effects:
         written = _measure_effects(run, progress)
-    return [*written, *_write(run_page(run, progress), output)]
+    return [*written, _write(run_page(run, progress), output)]
 
 
 def _study(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
     from fenics_gears.show.report.study_page import study_page
     from fenics_gears.studies.combine import load_combined
 
-    return _write(study_page(_read(load_combined, file), file, output, progress), output)
-
-
-def _read(load, file: Path):
-    try:
-        return load(file)
-    except ComputationError as error:
-        # Nothing was computed: the call is wrong.
-        raise SceneError(str(error)) from error
+    return [_write(study_page(loaded_run(file, load_combined), file, output, progress), output)]
 
 
 def _measure_effects(run, progress) -> list[Path]:
@@ -138,12 +123,9 @@ def _measure_effects(run, progress) -> list[Path]:
     return write_report(measure(run.scene, progress), run.file.parent, "effects", write_csv, effect_costs)
 
 
-def _write(page, output: Path) -> list[Path]:
+def _write(page, output: Path) -> Path:
     from fenics_gears.show.report.rendering import rendered
-    from fenics_gears.system.output import written_aside
+    from fenics_gears.system.output import write_whole
 
     text = rendered(page)
-    written: list[Path] = []
-    with written_aside(output.parent, written) as aside:
-        (aside / output.name).write_text(text, encoding="utf-8")
-    return written
+    return write_whole(output, lambda path: path.write_text(text, encoding="utf-8"))

@@ -7,16 +7,19 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from fenics_gears.commands.drawing import draw
-from fenics_gears.commands.exit_codes import INTERRUPTED, NO_MEANING
-from fenics_gears.commands.scene_file import add_output_argument, add_scene_argument, checked_scene_and_directory
-from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.commands.shared import (
+    INTERRUPTED,
+    NO_MEANING,
+    RUN_FILE,
+    add_output_argument,
+    add_scene_argument,
+    checked_scene_and_directory,
+    shown_progress,
+)
 from fenics_gears.errors import ComputationError
 from fenics_gears.show import PICTURE_FILES
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.job import communicator
-
-RUN_FILE = "run.nc"
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -40,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     from fenics_gears.studies.simulate import simulate
 
-    with Interruption(told_progress(options.quiet)) as interruption:
+    with Interruption(shown_progress(options.quiet)) as interruption:
         try:
             dataset = simulate(scene, progress=interruption, comm=comm)
         except ComputationError as error:
@@ -56,7 +59,9 @@ def run(options: argparse.Namespace) -> int:
             try:
                 interruption.heed()
                 interruption.stage("draw pictures")
-                files += draw(dataset, directory)
+                from fenics_gears.show.plots import draw_run
+
+                files += draw_run(dataset, directory)
             except KeyboardInterrupt:
                 last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
     if not options.quiet:
@@ -75,16 +80,14 @@ def run(options: argparse.Namespace) -> int:
 def _save(dataset, directory: Path, interruption: Interruption) -> Path:
     """Write the result where no Ctrl-C can lose it, and return its file."""
     from fenics_gears import results
-    from fenics_gears.system.output import written_aside
+    from fenics_gears.system.output import write_whole
 
     interruption.ignore()
-    written: list[Path] = []
-    with written_aside(directory, written) as aside:
-        results.save(dataset, aside / RUN_FILE)
+    file = write_whole(directory / RUN_FILE, lambda path: results.save(dataset, path))
     for picture in PICTURE_FILES:
         # Those of an earlier run would be taken for pictures of this one.
         (directory / picture).unlink(missing_ok=True)
-    return written[0]
+    return file
 
 
 def _kept(dataset, file: Path) -> str:

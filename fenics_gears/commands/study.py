@@ -9,9 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.drawing import draw_study
-from fenics_gears.commands.exit_codes import INTERRUPTED
-from fenics_gears.commands.told_progress import told_progress
+from fenics_gears.commands.shared import INTERRUPTED, shown_progress
 from fenics_gears.errors import ComputationError, SceneError
 
 
@@ -31,9 +29,11 @@ def study(options: argparse.Namespace) -> int:
     from fenics_gears.studies.run_study import run_study
     from fenics_gears.studies.summary import last_words, summary_rows
 
-    outcome = run_study(options.study, options.output, told_progress(options.quiet), options.quiet)
+    outcome = run_study(options.study, options.output, shown_progress(options.quiet), options.quiet)
     if outcome is None:
         return 0
+    from fenics_gears.show.plots import draw_study
+
     pictures = [] if outcome.interrupted else draw_study(outcome.file)
     if not options.quiet:
         from fenics_gears.system.console import print_rows

@@ -1,7 +1,7 @@
-"""The one list of effects a scene can switch on by naming their section.
+"""The one list of effects; a scene switches an effect on by naming its section.
 
-An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist, and what computes it is
-not imported. The scene's sections, what ``gears check`` prints, the result's variables and the documentation's table come from here.
+An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist, and its physics is not
+imported. The scene's sections, the output of ``gears check``, the result's variables and the documentation's table follow from this list.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 from math import inf, lcm
+from typing import Any
 
 from fenics_gears.effects import (
     bearings,
@@ -76,7 +77,7 @@ OVER_CONTACT_NODES = tuple(
 ) + ("largest_contact_pressure", "largest_contact_pressure_pair", "largest_contact_pressure_roll_angle", "largest_edge_pressure")
 
 
-def effect(section: str) -> Effect:
+def effect_named(section: str) -> Effect:
     """The effect of that section; raises KeyError for a name that is not in the list."""
     return {each.section: each for each in EFFECTS}[section]
 
@@ -86,11 +87,15 @@ def effects_on(scene) -> tuple[Effect, ...]:
     return tuple(each for each in EFFECTS if getattr(scene, each.section) is not None)
 
 
+def from_effects(scene, hook: str, *arguments) -> list[Any]:
+    """What the scene's effects answer: their hooks of that name, called with the effect's own data and the arguments."""
+    hooks = ((each, getattr(each, hook)) for each in effects_on(scene))
+    return [call(getattr(scene, each.section), *arguments) for each, call in hooks if call is not None]
+
+
 def check_files(scene, pair) -> None:
     """Raise SceneError for what is wrong in files that the scene's effects name."""
-    for each in effects_on(scene):
-        if each.check is not None:
-            each.check(getattr(scene, each.section), scene, pair)
+    from_effects(scene, "check", scene, pair)
 
 
 def result_variables(scene) -> tuple[ResultVariable, ...]:
@@ -106,7 +111,7 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
 
 def common_period(scene) -> float:
     """Mesh cycles after which all that the scene's effects do repeats: the common multiple of their periods; infinite where one never does."""
-    periods = [each.period(getattr(scene, each.section), scene) for each in effects_on(scene) if each.period is not None]
+    periods = from_effects(scene, "period", scene)
     return inf if inf in periods else lcm(*periods)
 
 
@@ -117,7 +122,7 @@ def top_level() -> tuple[Effect, ...]:
 
 def without(scene, *sections: str):
     """The scene less some effects; what needs them is left in and may then not be valid."""
-    changed = replace(scene, **{name: None for name in sections if not effect(name).within})
+    changed = replace(scene, **{name: None for name in sections if not effect_named(name).within})
     if "tooth_elasticity" not in sections:
         return changed
     pinion, wheel = (replace(gear, material=None) for gear in (scene.gears.pinion, scene.gears.wheel))

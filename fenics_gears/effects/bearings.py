@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Optional
 
-from fenics_gears.dynamics.drivetrain_data import Bearings, Support
+from fenics_gears.dynamics.drivetrain_data import Bearings
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, Tree, table
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, table
 
 DIRECTIONS = ("x", "y")
 
@@ -33,21 +33,12 @@ class BearingsText(SupportText):
     wheel: Optional[SupportText] = None
 
 
-def read(text: BearingsText) -> Bearings:
-    """The stiffness of both shafts, beside what either has of its own."""
-    own = {gear: getattr(text, gear) for gear in GEARS}
-    return Bearings(
-        text.stiffness, text.stiffness_x, text.stiffness_y,
-        **{gear: None if each is None else Support(each.stiffness, each.stiffness_x, each.stiffness_y) for gear, each in own.items()},
-    )  # fmt: skip
-
-
 def supports_are_complete(tree: Tree) -> Iterator[Problem]:
     """Either shaft has a stiffness in either direction."""
     both = table(tree, "bearings")
     if both is None:
         return
-    missing = [(gear, direction) for gear in GEARS for direction in DIRECTIONS if not _given(both, gear, direction)]
+    missing = [(gear, direction) for gear in GEARS for direction in DIRECTIONS if not given_for(both, gear) & {"stiffness", f"stiffness_{direction}"}]
     example = 'Allowed: such as "0.155e6 N/mm"'
     if len(missing) == 4:
         yield Problem(("bearings", "stiffness"), None, f"is missing. {example}, or stiffness_x and stiffness_y, along and off the line of action.")
@@ -56,11 +47,6 @@ def supports_are_complete(tree: Tree) -> Iterator[Problem]:
         for direction in sorted({direction for _, direction in missing}):
             path = ("bearings",) if len(gears) == 2 else ("bearings", *gears)
             yield Problem((*path, f"stiffness_{direction}"), None, f"is missing. {example}, or stiffness for both directions.")
-
-
-def _given(both: Tree, gear: str, direction: str) -> bool:
-    names = {*both, *(table(both, gear) or {})}
-    return bool(names & {"stiffness", f"stiffness_{direction}"})
 
 
 EFFECT = Effect(
@@ -76,6 +62,5 @@ EFFECT = Effect(
         ResultVariable("centre_y", "mm", "displacement of the centre off the line of action", dims=("time", "gear")),
         ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
     ),
-    read=read,
     rules=supports_are_complete,
 )

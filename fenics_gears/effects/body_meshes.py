@@ -12,10 +12,9 @@ from typing import Optional
 from fenics_gears.effects.effect import Effect
 from fenics_gears.inputs.fields import Section, file_name
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.tree import GEARS, Tree, table, value_at
 from fenics_gears.inputs.written import as_written
 
-GEARS = ("pinion", "wheel")
 # A flank of elements this much longer than those the contact asks for does not resolve it.
 COARSE = 1.5
 
@@ -62,12 +61,12 @@ def _located(file: MeshFile, directory: Path) -> MeshFile:
     try:
         return replace(file, path=str(path), digest=hashlib.sha256(path.read_bytes()).hexdigest())
     except OSError:
-        # That it is missing is said by `check`; a scene that only is looked at needs no mesh.
+        # `check` reports a missing file; a scene that is only looked at needs no mesh.
         return replace(file, path=str(path))
 
 
 def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
-    """A section without a file says nothing; only the elastic model, condensed once, sees teeth that are not alike."""
+    """A section names a file; only the elastic model, condensed once, can have teeth that are not alike."""
     section = table(tree, "body_meshes")
     if section is None:
         return
@@ -81,7 +80,7 @@ def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
     if "elastic_teeth" in accuracy:
         message = "cannot stand beside [body_meshes], where all teeth feel each other. Leave one of the two out."
         yield Problem(("accuracy", "elastic_teeth"), as_written(accuracy["elastic_teeth"]), message)
-    if (table(tree, "output") or {}).get("root_stress") is True:
+    if value_at(tree, "output", "root_stress") is True:
         message = "knows equal teeth only and cannot stand beside [body_meshes]. Leave one of the two out."
         yield Problem(("output", "root_stress"), "true", message)
 
@@ -179,7 +178,6 @@ EFFECT = Effect(
     check=check,
     warnings=warnings,
     elasticity=elasticity,
-    unknowns_of=unknowns_of,
     watched=watched,
     findings=findings,
     period=period,

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Optional
 
-from fenics_gears.effects.effect import Effect
+from fenics_gears.effects.effect import Effect, own_or_shared
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.tree import Tree, value_at
 
 
 @dataclass(frozen=True)
@@ -36,22 +36,14 @@ class CornerContactText(EdgeText):
 
 def read(text: CornerContactText) -> CornerContact:
     """Each gear's own radius before that of both."""
-    own = [gear.edge_radius if gear is not None else None for gear in (text.pinion, text.wheel)]
-    return CornerContact(tuple(float(text.edge_radius or 0.0) if radius is None else radius for radius in own))
+    return CornerContact(tuple(float(own_or_shared(own, text, "edge_radius") or 0.0) for own in (text.pinion, text.wheel)))
 
 
 def route_has_corners(tree: Tree) -> Iterator[Problem]:
     """Remeshing at every step has no nodes beside the path of contact."""
-    if "corner_contact" in tree and (table(tree, "accuracy") or {}).get("condensation") == "every step":
+    if "corner_contact" in tree and value_at(tree, "accuracy", "condensation") == "every step":
         message = 'has no contact of tips off the line of action. Take "once", or leave the section [corner_contact] out.'
         yield Problem(("accuracy", "condensation"), '"every step"', message)
-
-
-def corner(data: CornerContact, pair):
-    """The tip edges, as contact sees them. Raises GeometryError for a radius that does not fit the tip."""
-    from fenics_gears.contact.corner import corner_contact
-
-    return corner_contact(pair, data.edge_radii)
 
 
 EFFECT = Effect(
@@ -64,5 +56,4 @@ EFFECT = Effect(
     needs=("tooth_elasticity",),
     read=read,
     rules=route_has_corners,
-    corner=corner,
 )

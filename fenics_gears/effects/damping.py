@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Optional
 
-from fenics_gears.dynamics.drivetrain_data import MODAL, RAYLEIGH, Damping, Rayleigh
-from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.dynamics.drivetrain_data import MODAL, RAYLEIGH, Damping
+from fenics_gears.effects.effect import Effect, ResultVariable, same_names
 from fenics_gears.inputs.fields import Section, number, numbers, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, Tree, material_sections, quantity_in, table
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, material_sections, quantity_in, table, with_gears
 from fenics_gears.inputs.written import as_written
 
 
@@ -45,13 +45,10 @@ class DampingText(Section):
 
 
 def read(text: DampingText) -> Damping:
-    """Damping of both shafts beside what either has of its own, or ratios."""
-    own = {gear: getattr(text, gear) for gear in GEARS}
-    return Damping(
-        *(getattr(text, name) for name in RAYLEIGH),
-        **{gear: None if each is None else Rayleigh(*(getattr(each, name) for name in RAYLEIGH)) for gear, each in own.items()},
-        ratios=text.ratios or ((float(text.ratio),) if text.ratio is not None else ()),
-    )
+    """The data of a validated section; the ratio of all modes is a list of one."""
+    if text.ratio is None:
+        return same_names(Damping, text, leaving=("ratio",))
+    return same_names(Damping, text, leaving=("ratio",), ratios=(float(text.ratio),))
 
 
 def damping_acts(tree: Tree) -> Iterator[Problem]:
@@ -72,7 +69,7 @@ def damping_acts(tree: Tree) -> Iterator[Problem]:
             yield Problem(("damping", modal[0]), as_written(damping[modal[0]]), message)
         return
     yield from _rayleigh_is_complete(damping)
-    yield from _rayleigh_acts(tree, damping)
+    yield from _rayleigh_acts(tree)
 
 
 _MISSING = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1/s"}
@@ -80,16 +77,16 @@ _MISSING = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1
 
 def _rayleigh_is_complete(damping: Tree) -> Iterator[Problem]:
     for name, example in _MISSING.items():
-        gears = [gear for gear in GEARS if name not in {*damping, *(table(damping, gear) or {})}]
+        gears = [gear for gear in GEARS if name not in given_for(damping, gear)]
         if gears:
             path = ("damping", name) if len(gears) == 2 else ("damping", *gears, name)
             other = "ratio = 0.05 alone, of every mode" if len(gears) == 2 else f"{name} of [damping] for both gears"
             yield Problem(path, None, f'is missing. Allowed: such as "{example}"; or {other}.')
 
 
-def _rayleigh_acts(tree: Tree, damping: Tree) -> Iterator[Problem]:
-    written = [(path, section) for path, section in ((("damping",), damping), *((("damping", gear), table(damping, gear) or {}) for gear in GEARS))]
-    values = {name: {path: quantity_in(section[name]) for path, section in written if name in section} for name in RAYLEIGH}
+def _rayleigh_acts(tree: Tree) -> Iterator[Problem]:
+    sections = with_gears(tree, "damping")
+    values = {name: {path: quantity_in(section[name]) for path, section in sections.items() if name in section} for name in RAYLEIGH}
     of_stiffness, of_mass = (values[name] for name in RAYLEIGH)
     # A value that cannot be read is another's problem.
     if any(value != 0 for value in of_mass.values()) or not of_stiffness or None in of_stiffness.values():
@@ -99,7 +96,7 @@ def _rayleigh_acts(tree: Tree, damping: Tree) -> Iterator[Problem]:
     elif "shafts" not in tree and "bearings" not in tree:
         message = "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or allow a mass_proportional value above 0."
         path = next(path for path, value in of_stiffness.items() if value)
-        section = dict(written)[path]
+        section = sections[path]
         yield Problem((*path, "stiffness_proportional"), as_written(section["stiffness_proportional"]), message)
 
 

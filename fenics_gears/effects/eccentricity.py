@@ -7,10 +7,10 @@ from math import lcm
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
+from fenics_gears.geometry.eccentricity_data import Eccentricity
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, table, too_large_for_the_module
+from fenics_gears.inputs.tree import GEARS, Tree, table, too_large_for_the_module, value_at
 
 
 class OffsetText(Section):
@@ -39,20 +39,15 @@ class EccentricityText(Section):
     wheel: Optional[OffsetText] = None
 
 
-def read(text: EccentricityText) -> Eccentricity:
-    """The data of a validated section; the phase is zero unless given."""
-    return Eccentricity(*(each and Offset(each.distance, each.phase or 0.0) for each in (text.pinion, text.wheel)))
-
-
 def run_out_is_small_and_of_some_gear(tree: Tree) -> Iterator[Problem]:
-    """A section without a gear says nothing; what moves the flanks by parts of a tooth is no error."""
+    """A section names a gear, and its run-out is small against the tooth."""
     section = table(tree, "eccentricity")
     if section is not None and not section:
         message = "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the section out."
         yield Problem(("eccentricity",), "", message)
-    for gear in ("pinion", "wheel"):
-        distance = (table(section or {}, gear) or {}).get("distance")
-        yield from too_large_for_the_module(tree, ("eccentricity", gear, "distance"), distance)
+    for gear in GEARS:
+        path = ("eccentricity", gear, "distance")
+        yield from too_large_for_the_module(tree, path, value_at(tree, *path))
 
 
 def gaps(eccentricity: Eccentricity, model):
@@ -64,7 +59,7 @@ def gaps(eccentricity: Eccentricity, model):
 
 def period(eccentricity: Eccentricity, scene) -> int:
     """Mesh cycles of whole turns of the gears that run out."""
-    return lcm(*(getattr(scene.gears, name).teeth for name in ("pinion", "wheel") if getattr(eccentricity, name) is not None))
+    return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if getattr(eccentricity, name) is not None))
 
 
 EFFECT = Effect(
@@ -74,7 +69,6 @@ EFFECT = Effect(
     text=EccentricityText,
     data=Eccentricity,
     terms=("gaps that change once a turn of the gear",),
-    read=read,
     rules=run_out_is_small_and_of_some_gear,
     gaps=gaps,
     period=period,

@@ -1,16 +1,16 @@
-"""What an effect is: the section that switches it on, and where it enters the model.
+"""What an effect is: the section that switches it on, and the hooks by which it enters the model.
 
 An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A module holds the section as it is
-written (``text``), its data in program units, what it says of itself, and hooks. A hook is called only when the scene names the
-effect; it imports what computes the effect itself, so that a scene without the effect does not load it.
+written (``text``), its data in program units, its description, and hooks. A hook is called only when the scene names the effect; it
+imports the effect's physics inside the function, so that a scene without the effect does not load it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, is_dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 from fenics_gears.inputs.fields import Section
 from fenics_gears.inputs.problem import Problem
@@ -43,17 +43,15 @@ class Effect:
     Hooks, each with the effect's data first:
 
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or None.
-    ``corner(data, pair)``: how tips touch off the line of action (``contact.corner``).
     ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
     ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
-    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None to leave it as it is.
-    ``unknowns_of(data, model, name)``: of that gear's finite elements, for the expected cost; None to leave it as it is.
+    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None for that of equal teeth.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
-    ``check(data, scene, pair)``: raises SceneError for what only shows in those files.
+    ``check(data, scene, pair)``: raises SceneError where those files are wrong.
     ``warnings(data, model)``: sentences that a user should read before the run.
-    ``watched(data, cycle, records)``: what of consecutive steps the effect's findings are made of, name to values (steps,).
-    ``findings(data, watched)``: sentences on where a run leaves what the effect assumes, by what was watched at all of its steps.
+    ``watched(data, cycle, records)``: values of consecutive steps that the effect's findings need, name to values (steps,).
+    ``findings(data, watched)``: sentences on where a run violates what the effect assumes, from the watched values of all steps.
     ``results(data, scene, cycle, steps)``: the effect's own variables at steps (time,), name to (dimensions, values).
     ``period(data, scene)``: mesh cycles after which what the effect does repeats; infinite where it never does. 1 unless given.
     """
@@ -72,12 +70,10 @@ class Effect:
     read: Callable[[Any], Any] | None = None
     rules: Callable[[Mapping[str, Any]], Iterator[Problem]] | None = None
     removal: Callable | None = None
-    corner: Callable | None = None
     gaps: Callable | None = None
     load: Callable | None = None
     clock: Callable | None = None
     elasticity: Callable | None = None
-    unknowns_of: Callable | None = None
     located: Callable | None = None
     check: Callable | None = None
     warnings: Callable | None = None
@@ -99,6 +95,24 @@ class Effect:
         return data if self.located is None else self.located(data, directory)
 
 
-def same_names(kind: type, section: Section) -> Any:
-    """The dataclass ``kind`` with the section's values, which have the same names; bare numbers leave their spelling behind."""
-    return kind(**{name: float(value) if isinstance(value, float) else value for name, value in section})
+def same_names(kind: type, section: Section, leaving: Collection[str] = (), **others: Any) -> Any:
+    """The dataclass ``kind`` with the section's values, which have the same names; a section within it becomes the dataclass of that field.
+
+    What the scene leaves out keeps the dataclass's own default. ``leaving``: fields of the section that the dataclass does not have;
+    ``others``: values that are not the section's own.
+    """
+    hints = get_type_hints(kind)
+    for name, value in section:
+        if value is None or name in leaving or name in others:
+            continue
+        if isinstance(value, Section):
+            value = same_names(next(each for each in (hints[name], *get_args(hints[name])) if is_dataclass(each)), value)
+        # A bare number leaves its spelling behind.
+        others[name] = float(value) if isinstance(value, float) else value
+    return kind(**others)
+
+
+def own_or_shared(own: Section | None, shared: Section | None, name: str) -> Any:
+    """A field of one gear: what its own section has, else what the section of both gears has; None where neither does."""
+    value = getattr(own, name, None)
+    return getattr(shared, name, None) if value is None else value

@@ -15,19 +15,17 @@ from typing import Any, Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
+from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
 from fenics_gears.inputs.fields import Section, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import LARGEST_ERROR, Tree, quantity_in, table, teeth_in, too_large_for_the_module
+from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, Tree, quantity_at, quantity_in, table, teeth_in, too_large_for_the_module, value_at
 from fenics_gears.inputs.written import as_written
 
-GEARS = ("pinion", "wheel")
 LISTS = ("pitch", "profile_slope", "profile_form")
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3
 # Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
 DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
-
 
 DRAWN = "drawn within the tolerance class, none without one"
 
@@ -78,20 +76,6 @@ class FlankErrorsText(Section):
     wheel: Optional[GearErrorsText] = None
 
 
-def read(text: FlankErrorsText) -> FlankErrors:
-    """The data of a validated section."""
-    seed = 1 if text.seed is None else text.seed
-    return FlankErrors(_gear_errors(text.pinion), _gear_errors(text.wheel), text.tolerance_class, seed)
-
-
-def _gear_errors(text: GearErrorsText | None) -> GearErrors:
-    if text is None:
-        return GearErrors()
-    waves = text.waviness
-    waviness = None if waves is None else Waviness(waves.amplitude, waves.waves, waves.phase or 0.0)
-    return GearErrors(text.pitch, text.profile_slope, text.profile_form, waviness, text.file)
-
-
 def located(errors: FlankErrors, directory: Path) -> FlankErrors:
     """The errors with those that stand in tables, found from a directory on."""
     return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
@@ -102,7 +86,7 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
         return errors
     from fenics_gears.effects.flank_errors_file import FileProblem, deviations_in
 
-    # What is wrong is said by `check`; a scene that only is looked at needs no table.
+    # `check` reports what is wrong; a scene that is only looked at needs no table.
     try:
         found = deviations_in((directory / errors.file).resolve(), LISTS)
     except FileProblem as problem:
@@ -163,7 +147,7 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
 def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
     """Deviations are small against the tooth, whose place and shape stay what they are."""
     values = {(name,): errors.get(name) for name in LISTS}
-    values["waviness", "amplitude"] = (table(errors, "waviness") or {}).get("amplitude")
+    values["waviness", "amplitude"] = value_at(errors, "waviness", "amplitude")
     for path, written in values.items():
         yield from too_large_for_the_module(tree, ("flank_errors", gear, *path), written)
 
@@ -196,7 +180,7 @@ def _not_closed(total: float) -> str:
 
 
 def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
-    module = quantity_in((table(tree, "gears") or {}).get("module"))
+    module = quantity_at(tree, "gears", "module")
     path, written = ("flank_errors", "tolerance_class"), as_written(errors["tolerance_class"])
     if module is None:
         return
@@ -257,7 +241,6 @@ EFFECT = Effect(
             ("profile_form", "profile form deviation"),
         )
     ),
-    read=read,
     located=located,
     check=check,
     rules=errors_fit_the_gears,

@@ -1,4 +1,4 @@
-"""Deviations of a gear's teeth from a table (CSV), as a measuring machine or a spreadsheet writes it. No effect by itself."""
+"""Deviations of a gear's teeth from a table (CSV), as a measuring machine or a spreadsheet writes it. Not an effect by itself."""
 
 from __future__ import annotations
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Optional
 
-from fenics_gears.dynamics.drivetrain_data import LUMPED, GearInertia, Inertia
-from fenics_gears.effects.effect import Effect, ResultVariable
+from fenics_gears.dynamics.drivetrain_data import LUMPED, Inertia
+from fenics_gears.effects.effect import Effect, ResultVariable, same_names
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, Tree, table
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
 
 
@@ -54,13 +54,8 @@ class InertiaText(Section):
 
 
 def read(text: InertiaText) -> Inertia:
-    """What both gears have, beside what either and the load have of their own."""
-    own = {gear: getattr(text, gear) for gear in GEARS}
-    return Inertia(
-        text.mass, text.moment_of_inertia, text.density,
-        **{gear: None if each is None else GearInertia(each.mass, each.moment_of_inertia, each.density) for gear, each in own.items()},
-        load=None if text.load is None else text.load.moment_of_inertia,
-    )  # fmt: skip
+    """The data of a validated section, in which the load is its moment of inertia."""
+    return same_names(Inertia, text, load=None if text.load is None else text.load.moment_of_inertia)
 
 
 def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
@@ -74,8 +69,8 @@ def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
             "Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft [shafts.input] lets the pinion's side swing."
         )
         yield Problem(("inertia", "motor"), "", message)
-    yield from _density_stands_alone(both)
-    missing = {name: [gear for gear in GEARS if not _given(both, gear, name)] for name in LUMPED}
+    yield from _density_stands_alone(tree)
+    missing = {name: [gear for gear in GEARS if not given_for(both, gear) & {name, "density"}] for name in LUMPED}
     for name, gears in missing.items():
         if gears:
             path = ("inertia", name) if len(gears) == 2 else ("inertia", *gears, name)
@@ -94,17 +89,13 @@ _MISSING = {
 }
 
 
-def _density_stands_alone(both: Tree) -> Iterator[Problem]:
-    """In one section a density stands beside neither of what follows from it."""
-    for path, section in ((("inertia",), both), *((("inertia", gear), table(both, gear) or {}) for gear in GEARS)):
+def _density_stands_alone(tree: Tree) -> Iterator[Problem]:
+    """No section gives a density beside the mass or the moment of inertia that follow from it."""
+    for path, section in with_gears(tree, "inertia").items():
         beside = [name for name in LUMPED if name in section]
         if "density" in section and beside:
             message = f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or {' and '.join(beside)}."
             yield Problem((*path, "density"), as_written(section["density"]), message)
-
-
-def _given(both: Tree, gear: str, name: str) -> bool:
-    return bool({*both, *(table(both, gear) or {})} & {name, "density"})
 
 
 EFFECT = Effect(

@@ -1,18 +1,18 @@
-"""What ``[tip_relief]`` and ``[root_relief]`` share: their fields, their data and their rules. No effect by itself."""
+"""What ``[tip_relief]`` and ``[root_relief]`` share: fields, data, rules and findings. Not an effect by itself."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Literal, Optional
 
+from fenics_gears.effects.effect import own_or_shared
 from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief
 from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Measured, Section, choice, either, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
 
-GEARS = ("pinion", "wheel")
 # Steps of a block, those that press a node hardest, whose pressure is looked at.
 STEPS_JUDGED = 4
 
@@ -33,12 +33,10 @@ def length_field(measured: str) -> Any:
     return quantity("1e-3 um", "100 m", "3 mm", meaning=f"length of the relief {measured}, from its start to its end", otherwise="from `start`")
 
 
-ON_PATH, ON_FLANK = "on the path of contact, as profile charts have it: base radius times roll angle", "along the flank: the involute's arc"
+class TipReliefOfGearText(Section):
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; what is left out is taken from ``[tip_relief]``."""
 
-
-def depth_field() -> Any:
-    """How much a relief removes at its end."""
-    return quantity(
+    depth: Optional[float] = quantity(
         "1e-6 um",
         "100 mm",
         "31 um",
@@ -46,11 +44,10 @@ def depth_field() -> Any:
         otherwise="as of both gears, else no relief",
         below="For a gear without relief, leave its depth out.",
     )
-
-
-def shape_field() -> Any:
-    """How a relief grows from its start to its end."""
-    return choice(
+    start: Optional[Measured] = start_field("HPSTC", "highest point of single tooth contact")
+    length_on_path: Optional[float] = length_field("on the path of contact, as profile charts have it: base radius times roll angle")
+    length_on_flank: Optional[float] = length_field("along the flank: the involute's arc")
+    shape: Optional[Literal["linear", "parabolic"]] = choice(
         LINEAR,
         PARABOLIC,
         meaning="how it grows with the roll angle, from its start to its end: `linear` starts with a kink, where the pressure peaks and does not converge "
@@ -59,24 +56,10 @@ def shape_field() -> Any:
     )
 
 
-class TipReliefOfGearText(Section):
-    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; what is left out is taken from ``[tip_relief]``."""
-
-    depth: Optional[float] = depth_field()
-    start: Optional[Measured] = start_field("HPSTC", "highest point of single tooth contact")
-    length_on_path: Optional[float] = length_field(ON_PATH)
-    length_on_flank: Optional[float] = length_field(ON_FLANK)
-    shape: Optional[Literal["linear", "parabolic"]] = shape_field()
-
-
-class RootReliefOfGearText(Section):
+class RootReliefOfGearText(TipReliefOfGearText):
     """``[root_relief.pinion]`` and ``[root_relief.wheel]``; what is left out is taken from ``[root_relief]``."""
 
-    depth: Optional[float] = depth_field()
     start: Optional[Measured] = start_field("LPSTC", "lowest point of single tooth contact")
-    length_on_path: Optional[float] = length_field(ON_PATH)
-    length_on_flank: Optional[float] = length_field(ON_FLANK)
-    shape: Optional[Literal["linear", "parabolic"]] = shape_field()
 
 
 # Each alone says where a relief starts.
@@ -85,28 +68,27 @@ STARTS = ("start", "length_on_path", "length_on_flank")
 
 def of_gear(both: Section, own: Section | None) -> Relief | None:
     """One gear's relief: what is its own before what is both gears'; None without a depth."""
-    own = own or type(both)()
-    depth = both.depth if own.depth is None else own.depth
+    depth = own_or_shared(own, both, "depth")
     if depth is None:
         return None
-    starting = own if own.model_fields_set.intersection(STARTS) else both
+    starting = own if own is not None and own.model_fields_set.intersection(STARTS) else both
     number = {starting.start.kind: starting.start.number} if starting.start is not None else {}
-    shape = own.shape or both.shape or LINEAR
+    shape = own_or_shared(own, both, "shape") or LINEAR
     return Relief(depth, number.get("an angle"), shape, number.get("a length"), starting.length_on_path, starting.length_on_flank)
 
 
-def rules(tree: Tree, section: str, word: str) -> Iterator[Problem]:
+def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
     """A relief has a depth and one start, which means the same for all gears that it is given for."""
     both = table(tree, section)
     if both is None:
         return
     own = {gear: table(both, gear) for gear in GEARS if table(both, gear) is not None}
     yield from _incomplete(both, own, section, word)
-    for path, given in {(section,): both, **{(section, gear): each for gear, each in own.items()}}.items():
+    for path, given in with_gears(tree, section).items():
         named = [name for name in STARTS if name in given]
         for name in named[1:]:
             yield Problem((*path, name), as_written(given[name]), f"stands beside {named[0]}, and each says where the relief starts. Leave one out.")
-    takers = [gear for gear in GEARS if {"depth"} & {*both, *own.get(gear, {})} and not {*STARTS}.intersection(own.get(gear, {}))]
+    takers = [gear for gear in GEARS if "depth" in given_for(both, gear) and not {*STARTS}.intersection(own.get(gear, {}))]
     if _is_diameter(both.get("start")) and len(takers) > 1 and not _alike(tree):
         message = (
             "is a diameter, which is another place of either gear's flank. Allowed here: a roll angle, "
@@ -116,7 +98,7 @@ def rules(tree: Tree, section: str, word: str) -> Iterator[Problem]:
 
 
 def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> Iterator[Problem]:
-    given = {(section, gear): {*both, *each} for gear, each in own.items()}
+    given = {(section, gear): given_for(both, gear) for gear in own}
     if "depth" in both or not given:
         given[section,] = set(both)
     for path, names in given.items():
@@ -137,20 +119,17 @@ def _is_diameter(written: Any) -> bool:
 
 def _alike(tree: Tree) -> bool:
     """Whether both gears have the same teeth, so that a diameter is the same place of both."""
-    gears = table(tree, "gears") or {}
-    pinion, wheel = ({name: value for name, value in (table(gears, gear) or {}).items() if name != "bore_diameter"} for gear in GEARS)
-    return pinion == wheel
+    _, pinion, wheel = with_gears(tree, "gears").values()
+    return {**pinion, "bore_diameter": None} == {**wheel, "bore_diameter": None}
 
 
-def kinks_watched(section: str, reliefs, curves: Mapping[str, Any], cycle, records) -> dict[str, Any]:
+def kinks_watched(section: str, removal: Callable, reliefs, cycle, records) -> dict[str, Any]:
     """The largest pressure (MPa) of consecutive steps, and the gear (1 or 2, 0 for neither) on whose kink of a linear relief it is.
 
     Both (steps,), zero but for the first step: they are of the steps that press a node hardest.
     """
-    kinks = {
-        gear: curve.start_roll_angle
-        for gear, curve in curves.items() if curve is not None and getattr(reliefs, gear).shape == LINEAR and curve.depth > 0.0
-    }  # fmt: skip
+    curves = zip(GEARS, removal(reliefs, cycle.pair))
+    kinks = {gear: curve.start_roll_angle for gear, curve in curves if curve is not None and getattr(reliefs, gear).shape == LINEAR and curve.depth > 0.0}
     if not kinks or not cycle.traits.has_pressure:
         return {}
     import numpy as np
@@ -165,7 +144,7 @@ def kinks_watched(section: str, reliefs, curves: Mapping[str, Any], cycle, recor
     return {f"{section} pressure": first[0], f"{section} kink": first[1]}
 
 
-def kink_findings(section: str, watched: Mapping[str, Any]) -> list[str]:
+def kink_findings(section: str, reliefs, watched: Mapping[str, Any]) -> list[str]:
     """A sentence where contact presses hardest on the kink with which a linear relief starts."""
     pressure = watched.get(f"{section} pressure")
     if pressure is None or not len(pressure):

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from functools import partial
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import GEARS, RootReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
+from fenics_gears.effects.relief import RootReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
 from fenics_gears.geometry.relief_data import RootRelief
-from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree
 
 
 class RootReliefText(RootReliefOfGearText):
@@ -24,26 +22,11 @@ def read(text: RootReliefText) -> RootRelief:
     return RootRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
 
 
-def relief_is_whole(tree: Tree) -> Iterator[Problem]:
-    """A relief has a depth and one start, which means the same for both gears."""
-    return rules(tree, "root_relief", "LPSTC")
-
-
 def removal(relief: RootRelief, pair):
     """Material removed from pinion and wheel."""
     from fenics_gears.geometry.relief import root_reliefs
 
     return root_reliefs(pair, relief)
-
-
-def watched(relief: RootRelief, cycle, records) -> dict:
-    """Where contact presses hardest, seen from the kinks of linear relief."""
-    return kinks_watched("root_relief", relief, dict(zip(GEARS, removal(relief, cycle.pair))), cycle, records)
-
-
-def findings(relief: RootRelief, watched) -> list[str]:
-    """Contact that presses hardest on a kink."""
-    return kink_findings("root_relief", watched)
 
 
 EFFECT = Effect(
@@ -54,8 +37,8 @@ EFFECT = Effect(
     data=RootRelief,
     terms=("initial gaps",),
     read=read,
-    rules=relief_is_whole,
+    rules=partial(rules, "root_relief", "LPSTC"),
     removal=removal,
-    watched=watched,
-    findings=findings,
+    watched=partial(kinks_watched, "root_relief", removal),
+    findings=partial(kink_findings, "root_relief"),
 )

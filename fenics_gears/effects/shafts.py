@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Optional
 
-from fenics_gears.dynamics.drivetrain_data import Shaft, Shafts
+from fenics_gears.dynamics.drivetrain_data import Shafts
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
@@ -32,12 +32,6 @@ class ShaftsText(Section):
     output: Optional[ShaftText] = None
 
 
-def read(text: ShaftsText) -> Shafts:
-    """The stiffness of both shafts, beside what either has of its own."""
-    own = {name: getattr(text, name) for name in SHAFTS}
-    return Shafts(text.torsional_stiffness, **{name: None if each is None else Shaft(each.torsional_stiffness) for name, each in own.items()})
-
-
 def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
     """Either shaft has a stiffness."""
     both = table(tree, "shafts")
@@ -54,7 +48,7 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
 EFFECT = Effect(
     section="shafts",
     description="elastic torsion of the input and the output shaft",
-    absent="pinion hub turned as prescribed, couple straight on the wheel",
+    absent="pinion hub turned as prescribed, torque straight on the wheel",
     text=ShaftsText,
     data=Shafts,
     unknowns=("rotation of the pinion", "rotation of the output shaft's end"),
@@ -63,6 +57,5 @@ EFFECT = Effect(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the output shaft's end"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
     ),
-    read=read,
     rules=shafts_are_complete,
 )

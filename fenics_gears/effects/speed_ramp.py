@@ -31,11 +31,6 @@ class SpeedRampText(Section):
     )
 
 
-def read(text: SpeedRampText) -> SpeedRamp:
-    """The ramp begins at once unless the section says otherwise."""
-    return SpeedRamp(text.end_frequency, text.hold_cycles or 0)
-
-
 def speed_changes(tree: Tree) -> Iterator[Problem]:
     """A ramp leads to another frequency, and leaves time for it."""
     ramp, motion = table(tree, "speed_ramp"), table(tree, "motion") or {}
@@ -92,7 +87,6 @@ EFFECT = Effect(
     terms=("inertia forces of the accelerating nominal motion", "time steps at equal phases, not at equal times"),
     variables=(ResultVariable("mesh_frequency", "Hz", "mesh frequency"),),
     needs=("inertia",),
-    read=read,
     rules=speed_changes,
     load=load,
     clock=clock,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Optional
 
-from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable, own_or_shared
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.fields import Section, number, quantity
 from fenics_gears.inputs.problem import Problem
@@ -38,8 +38,7 @@ def own_material(text: OwnMaterialText | None, shared: MaterialText | None) -> M
     """The material of a gear that has one of its own; None for one that has what both share."""
     if text is None:
         return None
-    values = {name: getattr(text, name) if getattr(text, name) is not None else getattr(shared, name) for name in type(text).model_fields}
-    return Material(**{name: float(value) for name, value in values.items()})
+    return Material(*(float(own_or_shared(text, shared, name)) for name in ("youngs_modulus", "poissons_ratio")))
 
 
 def materials_are_complete(tree: Tree) -> Iterator[Problem]:

@@ -1,4 +1,4 @@
-"""``[torque_ripple]``: harmonics of the wheel shaft's turn on the couple (``dynamics.torque_ripple``)."""
+"""``[torque_ripple]``: harmonics of the wheel shaft's turn on the load's torque (``dynamics.torque_ripple``)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Allowed, Section, out_of_range, refused
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, quantity_in, table
+from fenics_gears.inputs.tree import Tree, quantity_at, quantity_in, table
 from fenics_gears.inputs.written import as_written
 
 HIGHEST_ORDER = 1e6
@@ -37,7 +37,7 @@ class AllowedHarmonics(Allowed):
         if not isinstance(value, list):
             raise refused("is not a list.")
         if not 0 < len(value) <= MOST_HARMONICS:
-            raise refused(f"has {len(value)} entries." if value else "is empty. For a steady couple, leave the section [torque_ripple] out.")
+            raise refused(f"has {len(value)} entries." if value else "is empty. For a steady torque, leave the section [torque_ripple] out.")
         return tuple(_harmonic(place, entry) for place, entry in enumerate(value, 1))
 
 
@@ -81,7 +81,7 @@ def _quantity(place: int, name: str, value: Any) -> float:
 _HARMONICS = AllowedHarmonics(
     f"a list of harmonics, each with its order (turns of the wheel's shaft, above 0 up to {HIGHEST_ORDER:g}), an amplitude and, if any, "
     'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]',
-    meaning="what adds to the couple: amplitude times the cosine of order times the shaft's angle plus phase",
+    meaning="what adds to the torque: amplitude times the cosine of order times the shaft's angle plus phase",
 )
 
 
@@ -91,9 +91,9 @@ class TorqueRippleText(Section):
     harmonics: tuple = Field(..., json_schema_extra={"allowed": _HARMONICS})
 
 
-def couple_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
-    """A couple that turns its sign needs the coast flanks."""
-    ripple, torque = table(tree, "torque_ripple"), quantity_in((table(tree, "load") or {}).get("wheel_torque"))
+def torque_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
+    """A torque that changes its sign needs the coast flanks."""
+    ripple, torque = table(tree, "torque_ripple"), quantity_at(tree, "load", "wheel_torque")
     written = ripple.get("harmonics") if ripple else None
     if torque is None or "coast_flanks" in tree or not isinstance(written, list):
         return
@@ -101,21 +101,21 @@ def couple_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
     total = sum(amplitude for amplitude in amplitudes if amplitude is not None)
     if isfinite(total) and total > abs(torque):
         message = (
-            f"has amplitudes of {total * 1e-3:.6g} N m together, more than load.wheel_torque: the couple can turn its sign and drive the pair "
+            f"has amplitudes of {total * 1e-3:.6g} N m together, more than load.wheel_torque: the torque can change its sign and drive the pair "
             f"from the wheel. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any with the section [coast_flanks]."
         )
         yield Problem(("torque_ripple", "harmonics"), as_written(written), message)
 
 
 def load(ripple: TorqueRipple, model):
-    """The varying part of the couple on the centre coordinates."""
+    """The varying part of the torque on the centre coordinates."""
     from fenics_gears.dynamics.torque_ripple import varying_load
 
     return varying_load(ripple, model.drivetrain, shaft_step(model.scene, model.resolution.steps_per_mesh_cycle))
 
 
 def results(ripple: TorqueRipple, scene, cycle, steps) -> dict:
-    """The couple on the wheel's shaft (time,), N mm."""
+    """The torque on the wheel's shaft (time,), N mm."""
     from fenics_gears.dynamics.torque_ripple import torque
 
     angle = shaft_step(scene, cycle.steps)
@@ -123,7 +123,7 @@ def results(ripple: TorqueRipple, scene, cycle, steps) -> dict:
 
 
 def period(ripple: TorqueRipple, scene) -> int:
-    """Mesh cycles after which the couple repeats: z2 / order of each harmonic, as often as makes whole ones of all."""
+    """Mesh cycles after which the torque repeats: the least common multiple of z2 / order over all harmonics."""
     teeth = scene.gears.wheel.teeth
     return lcm(*((teeth / Fraction(each.order).limit_denominator(FINEST_PART_OF_ORDER)).numerator for each in ripple.harmonics))
 
@@ -135,13 +135,13 @@ def shaft_step(scene, steps_per_mesh_cycle: int) -> float:
 
 EFFECT = Effect(
     section="torque_ripple",
-    description="harmonics of the wheel shaft's turn on its couple",
-    absent="constant couple",
+    description="harmonics of the wheel shaft's turn on its torque",
+    absent="constant torque",
     text=TorqueRippleText,
     data=TorqueRipple,
-    terms=("varying couple",),
+    terms=("varying torque",),
     variables=(ResultVariable("wheel_couple", "N mm", "torque on the wheel's shaft, positive where it resists the drive"),),
-    rules=couple_keeps_its_sign,
+    rules=torque_keeps_its_sign,
     load=load,
     results=results,
     period=period,

@@ -111,35 +111,6 @@ def _hermitian_inverse(matrix: np.ndarray) -> np.ndarray:
     return strict + strict.conj().T + np.diag(upper.diagonal().real)
 
 
-def ring_stiffness(sector: CondensedBody, teeth: int, loaded: tuple[int, ...]) -> np.ndarray:
-    """Stiffness (2n len(loaded) + 3, ...) over the flanks of the loaded teeth and the centre (dx, dy, phi), E = 1 MPa.
-
-    Assembled without the Fourier transform from all sectors. Flank dofs are in each tooth's own frame, the centre's in that
-    of tooth 0. The dense route: for tests and small meshes.
-    """
-    check_congruent(sector, teeth)
-    flank, cut = len(sector.dofs("flank")), len(sector.dofs("lower"))
-    size = teeth * (flank + cut) + 3
-    turn = turned_nodes(teeth, cut // 2)
-    total = np.zeros((size, size))
-    for tooth in range(teeth):
-        map_to_ring = np.zeros((len(sector.stiffness), size))
-        first = teeth * flank
-        ahead = first + (tooth + 1) % teeth * cut
-        map_to_ring[sector.dofs("flank"), tooth * flank + np.arange(flank)] = 1.0
-        map_to_ring[sector.dofs("lower"), first + tooth * cut + np.arange(cut)] = 1.0
-        map_to_ring[np.ix_(sector.dofs("upper"), ahead + np.arange(cut))] = turn
-        map_to_ring[np.ix_(sector.dofs("hub"), np.arange(size - 3, size))] = centre_motion(
-            sector.points["hub"], 2.0 * np.pi * tooth / teeth
-        )
-        total += map_to_ring.T @ sector.stiffness @ map_to_ring
-    kept = np.concatenate([tooth * flank + np.arange(flank) for tooth in loaded] + [np.arange(size - 3, size)])
-    free = np.setdiff1d(np.arange(size), kept)
-    eliminated = np.linalg.solve(total[np.ix_(free, free)], total[np.ix_(free, kept)])
-    stiffness = total[np.ix_(kept, kept)] - total[np.ix_(kept, free)] @ eliminated
-    return 0.5 * (stiffness + stiffness.T)
-
-
 def centre_motion(points: np.ndarray, frame_angle: float = 0.0) -> np.ndarray:
     """Displacement (2n, 3) of points (n, 2) per unit rigid motion (dx, dy, phi) of the gear.
 

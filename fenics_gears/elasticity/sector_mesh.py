@@ -1,4 +1,4 @@
-"""Meshes of one tooth sector and of the whole gear made of its copies."""
+"""The mesh of one tooth sector."""
 
 from __future__ import annotations
 
@@ -138,36 +138,3 @@ def _odd_points(boundary: SectorBoundary) -> dict[tuple[int, int], np.ndarray]:
 def _edges(boundary: SectorBoundary, index: np.ndarray, names: tuple[str, ...]) -> dict[str, np.ndarray]:
     parts = {name: index[boundary.part(name)] for name in names}
     return {name: np.stack([part[:-1], part[1:]], axis=-1) for name, part in parts.items()}
-
-
-def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
-    """Mesh of the whole gear: ``teeth`` copies of the sector, merged along their cuts.
-
-    Tooth t stands t pitches counter-clockwise of tooth 0 and its flank is "flank t".
-    """
-    return joined_sectors([sector] * teeth)
-
-
-def joined_sectors(sectors: list[BodyMesh]) -> BodyMesh:
-    """Mesh of a whole gear from the sector of each tooth, counter-clockwise; their cuts have the same nodes."""
-    teeth, points, index, count = len(sectors), [], [], 0
-    pitch = 2.0 * np.pi / teeth
-    for tooth, sector in enumerate(sectors):
-        own = np.setdiff1d(np.arange(len(sector.points)), _points_by_radius(sector, "upper cut"))
-        cosine, sine = np.cos(tooth * pitch), np.sin(tooth * pitch)
-        points.append(sector.points[own] @ np.array([[cosine, sine], [-sine, cosine]]))
-        index.append(np.empty(len(sector.points), dtype=int))
-        index[tooth][own] = count + np.arange(len(own))
-        count += len(own)
-    for tooth, sector in enumerate(sectors):
-        ahead = (tooth + 1) % teeth
-        index[tooth][_points_by_radius(sector, "upper cut")] = index[ahead][_points_by_radius(sectors[ahead], "lower cut")]
-    edges = {f"flank {tooth}": numbers[sector.edges["flank"]] for tooth, (numbers, sector) in enumerate(zip(index, sectors))}
-    edges["hub"] = np.vstack([numbers[sector.edges["hub"]] for numbers, sector in zip(index, sectors)])
-    cells = np.vstack([numbers[sector.cells] for numbers, sector in zip(index, sectors)])
-    return BodyMesh(np.vstack(points), cells, edges)
-
-
-def _points_by_radius(mesh: BodyMesh, name: str) -> np.ndarray:
-    points = mesh.edge_points(name)
-    return points[np.argsort(np.linalg.norm(mesh.points[points], axis=1))]

@@ -14,12 +14,12 @@ class Offset:
     """
 
     distance: float
-    phase: float
+    phase: float = 0.0
 
 
 @dataclass(frozen=True)
 class Eccentricity:
     """Run-out of the pair; a gear that runs true has None."""
 
-    pinion: Offset | None
-    wheel: Offset | None
+    pinion: Offset | None = None
+    wheel: Offset | None = None

@@ -11,7 +11,7 @@ class Waviness:
 
     amplitude: float
     waves: int
-    phase: float
+    phase: float = 0.0
 
 
 @dataclass(frozen=True)

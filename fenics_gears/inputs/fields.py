@@ -23,9 +23,9 @@ from fenics_gears.inputs.written import as_written
 class Allowed:
     """What a field allows, in words, and how its text becomes a number.
 
-    ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one; ``words`` are
-    texts that stand for other values; ``below`` is added when a value lies below the range. ``meaning`` and ``otherwise`` are for the
-    documentation: what the field is, and what is taken where it is left out.
+    ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one; ``words`` are texts that stand
+    for other values; ``below`` is a sentence added where a value is too small. ``meaning`` and ``otherwise`` are for the documentation:
+    what the field is, and what is taken where it is left out.
     """
 
     description: str

@@ -1,10 +1,10 @@
-"""What engineers write for a field or a section whose name here is another: read only where a name is unknown, to say which is meant."""
+"""Other names of sections and fields that engineers use: looked up only for an unknown name, to suggest the right one."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-# By section ("" for the sections themselves; that of one gear has the words of both gears'): each name here and what is written for it.
+# By section ("" for the sections themselves; a gear's own section also has the names of the section above): each name with its synonyms.
 SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
     "": {
         "gears": ("pair", "gear_pair", "gear", "geometry", "stage"),

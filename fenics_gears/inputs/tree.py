@@ -1,4 +1,4 @@
-"""Looking into a parsed scene file where some of it may be wrong."""
+"""Values of a parsed scene file, of which some may be wrong."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fenics_gears.inputs.written import as_written
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
 MOST_TEETH = 1000
-# In modules: errors of manufacture are far below, and the model moves flanks by them without moving their points of contact.
+# In modules. Real errors of manufacture are far smaller; the model moves flanks by them but not their points of contact.
 LARGEST_ERROR = 0.1
 
 
@@ -21,6 +21,29 @@ def table(tree: Tree, name: str) -> Tree | None:
     """The section of that name; None where there is none."""
     value = tree.get(name)
     return value if isinstance(value, Mapping) else None
+
+
+def value_at(tree: Tree, *path: str) -> Any:
+    """What a parsed scene has at a path; None where there is nothing."""
+    for name in path[:-1]:
+        tree = table(tree, name) or {}
+    return tree.get(path[-1])
+
+
+def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
+    """A section and the sections of single gears within it, by their paths; empty ones where the scene has none."""
+    both = table(tree, name) or {}
+    return {(name,): both, **{(name, gear): table(both, gear) or {} for gear in GEARS}}
+
+
+def given_for(both: Tree, gear: str) -> set[str]:
+    """Names that a section gives for the "pinion" or the "wheel": those for both gears, and those of the gear's own section."""
+    return {*both, *(table(both, gear) or {})}
+
+
+def quantity_at(tree: Tree, *path: str) -> float | None:
+    """The number in N, mm, s, rad at a path of a parsed scene; None where there is no quantity."""
+    return quantity_in(value_at(tree, *path))
 
 
 def quantity_in(value: Any) -> float | None:
@@ -35,20 +58,18 @@ def quantity_in(value: Any) -> float | None:
 
 def teeth_in(tree: Tree, gear: str) -> int | None:
     """Teeth of the "pinion" or the "wheel"; None where the number is missing or none that a gear has."""
-    teeth = (table(table(tree, "gears") or {}, gear) or {}).get("teeth")
+    teeth = value_at(tree, "gears", gear, "teeth")
     return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
 
 
 def material_sections(tree: Tree) -> list[Path]:
     """Paths of the sections, misspelt ones too, that say what gears are made of; none of rigid gears."""
-    gears = table(tree, "gears") or {}
-    homes = {("gears",): gears, **{("gears", gear): table(gears, gear) or {} for gear in GEARS}}
-    return [(*path, name) for path, home in homes.items() for name in home if nearest(name, ["material"])]
+    return [(*path, name) for path, home in with_gears(tree, "gears").items() for name in home if nearest(name, ["material"])]
 
 
 def too_large_for_the_module(tree: Tree, path: Path, written: Any) -> Iterator[Problem]:
-    """The problem of an error of manufacture, a length or a list of lengths, that is no small part of the module."""
-    module = quantity_in((table(tree, "gears") or {}).get("module"))
+    """The problem of an error of manufacture, a length or a list of lengths, that is not small against the module."""
+    module = quantity_at(tree, "gears", "module")
     sizes = [abs(quantity_in(value) or 0.0) for value in (written if isinstance(written, list) else [written])]
     if module is not None and max(sizes, default=0.0) > LARGEST_ERROR * module > 0.0:
         largest = LARGEST_ERROR * module

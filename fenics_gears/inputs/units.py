@@ -66,7 +66,7 @@ _KINDS = {
     "N": "a force",
     "s": "a time",
     "rad": "an angle",
-    "N mm": "a couple",
+    "N mm": "a torque",
     "N/mm^2": "a stress",
     "N/mm": "a stiffness",
     "N mm/rad": "a torsional stiffness",
@@ -112,7 +112,7 @@ def quantity(text: str) -> tuple[float, str]:
     The number may be infinite or NaN; raises QuantityError where there is no number or the unit is unknown.
 
     >>> quantity("437 N m")
-    (437000.0, 'a couple')
+    (437000.0, 'a torque')
     >>> quantity("750 rpm")[1]
     'an angular speed'
     >>> quantity("4.5 Mm")

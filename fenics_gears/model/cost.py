@@ -1,4 +1,4 @@
-"""What a run costs in time and memory, known before it: operations are counted, their times were measured on one machine.
+"""Expected time and memory of a run: operations are counted, their times were measured on one machine.
 
 Seconds are those of one core of the reference machine (Intel Xeon of 2023, 2 cores, Debian 12's OpenBLAS, one thread); machines differ by a
 factor of two. `python -m tests.benchmarks.expected_cost` prints what is expected beside what is measured, of the examples.
@@ -12,7 +12,7 @@ from math import lcm
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import pair_places, tooth_reach
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import body_meshes
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
@@ -29,9 +29,9 @@ BOTH_FLANKS_INVERSES = 0.75
 PAIR, NODES_SQUARE, STEP, ROWS_SQUARE = 9e-4, 8e-8, 4.5e-5, 6e-10
 # Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in mesh (measured).
 UNLIKE_CYCLES = 5
-# The same of the reference route: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
+# For the reference route, seconds: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
 REMESHED_UNKNOWN, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 1.5e-10, 7.0
-# Bytes: the program with its libraries, with those that mesh and condense, a number.
+# Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
 # Matrices of a flank's size that are held while its teeth are joined, and the tangential rows' own products (measured).
 MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
@@ -119,11 +119,9 @@ def _condensed(model: Model, name: str) -> _Gear:
 
 
 def _meshed(model: Model, name: str) -> int | None:
-    """Unknowns of a gear that an effect has a mesh of its own for; None for a ring of sectors."""
-    for effect in effects_on(model.scene):
-        if effect.unknowns_of is not None:
-            return effect.unknowns_of(getattr(model.scene, effect.section), model, name)
-    return None
+    """Unknowns of a gear with a mesh of its own; None for a ring of sectors."""
+    given = model.scene.body_meshes
+    return None if given is None else body_meshes.unknowns_of(given, model, name)
 
 
 def _positions(model: Model) -> int:

@@ -1,4 +1,4 @@
-"""What a scene is and what it will cost, told without computing it: the rows of `gears check`."""
+"""The rows of `gears check`: what a scene is and what it will cost, without computing it."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class EffectState:
 
 
 def effect_states(scene: Scene) -> list[EffectState]:
-    """Every effect there is, as the scene has it."""
+    """Every effect, on or off, for a scene."""
     states, there = [], {variable.name for variable in result_variables(scene)}
     for effect in EFFECTS:
         if getattr(scene, effect.section) is None:
@@ -161,7 +161,7 @@ def _contact_fields(model: Model) -> str:
 
 
 def _period_rows(model: Model) -> Rows:
-    """How many mesh cycles pass until all that differs between them has been gone through."""
+    """Mesh cycles of the common period: after it all that differs between cycles repeats."""
     period, gears = common_period(model.scene), model.scene.gears
     if period == inf:
         return [("mesh cycles of the common period", "none", "no two cycles are alike")]

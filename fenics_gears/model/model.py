@@ -1,4 +1,4 @@
-"""A scene made ready: everything that follows from it without computing to speak of."""
+"""A scene made ready: all that follows from it before anything expensive is computed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import EquationsOfMotion
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
-from fenics_gears.effects import check_files, common_period, effects_on
+from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
@@ -46,20 +46,20 @@ class Model:
     @property
     def time_step(self) -> float:
         """Length of a step, s; of the longest where they are not all as long."""
-        if any(effect.clock is not None for effect in effects_on(self.scene)):
-            return max(self.clock.duration(0, 1), self.clock.duration(self.steps - 1, self.steps))
+        for clock in from_effects(self.scene, "clock", self):
+            return max(clock.duration(0, 1), clock.duration(self.steps - 1, self.steps))
         return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
 
     @property
     def clock(self) -> Clock:
         """When a step is."""
-        clocks = [effect.clock(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.clock is not None]
+        clocks = from_effects(self.scene, "clock", self)
         return clocks[0] if clocks else SteadyClock(self.time_step)
 
     @property
     def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
         """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
-        return tuple(effect.load(getattr(self.scene, effect.section), self) for effect in effects_on(self.scene) if effect.load is not None)
+        return tuple(from_effects(self.scene, "load", self))
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
@@ -84,9 +84,11 @@ class Model:
 
     @cached_property
     def slots(self) -> int:
-        """Tooth pairs, one after the other, that can touch at once."""
+        """Tooth pairs, one after the other, that can touch at once; one more where too many steps to look at each."""
         grid, steps, coast = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None
-        return pairs_at_once(pair_places(self.pair, grid, step / steps, coast, self.corner) for step in range(steps))
+        seen = min(steps, MOST_STEPS_SEEN)
+        found = pairs_at_once(pair_places(self.pair, grid, step / seen, coast, self.corner) for step in range(seen))
+        return found if seen == steps else found + 1
 
     @property
     def stored_bytes(self) -> int:
@@ -115,12 +117,11 @@ class Model:
 
     @property
     def warnings(self) -> list[str]:
-        """What a user should know before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
+        """Sentences for the user before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
         found = [*self._of_a_part(), *self._without_fields(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += locking_warnings(self.resolution, self.scene.gears.materials)
-        for effect in effects_on(self.scene):
-            if effect.warnings is not None:
-                found += effect.warnings(getattr(self.scene, effect.section), self)
+        for sentences in from_effects(self.scene, "warnings", self):
+            found += sentences
         if self.corner is not None:
             from fenics_gears.contact.corner import edge_warnings
 
@@ -134,7 +135,7 @@ class Model:
         return found
 
     def _of_a_part(self) -> list[str]:
-        """A sentence where fewer cycles are run than pass until all that differs between them has been gone through."""
+        """A sentence where fewer cycles are run than the common period has."""
         period, run = common_period(self.scene), self.scene.motion.mesh_cycles
         if not run < period < inf:
             return []
@@ -146,7 +147,7 @@ class Model:
         ]
 
     def _without_fields(self) -> list[str]:
-        """A sentence where contact fields of fewer cycles are stored than nobody has asked to leave out."""
+        """A sentence where a large result leaves out contact fields that the scene did not ask to leave out."""
         motion = self.scene.motion
         if not self.contact_cycles or self.contact_cycles >= motion.recorded_cycles:
             return []
@@ -157,11 +158,14 @@ class Model:
         ]
 
 
-# Of a result; less where a scene does not say how much is to be stored.
+# Positions of a mesh cycle at which tooth pairs in reach are counted.
+MOST_STEPS_SEEN = 1000
+# Largest result; and the largest where the scene does not say how many contact fields to store.
 MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 
+
 def model_of(scene: Scene) -> Model:
-    """Everything about a scene that needs no computing to speak of.
+    """The model of a scene: all that follows from it before anything expensive is computed.
 
     Raises GeometryError for impossible gears, SceneError for a result too large to be held, or for files that do not fit the scene.
     """

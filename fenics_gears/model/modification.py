@@ -1,20 +1,24 @@
-"""What the effects of a scene do to the flanks that all teeth of a gear share."""
+"""Reliefs and tip edges of a scene: changes of the flanks that all teeth of a gear share."""
 
 from __future__ import annotations
 
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import from_effects
 from fenics_gears.geometry.modification import Removals
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Scene
 
 
 def corner(scene: Scene, pair: GearPair):
-    """How the scene's tips touch off the line of action, as contact sees it; None where no effect says so.
+    """How the scene's tips touch off the line of action, as contact sees it; None without `[corner_contact]`.
 
     Raises GeometryError for an edge that does not fit a tip.
     """
-    found = [effect.corner(getattr(scene, effect.section), pair) for effect in effects_on(scene) if effect.corner is not None]
-    return found[0] if found else None
+    if scene.corner_contact is None:
+        return None
+    # Imported here: a scene without corner contact does not load it.
+    from fenics_gears.contact.corner import corner_contact
+
+    return corner_contact(pair, scene.corner_contact.edge_radii)
 
 
 def removals(scene: Scene, pair: GearPair) -> tuple:
@@ -22,7 +26,6 @@ def removals(scene: Scene, pair: GearPair) -> tuple:
 
     Raises GeometryError where an effect asks for what the flank does not have.
     """
-    effects = [each for each in effects_on(scene) if each.removal is not None]
-    found = [effect.removal(getattr(scene, effect.section), pair) for effect in effects]
+    found = from_effects(scene, "removal", pair)
     parts = [tuple(part for part in of_gear if part is not None) for of_gear in zip(*found)] or [(), ()]
     return tuple(Removals(of_gear) if len(of_gear) > 1 else (of_gear[0] if of_gear else None) for of_gear in parts)

@@ -1,4 +1,4 @@
-"""How large the arrays of a result are: one list of them, which the recorder allocates by and memory is counted by."""
+"""The arrays of a result and their sizes: one list, by which the recorder allocates them and their memory is counted."""
 
 from __future__ import annotations
 

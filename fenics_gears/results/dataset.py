@@ -15,7 +15,7 @@ import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
-from fenics_gears.effects import common_period, effects_on, result_variables
+from fenics_gears.effects import common_period, from_effects, result_variables
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
@@ -46,9 +46,8 @@ def dataset(recorder: Recorder, march: March) -> xr.Dataset:
     found = [counted.warning] if counted.warning else []
     found += warnings_of(recorder, march, result)
     found += [*warnings_of_energy(model.scene, shown(result), recorder.cycle.steps), *_undetermined_shares(result)]
-    for effect in effects_on(model.scene):
-        if effect.findings is not None:
-            found += effect.findings(getattr(model.scene, effect.section), recorder.watched)
+    for sentences in from_effects(model.scene, "findings", recorder.watched):
+        found += sentences
     return result.assign_attrs(attributes, warnings="\n".join(found))
 
 
@@ -58,8 +57,7 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
     for name, variable in described.items():
         if name in arrays:
             yield name, variable.dims, arrays[name], {"units": variable.units, "long_name": variable.long_name}
-    for effect in effects_on(scene):
-        found = effect.results(getattr(scene, effect.section), scene, recorder.cycle, np.empty(0)) if effect.results is not None else {}
+    for found in from_effects(scene, "results", scene, recorder.cycle, np.empty(0)):
         for name, (dims, values) in found.items():
             if dims[:1] != ("time",):
                 yield name, dims, values, {"units": described[name].units, "long_name": described[name].long_name}

@@ -13,7 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
 from fenics_gears.dynamics.march import Record, VaryingLoad
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import allocated, sizes, stored_arrays
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
@@ -98,9 +98,8 @@ class Recorder:
             stresses = self.stress.values(nodes)
             fields["root_stress"] = stresses.pop("root_stress")
             values |= stresses
-        for effect in effects_on(scene):
-            if effect.watched is not None:
-                watched |= effect.watched(getattr(scene, effect.section), cycle, records)
+        for found in from_effects(scene, "watched", cycle, records):
+            watched |= found
         self._keep(values, fields, len(records))
         # Last of all: a march that is interrupted on the way here goes over these records again.
         self._watched.append(watched)

@@ -1,7 +1,7 @@
-"""The table of what is looked up in a REXS file: for each thing a scene asks for, the attributes that say it, their unit, and of which component.
+"""The table of what is looked up in a REXS file: for each value of a scene, the attributes that give it, their unit, and their component.
 
-Where several are named, the first that is there counts, unless all of them must agree (``every``). Another attribute, or another name that a
-version of REXS has for one, is one line here.
+Where several are named, the first one present counts, unless all must agree (``every``). Another attribute, or its name in another version
+of REXS, is one more line here.
 """
 
 from __future__ import annotations
@@ -53,11 +53,11 @@ ATTRIBUTES: dict[str, tuple[tuple[str, str, str], ...]] = {
     # Words; so are loaded_tooth_flank and is_driving_gear of the stage data, by which ``stage`` sorts parts.
     "tolerance_class": (("gear", "tolerance_class_according_to_iso_1328_2013", ""), ("gear", "global_tolerance_class_iso_1328_2013", "")),
 }  # fmt: skip
-# What must be more than zero.
+# Values that must be above zero.
 POSITIVE = (
     "module", "centre_distance", "common_face_width", "face_width", "teeth", "tip_diameter", "root_diameter", "youngs_modulus", "density",
 )  # fmt: skip
-# What gears, flanks and tools can say that no scene has a place for.
+# Attributes of gears, flanks and tools for which a scene has no field.
 _THICKNESS = (
     "din_3967_deviation_tolerance_series", "tooth_thickness_deviation_tolerance_series_din_3967_1978",
     "upper_backlash_allowance_referenced_to_span", "lower_backlash_allowance_referenced_to_span",

@@ -1,4 +1,4 @@
-"""What a file says of the loaded flanks beyond the involute: reliefs and tolerances that a scene has, and the rest that is left out."""
+"""Reliefs and tolerances of the loaded flanks, and what a file says of flanks that a scene has no field for."""
 
 from __future__ import annotations
 

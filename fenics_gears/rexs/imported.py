@@ -1,4 +1,4 @@
-"""A pair of a REXS file as a scene: what is looked up, and what the call says in the file's place."""
+"""A pair of a REXS file as a scene, with values of the command line in place of the file's."""
 
 from __future__ import annotations
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 
+from fenics_gears.inputs.written import toml_value
 from fenics_gears.rexs.model import Model
 from fenics_gears.rexs.stage import Stage
 from fenics_gears.rexs.values import Value
@@ -16,7 +16,7 @@ COLUMN = 44
 def scene_text(file: str, model: Model, stage: Stage, sections: Mapping[str, Mapping[str, Value]], notes: Mapping[str, Iterable[str]]) -> str:
     """The TOML text of a scene; ``file`` is the name of the REXS file it is made from, ``notes`` are lists under a heading each."""
     named = stage.stage.name or f"stage {stage.stage.id}"
-    text = _head(file, model, stage, notes) + f"\ntitle = {_toml_text(f'{named} of {file}')}\n"
+    text = _head(file, model, stage, notes) + f"\ntitle = {toml_value(_one_line(f'{named} of {file}')[:500])}\n"
     for section, fields in sections.items():
         text += f"\n[{section}]\n" + "".join(_line(name, value) for name, value in fields.items())
     return text
@@ -47,7 +47,3 @@ def _line(name: str, value: Value) -> str:
 def _one_line(text: str) -> str:
     """A comment may have no control characters, which a file's name might have."""
     return "".join(each if each.isprintable() else "?" for each in text)
-
-
-def _toml_text(text: str) -> str:
-    return json.dumps(_one_line(text)[:500], ensure_ascii=False)

@@ -23,25 +23,25 @@ from fenics_gears.geometry.relief_data import RootRelief, TipRelief
 
 @dataclass(frozen=True)
 class Load:
-    """Couple on the wheel's shaft, N mm; positive when it resists the drive."""
+    """Torque on the wheel's shaft, N mm; positive when it resists the drive."""
 
     wheel_torque: float
 
 
-# As many mesh cycles as pass until every tooth has met every other; the number follows from the teeth.
+# Mesh cycles until every tooth has met every other: the least common multiple of the numbers of teeth.
 HUNTING_TOOTH_PERIOD = "hunting tooth period"
-# As many are kept where nothing is said of it and all are alike, or all would be too many.
+# Recorded cycles where the scene does not give their number and all cycles are alike, or the result could not hold all.
 LAST_CYCLES = 2
-# Of a scene that needs no speed and has none, Hz: its time counts mesh cycles in seconds.
+# Mesh frequency, Hz, of a scene that has no speed and needs none: its nominal time is 1 s a mesh cycle.
 NOMINAL_FREQUENCY = 1.0
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Mesh frequency in Hz (mesh cycles a second), how many cycles are run, and of how many of them, the last, contact fields are stored and pictures show.
+    """Mesh frequency, Hz, mesh cycles that are run, and how many of the last of them have their contact fields stored and are shown in pictures.
 
-    ``fewer_where_too_large``: where the result could not hold the contact fields of so many, those of fewer are stored; the scene does not ask for them by number.
-    ``speed_given``: whether the scene has a speed; if not, nothing of it depends on one, and the frequency is ``NOMINAL_FREQUENCY``.
+    ``fewer_where_too_large``: the scene does not give that number, so fewer are stored where the result would be too large.
+    ``speed_given``: whether the scene has a speed; if not, no result depends on one, and the frequency is ``NOMINAL_FREQUENCY``.
     """
 
     mesh_frequency: float
@@ -51,15 +51,15 @@ class Motion:
     speed_given: bool = True
 
 
-# What a mesh is computed as: the full contact of elastic flanks, and the cheaper models.
+# Models of the mesh: the full contact of elastic flanks, and cheaper ones.
 ELASTIC, RIGID_TEETH, STIFFNESS_TABLE, ISO_6336 = "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
 
 
 @dataclass(frozen=True)
 class Accuracy:
-    """How the scene is computed; None where the program shall choose from the scene.
+    """How the scene is computed; where a value is None the program chooses it.
 
-    ``elastic_teeth``: teeth this many pitches apart and further do not feel each other; None: all that can be loaded together do.
+    ``elastic_teeth``: teeth this many pitches apart and further do not deform each other; None: all that can be loaded together do.
     ``target``: relative error for which a run chooses all settings by measuring; no other field is given beside it.
     """
 
@@ -86,7 +86,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Scene:
-    """Everything that a run needs to know, and the text it was read from.
+    """All input of a run, and the text it was read from.
 
     One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an effect that the scene does
     not name is None. (Elastic teeth are an effect too: they are there where `gears` have a material.)

@@ -13,7 +13,7 @@ from fenics_gears.inputs.names import did_you_mean, nearest
 from fenics_gears.inputs.problem import Path, Problem
 from fenics_gears.inputs.synonyms import meant
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.schema import SceneText, known_paths, section_within
 
 
 def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
@@ -25,9 +25,9 @@ def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
 
 
 def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
-    """The problems without those that only repeat another: a second one of a field, a field missing because it is misspelt.
+    """The problems without those that follow from another: a second one of the same field, or a field that is missing because it is misspelt.
 
-    What a rule says of a name stands before that no scene has it.
+    Where a rule and the schema both complain of a name, the rule's message stays.
     """
     by_path: dict[Path, list[Problem]] = {}
     for problem in problems:
@@ -113,7 +113,8 @@ def _why_unknown(path: Path, section: type[BaseModel]) -> str:
 
 
 def _lives_elsewhere(name: str) -> str:
-    fields = [path for path in _all_fields(SceneText) if len(path) > 1]
+    # What both gears share stands for what each may have of its own.
+    fields = [path for path in known_paths() if len(path) == 2 or len(path) > 2 and (*path[:-2], path[-1]) not in known_paths()]
     homes = [f"[{'.'.join(path[:-1])}]" for path in fields if path[-1] == name]
     if homes:
         return f' "{name}" belongs to {" or ".join(homes)}.'
@@ -122,28 +123,12 @@ def _lives_elsewhere(name: str) -> str:
     return f" Did you mean {' or '.join(named)}?" if named else ""
 
 
-def _all_fields(section: type[BaseModel], path: Path = ()) -> list[Path]:
-    """The paths of all fields and sections below ``section``."""
-    found = []
-    for name in section.model_fields:
-        inner = _inner(section, name)
-        found += [(*path, name)] + (_all_fields(inner, (*path, name)) if inner else [])
-    return found
-
-
 def _section(path: Path) -> type[BaseModel]:
     """The schema of the section at ``path``."""
     section: type[BaseModel] = SceneText
     for name in path:
-        section = _inner(section, name)
+        section = section_within(section, name)
     return section
-
-
-def _inner(section: type[BaseModel], name: str) -> type[BaseModel] | None:
-    """The schema of a section within a section; None where the name is a plain field."""
-    annotation = section.model_fields[name].annotation
-    kinds = (annotation, *getattr(annotation, "__args__", ()))
-    return next((kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)), None)
 
 
 def _value(path: Path, tree: Mapping[str, Any]) -> Any:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import os
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from fenics_gears.effects import tooth_elasticity, top_level
 from fenics_gears.effects.effect import same_names
@@ -13,7 +15,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.lines import line_numbers
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.written import WrittenFloat
+from fenics_gears.inputs.written import WrittenFloat, as_toml
 from fenics_gears.scene import data, schema
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
@@ -36,10 +38,31 @@ def load_scene(path: str | os.PathLike) -> data.Scene:
     return scene_from_text(text, path.stem, source=str(path), directory=path.parent)
 
 
-def scene_from_text(text: str, name: str = "scene", *, source: str | None = None, directory: Path = Path()) -> data.Scene:
-    """The scene that a TOML text describes; ``source`` is what messages call the text (the name, unless given).
+def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: str | os.PathLike = ".") -> data.Scene:
+    """The scene that plain dictionaries describe, with the sections, keys and quantities of a scene file, and validated like one.
 
-    directory: from which on files are found that the text names.
+    An entry that is None is left out. ``Scene.text`` is the scene file that says the same, so that a result carries it.
+
+    name: what messages and, without ``title``, pictures call the scene.
+    directory: the folder from which files are looked for that the sections name.
+
+    Raises SceneError, naming every mistake at once.
+    """
+    try:
+        text = as_toml(sections)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise SceneError(f"{name}: is no scene: {error}. Allowed: dictionaries of what a scene file has.\nNothing was computed or written.") from None
+    return scene_from_text(text, name, directory=Path(directory), with_lines=False)
+
+
+def scene_from_text(
+    text: str, name: str = "scene", *, source: str | None = None, directory: Path = Path(), with_lines: bool = True
+) -> data.Scene:
+    """The scene that a TOML text describes.
+
+    source: what messages call the text (the name, unless given).
+    directory: the folder from which files are looked for that the text names.
+    with_lines: whether messages say in which line of the text a mistake is.
 
     Raises SceneError, naming every mistake at once.
     """
@@ -53,7 +76,7 @@ def scene_from_text(text: str, name: str = "scene", *, source: str | None = None
     checked, problems = problems_of_schema(tree)
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
-        raise SceneError(_message(problems, text, source))
+        raise SceneError(_message(problems, line_numbers(text), source, with_lines))
     return _scene(checked, text, name, directory)
 
 
@@ -63,10 +86,10 @@ def _why_no_toml(error: Exception) -> str:
     return "it is nested too deeply" if isinstance(error, RecursionError) else "a number in it has thousands of digits"
 
 
-def _message(problems: list[Problem], text: str, source: str) -> str:
-    lines = line_numbers(text)
+def _message(problems: list[Problem], lines: dict[tuple[str, ...], int], source: str, with_lines: bool) -> str:
     count = "1 mistake" if len(problems) == 1 else f"{len(problems)} mistakes"
-    entries = [problem.describe(source, lines) for problem in sorted(problems, key=lambda each: each.line(lines))]
+    ordered = sorted(problems, key=lambda each: each.line(lines))
+    entries = [problem.describe(source, lines if with_lines else {}) for problem in ordered]
     return "\n".join([*entries, f"{count} in {source}. Nothing was computed or written."])
 
 
@@ -94,33 +117,20 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
     widths = [own.face_width or gears.face_width for own in (gears.pinion, gears.wheel)]
     alike = widths[0] == widths[1]
     pinion, wheel = (
-        data.GearData(**{
-            **dict(vars(same_names(data.GearData, own))),
-            "face_width": None if alike else width,
-            "material": tooth_elasticity.own_material(own.material, gears.material),
-        })
+        same_names(
+            data.GearData, own, face_width=None if alike else width, material=tooth_elasticity.own_material(own.material, gears.material)
+        )
         for own, width in zip((gears.pinion, gears.wheel), widths)
-    )  # fmt: skip
-    return data.GearPairData(
-        module=gears.module,
-        pressure_angle=gears.pressure_angle,
-        centre_distance=gears.centre_distance,
-        face_width=min(widths),
-        pinion=pinion,
-        wheel=wheel,
-        material=tooth_elasticity.EFFECT.from_text(gears.material),
     )
-
-
-# With these, teeth or couples differ from one mesh cycle to the next.
-CYCLES_DIFFER_BY = ("flank_errors", "eccentricity", "torque_ripple", "body_meshes")
+    material = tooth_elasticity.EFFECT.from_text(gears.material)
+    return same_names(data.GearPairData, gears, face_width=min(widths), pinion=pinion, wheel=wheel, material=material)
 
 
 def _motion(checked) -> data.Motion:
-    """The motion by its mesh frequency: as many mesh cycles in a turn of the pinion as it has teeth.
+    """The motion by its mesh frequency: a turn of the pinion has as many mesh cycles as it has teeth.
 
-    Where it is not said how many cycles are run, which a scene with inertia must: one, or a whole hunting tooth period where cycles differ.
-    Where it is not said how many are recorded: the last two, of a speed ramp or of a whole hunting tooth period all that fit.
+    Cycles that are run, unless given (with inertia they must be): one, or a whole hunting tooth period where cycles differ.
+    Cycles that are recorded, unless given: the last two; of a speed ramp or a whole hunting tooth period all that fit.
     """
     motion, gears = checked.motion, checked.gears
     frequency, speed_given = motion.mesh_frequency, True
@@ -133,9 +143,9 @@ def _motion(checked) -> data.Motion:
     fields = checked.output.contact_fields
     cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles is None
     if "mesh_cycles" not in motion.model_fields_set:
-        # True is no number of cycles, though Python has it as one.
+        # True is not a number of cycles, although Python counts it as 1.
         wanted = recorded or (fields if fields is not True and fields else 1)
-        whole = any(getattr(checked, section) is not None for section in CYCLES_DIFFER_BY)
+        whole = any(effect.period is not None and getattr(checked, effect.section) is not None for effect in top_level())
         cycles = max(whole_period if whole else 1, wanted)
     if fields:
         return data.Motion(frequency, cycles, cycles if fields is True else fields, speed_given=speed_given)

@@ -1,6 +1,6 @@
 """What must hold between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own module.
 
-The rules read the parsed TOML file, so that they speak even where some field is wrong; a value that they cannot read is another's problem.
+The rules read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is reported elsewhere.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.names import nearest
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.synonyms import meant
-from fenics_gears.inputs.tree import GEARS, Tree, material_sections, quantity_in, table, teeth_in
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, material_sections, quantity_at, quantity_in, table, teeth_in, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears, Motion
@@ -34,11 +34,11 @@ def broken_rules(tree: Tree) -> list[Problem]:
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
     known = [effect.section for effect in effects.top_level()]
     sections = {nearest(name, known) or meant((), name, known) or name for name in tree}  # a misspelt section is another problem
-    # Without [gears] nothing can be said.
+    # Without [gears] the teeth are unknown.
     if table(tree, "gears") is None or material_sections(tree):
         sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
-        missing = effects.effect(need).written
+        missing = effects.effect_named(need).written
         yield Problem((effect.section,), "", f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out.")
     for effect, other in effects.conflicts(sections):
         yield Problem((effect.section,), "", f"cannot stand beside [{other}]. Leave one of the two out.")
@@ -46,13 +46,13 @@ def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
 
 def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
     gears = table(tree, "gears")
-    if gears is None or "face_width" in gears or all("face_width" in (table(gears, gear) or {}) for gear in GEARS):
+    if gears is None or "face_width" in gears or all("face_width" in given_for(gears, gear) for gear in GEARS):
         return
     allowed = allowed_in(Gears, "face_width").description
     yield Problem(("gears", "face_width"), None, f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel].")
 
 
-# A time that passes has a meaning with these alone; without them a scene is a sequence of positions, each in equilibrium.
+# Only with these does time matter; without them a scene is a sequence of positions, each in equilibrium.
 NEED_A_SPEED = ("inertia", "damping", "speed_ramp")
 
 
@@ -86,7 +86,7 @@ def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
 
 
 def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Iterator[Problem]:
-    written, motion = (table(tree, "output") or {}).get("contact_fields"), table(tree, "motion") or {}
+    written, motion = value_at(tree, "output", "contact_fields"), table(tree, "motion") or {}
     place = ("output", "contact_fields")
     if written is not None and "recorded_cycles" in motion:
         yield Problem(place, as_written(written), "stands beside motion.recorded_cycles, which says the same in another way. Leave one of the two out.")
@@ -98,7 +98,7 @@ def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Iterator[Problem]:
 
 def _cycles(tree: Tree, written) -> object:
     """Mesh cycles as a number, also of a whole hunting tooth period; what is written where that is no number of cycles."""
-    teeth = [teeth_in(tree, gear) for gear in ("pinion", "wheel")]
+    teeth = [teeth_in(tree, gear) for gear in GEARS]
     return lcm(*teeth) if written == HUNTING_TOOTH_PERIOD and None not in teeth else written
 
 
@@ -149,7 +149,7 @@ def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
         yield problem("needs the section [gears.material], which is missing. Add it, or leave accuracy.model out.")
     if accuracy.get("condensation") == EVERY_STEP:
         yield problem(f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.')
-    if (table(tree, "output") or {}).get("root_stress") is True:
+    if value_at(tree, "output", "root_stress") is True:
         yield problem('has no stresses for output.root_stress. Allowed beside it: "elastic". Leave one of the two out.')
     lacking = {RIGID_TEETH: ("corner_contact",), ISO_6336: ("corner_contact",), STIFFNESS_TABLE: ()}[chosen]
     for section in lacking:
@@ -179,14 +179,14 @@ def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
 
     if gears and not material_sections(tree):
         yield problem("needs teeth that give way. Add [gears.material], or leave the target out.")
-    if quantity_in((table(tree, "load") or {}).get("wheel_torque")) == 0.0:
+    if quantity_at(tree, "load", "wheel_torque") == 0.0:
         yield problem("has no meaning without a load: nothing gives way then. Give load.wheel_torque, or leave the target out.")
     if "body_meshes" in tree:
         yield problem("cannot refine the meshes of [body_meshes]. Leave one of the two out.")
 
 
 def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
-    if (table(tree, "output") or {}).get("root_stress") is not True:
+    if value_at(tree, "output", "root_stress") is not True:
         return
     if table(tree, "gears") is not None and not material_sections(tree):
         yield Problem(("output", "root_stress"), "true", "needs teeth that give way. Add [gears.material], or leave root_stress out.")
@@ -214,7 +214,7 @@ _RULES = (
 
 def _module(tree: Tree) -> float | None:
     """The module in mm; None where it is missing or wrong by itself."""
-    module = quantity_in((table(tree, "gears") or {}).get("module"))
+    module = quantity_at(tree, "gears", "module")
     if module is None:
         return None
     limits = Gears.model_fields["module"].metadata

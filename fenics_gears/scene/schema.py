@@ -1,17 +1,19 @@
 """The sections and fields of a scene file, with what each allows; those of an effect are in its own module.
 
-Ranges are generous: what is physically possible is allowed. Whether teeth and diameters make a gear is for ``geometry`` to say.
+Ranges are generous: what is physically possible is allowed. ``geometry`` checks whether teeth and diameters make a gear.
 """
 
 from __future__ import annotations
 
+import functools
 import re
 from typing import Any, Literal, Optional
 
-from pydantic import Field, create_model
+from pydantic import BaseModel, Field, create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
+from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.inputs.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
@@ -53,13 +55,13 @@ class Gears(Section):
 
 
 class Load(Section):
-    """``[load]``: a constant couple on the output shaft's end."""
+    """``[load]``: a constant torque on the output shaft's end."""
 
     wheel_torque: float = quantity(
         "-1e12 N m",
         "1e12 N m",
         "437 N m",
-        meaning="couple against the wheel's rotation; a negative one drives the pair from the wheel and needs `[coast_flanks]`",
+        meaning="torque against the wheel's rotation; a negative one drives the pair from the wheel and needs `[coast_flanks]`",
     )
 
 
@@ -84,7 +86,7 @@ class Motion(Section):
         1_000_000,
         30,
         meaning="how many mesh cycles are run",
-        otherwise="without `[inertia]` one, after which all repeats, or `\"hunting tooth period\"` where teeth or couples differ from cycle to cycle; "
+        otherwise="without `[inertia]` one, after which all repeats, or `\"hunting tooth period\"` where teeth or torques differ from cycle to cycle; "
         "with it, it must be given",
         words=WHOLE_PERIOD,
     )
@@ -98,7 +100,7 @@ class Motion(Section):
     )
 
 
-# Of a tooth pair.
+# For a tooth pair.
 MOST_CONTACT_NODES = 1000
 
 
@@ -113,12 +115,8 @@ class Accuracy(Section):
         "settings that reach it are chosen by test runs",
         otherwise="nothing is measured, and each setting is as given or by its own default",
     )
-    element: Optional[Literal["P1", "P2", "Q1", "Q1 incompatible", "Q2"]] = choice(
-        "P1",
-        "P2",
-        "Q1",
-        "Q1 incompatible",
-        "Q2",
+    element: Optional[Literal[tuple(ELEMENTS)]] = choice(
+        *ELEMENTS,
         meaning="finite element: triangles or quadrilaterals of first or second order; `Q1 incompatible` is the paper's, with Wilson's modes",
         otherwise="`P2`",
     )
@@ -231,3 +229,20 @@ SceneText = create_model(
     __doc__="A whole scene file: the sections that are always there, and one optional section for each effect.",
     **{effect.section: (Optional[effect.text], None) for effect in top_level()},
 )
+
+
+def section_within(section: type[BaseModel], name: str) -> type[BaseModel] | None:
+    """The schema of a section within a section; None where the name is a plain field."""
+    annotation = section.model_fields[name].annotation
+    kinds = (annotation, *getattr(annotation, "__args__", ()))
+    return next((kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)), None)
+
+
+@functools.cache
+def known_paths(section: type[BaseModel] = SceneText, home: tuple[str, ...] = ()) -> dict[tuple[str, ...], bool]:
+    """Every path of a scene; True for a section, False for a field."""
+    found: dict[tuple[str, ...], bool] = {}
+    for name in section.model_fields:
+        inner, path = section_within(section, name), (*home, name)
+        found |= {path: inner is not None} | (known_paths(inner, path) if inner is not None else {})
+    return found

@@ -59,7 +59,7 @@ def error_by_cycle(run: Run) -> list[Chart]:
     edges = np.array([(values[each].min(), values[each].max()) for each in run.whole_cycles]).T
     mean = np.array([values[each].mean() for each in run.whole_cycles])
     curves = [Curve("from least to largest of a mesh cycle", middle, edges, PALETTE[0], width=1.0, mode=BAND), Curve("mean of a mesh cycle", middle, mean, DARK)]
-    return [Chart(f"{ERROR} over all {len(middle)} stored mesh cycles", curves, title, f"{ERROR} ({unit})", least=LEAST_SHARE * float(np.abs(values).max()), height=280)]
+    return [Chart(f"{ERROR} over all {len(middle)} mesh cycles", curves, title, f"{ERROR} ({unit})", least=LEAST_SHARE * float(np.abs(values).max()), height=280)]
 
 
 def wheels_shaft(run: Run) -> list[Chart]:

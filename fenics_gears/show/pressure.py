@@ -1,16 +1,17 @@
-"""Charts of the contact pressure: its peak over time and the map over flank and time."""
+"""Charts of the contact pressure: its largest value over time, and the pressure of the contact nodes as a map over flank and time."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second
+from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, over_time
 from fenics_gears.show.forces import least
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.run import Run
 from fenics_gears.show.units import factor
 
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
+EDGE_NOTE = " The pressure at a tip's edge does not converge with the mesh."
 SIDES = {"": "drive flanks", "coast_": "coast flanks"}
 # A tip that enters or leaves presses with its edge: a few cells far above all others, which would leave these one colour.
 COMMON_SHARE, CLIPPED = 98.0, 1.2  # per cent of the cells that the colours span; times that, from which they end there
@@ -25,12 +26,15 @@ def has_pressure(run: Run) -> bool:
     return "contact_pressure" in run.dataset and "contact_roll_angle" in run.dataset and run.dataset.sizes["contact_time"] > 1
 
 
-def largest_pressures(run: Run) -> Chart:
-    """Largest pressure of a contact node at every step."""
-    found = [(words, *run.largest_pressure(side), colour) for (side, words), colour in zip(SIDES.items(), PALETTE) if f"{side}contact_pressure" in run.dataset]
-    together = np.concatenate([values for _, _, values, _ in found])
-    curves = [Curve(words, phase, values, colour) for words, phase, values, colour in found]
-    return Chart("Largest pressure of a contact node", curves, MESH_CYCLES, "Pressure (MPa)", linked=TIME, x_range=run.window, least=least(together))
+def largest_pressures(run: Run) -> list[Chart]:
+    """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with a tip's edge; none of results without them."""
+    names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at tips' edges"}
+    curves = [(words, run.values(name, "MPa"), colour) for (name, words), colour in zip(names.items(), PALETTE) if name in run.dataset]
+    curves = [curve for place, curve in enumerate(curves) if place == 0 or curve[1].any()]
+    if not curves:
+        return []
+    note = "Averaged over five contact nodes." + (EDGE_NOTE if len(curves) > 1 else "")
+    return [over_time(run, "Largest contact pressure", "Pressure (MPa)", curves, least=least(curves[0][1]), note=note)]
 
 
 def pressure_maps(run: Run) -> list[Chart]:
@@ -48,7 +52,7 @@ def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np
     caption = f"Contact pressure on the {SIDES[side]}" if named else "Contact pressure"
     if highest > field.limit * (1 + 1e-9):
         step = np.unravel_index(np.argmax(pressure), pressure.shape)[0]
-        caption += f", beyond the colours up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
+        caption += f"; single nodes beyond the colours, up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
     curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
     if run.pair is not None:
         pair = run.pair
@@ -59,8 +63,18 @@ def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np
     heights = (float(field.y[0]), float(field.y[-1]))
     return Chart(
         caption, [*curves, *_names(pressure, place, phase, number, window)], MESH_CYCLES, "Roll angle on the pinion's flank (deg)",
-        x_range=window, y_range=heights, field=field, second=second, height=480, linked=TIME,
+        x_range=window, y_range=heights, field=field, second=second, height=480, linked=TIME, note=_peaks(run),
     )  # fmt: skip
+
+
+def _peaks(run: Run) -> str:
+    """The settled run's peak pressures, which are not those of single nodes."""
+    attributes = run.dataset.attrs
+    if "peak_contact_pressure" not in attributes:
+        return "Pressure of single contact nodes."
+    words = f"Pressure of single contact nodes. The peak contact pressure of the settled run, averaged over five nodes, is {attributes['peak_contact_pressure']:.4g} MPa"
+    edge = f" off the flanks' edges and {attributes['peak_edge_pressure']:.4g} MPa at tips' edges" if "peak_edge_pressure" in attributes else ""
+    return f"{words}{edge}."
 
 
 def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -> Field:

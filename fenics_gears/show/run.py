@@ -162,11 +162,6 @@ class Run:
         place = in_unit(part[f"{side}contact_roll_angle"].transpose(*order), "deg")
         return pressure, place, part["contact_mesh_phase"].values, part["contact_pair_number"].values
 
-    def largest_pressure(self, side: str) -> tuple[np.ndarray, np.ndarray]:
-        """Mesh cycles (step,) of the steps with contact fields and the largest pressure (step,), MPa, of a node in each."""
-        variable = self.dataset[f"{side}contact_pressure"]
-        return self.dataset["contact_mesh_phase"].values, in_unit(variable.max(["slot", "contact_node"], keep_attrs=True), "MPa")
-
 
 def _with_ends(there: np.ndarray) -> np.ndarray:
     """Where there are values (time,), and beside these, so that curves begin and end at zero."""

@@ -34,6 +34,8 @@ FINER = 2
 ROOTS_IN_COLOURS = 3.0
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
 CLOSE_UP_HALF_WIDTHS = 5.0
+# What a picture names of the pressure at its time.
+PRESSURES = {"largest_contact_pressure": "largest contact pressure", "largest_edge_pressure": "pressure at a tip's edge"}
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
 LEAST_BORE, LEAST_ARROW = 28.0, 12.0
 
@@ -264,14 +266,11 @@ def _length_bar(axes: Axes) -> None:
 
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
     index, dataset = stored_place(mesh, dataset), contact_times(dataset)
-    forces, pressures = (
-        [float(np.nanmax(dataset[name].values[index])) for name in names if name in dataset]
-        for names in (("normal_force", "coast_normal_force"), ("contact_pressure", "coast_contact_pressure"))
-    )
+    values = {name: float(dataset[name].values[index]) for name in ("normal_force", "coast_normal_force", *PRESSURES) if name in dataset}
     peaks = [float(body.von_mises.max()) for body in mesh.gears]
     lines = [
-        f"mesh force {max(forces):.0f} N",
-        f"largest contact pressure {max(pressures):.0f} MPa",
+        f"mesh force {max(values['normal_force'], values.get('coast_normal_force', 0.0)):.0f} N",
+        *(f"{words} {values[name]:.0f} MPa" for name, words in PRESSURES.items() if values.get(name)),
         f"largest von Mises stress {max(peaks):.0f} MPa",
         f"largest in the fillets {_stress_of_roots(mesh):.0f} MPa",
         f"{'approach and backlash' if mesh.coast else 'approach of the flanks'} {1e3 * mesh.approach:.1f} µm",

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import from_effects
 from fenics_gears.model.model import Model
 
 
 def deviating(model: Model, cycle: Cycle) -> Cycle:
     """The cycle with what the scene's effects add to its gaps from step to step."""
-    scene = model.scene
-    effects = [effect for effect in effects_on(scene) if effect.gaps is not None]
-    if not effects:
+    gaps = from_effects(model.scene, "gaps", model)
+    if not gaps:
         return cycle
     from fenics_gears.contact.deviating_cycle import DeviatingCycle
 
-    return DeviatingCycle(cycle, [effect.gaps(getattr(scene, effect.section), model) for effect in effects])
+    return DeviatingCycle(cycle, gaps)

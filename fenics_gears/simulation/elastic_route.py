@@ -5,7 +5,7 @@ from __future__ import annotations
 from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
 from fenics_gears.contact.mesh_cycle import tooth_reach as reach_of_contact
 from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
@@ -40,10 +40,9 @@ def tooth_reach(model: Model) -> Reach:
 
 def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
     """Flank compliance of the "pinion" or the "wheel" over the teeth within reach, from the cache where it is there."""
-    for effect in effects_on(model.scene):
-        own = effect.elasticity and effect.elasticity(getattr(model.scene, effect.section), model, name, reach, cache)
-        if own is not None:
-            return own
+    own = [each for each in from_effects(model.scene, "elasticity", model, name, reach, cache) if each is not None]
+    if own:
+        return own[0]
     # Imported here: rigid flanks have none.
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 

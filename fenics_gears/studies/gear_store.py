@@ -94,6 +94,6 @@ def cycle_key(model: Model) -> tuple:
         resolution.contact_grid,
         resolution.steps_per_mesh_cycle,
     )
-    in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.corner or effect.elasticity)
-    model = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, model), tuple(model.drivetrain.indices), scene.friction is not None
+    in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.elasticity))
+    mesh = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, mesh), tuple(model.drivetrain.indices), scene.friction is not None

@@ -13,7 +13,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.lines import line_numbers
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.written import WrittenFloat, as_written
+from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
@@ -276,7 +276,7 @@ def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Sc
     problems = without_echoes(problems_of_schema(tree)[1] + broken_rules(tree))
     if problems:
         return None, problems
-    scene = scene_from_text(fields.as_toml(tree), name, directory=directory)
+    scene = scene_from_text(as_toml(tree), name, directory=directory)
     try:
         model_of(scene)
     except SceneError as error:

@@ -1,7 +1,9 @@
-"""What is told of a study when it ends."""
+"""What `gears study` prints when a study ends."""
 
 from __future__ import annotations
 
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.run_study import Outcome
@@ -20,8 +22,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     if outcome.failures:
         rows.append(("failed", f"{len(outcome.failures)}", ""))
     if records:
-        values = [record.numbers["peak_to_peak_transmission_error"] for record in records]
-        rows.append(("transmission error, peak to peak", f"{min(values):.4g} to {max(values):.4g}", "rad"))
+        rows.append(("transmission error, peak to peak", _transmission_errors(outcome), ""))
         warned = sum(bool(record.warnings) for record in records)
         if warned:
             rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))
@@ -30,6 +31,15 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
             rows.append(("cases without meaning", f"{worthless}, see the variable meaningless", ""))
     rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes)]
     return rows
+
+
+def _transmission_errors(outcome: Outcome) -> str:
+    """Smallest and largest of all cases, as lengths at the wheel's base circle and as angles of the wheel."""
+    angles = {index: record.numbers["peak_to_peak_transmission_error"] for index, record in outcome.records.items()}
+    gears = {index: outcome.study.cases[index].scene.gears for index in angles}
+    radii = {each: gear_pair(each).wheel.base_radius * MICROMETRES for each in set(gears.values())}
+    lengths = [angle * radii[gears[index]] for index, angle in angles.items()]
+    return f"{min(lengths):.4g} to {max(lengths):.4g} um = {min(angles.values()):.4g} to {max(angles.values()):.4g} rad"
 
 
 def last_words(outcome: Outcome) -> str:

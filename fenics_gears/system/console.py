@@ -20,69 +20,42 @@ def on_terminal(stream: TextIO) -> bool:
 
 def print_rows(heading: str, rows: Sequence[Row]) -> None:
     """Print rows of label, value and unit under a heading to the standard output."""
-    cells = [(label, number_text(value), unit) for label, value, unit in rows]
-    if on_terminal(sys.stdout):
-        _print_rich(heading, cells)
-    else:
-        _print_plain(heading, cells)
+    _print(heading, (), [(label, f"{number_text(value)} {unit}".rstrip()) for label, value, unit in rows], left=2)
 
 
 def print_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]]) -> None:
-    """Print rows of cells in columns under a heading; `headings`: lines above the columns, which are left out where they are empty."""
+    """Print rows of cells in columns under a heading; `headings`: lines above the columns."""
+    _print(heading, headings, rows, left=1)
+
+
+def _print(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], left: int) -> None:
+    """Print a table whose first columns, `left` of them, begin at the left and the others end at the right."""
+    columns = list(zip(*headings, *rows))
     if on_terminal(sys.stdout):
-        _print_rich_table(heading, headings, rows)
-    else:
-        _print_plain_table(heading, headings, rows)
+        _print_rich(heading, [column[: len(headings)] for column in columns], rows, left)
+        return
+    widths = [max(map(len, column)) for column in columns]
+    print(heading)
+    for line in (*headings, *rows):
+        cells = (cell.ljust(width) if place < left else cell.rjust(width) for place, (cell, width) in enumerate(zip(line, widths)))
+        print("  " + "  ".join(cells).rstrip())
+    print()
 
 
-def _print_rich_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]]) -> None:
+def _print_rich(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], left: int) -> None:
     from rich.console import Console
     from rich.padding import Padding
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for place, words in enumerate(zip(*headings)):
-        table.add_column(Text("\n".join(words)), justify="left" if place == 0 else "right", no_wrap=place == 0)
+    table = Table(box=None, show_header=any(headings), pad_edge=False, padding=(0, 2, 0, 0))
+    for place, words in enumerate(headings):
+        table.add_column(Text("\n".join(words)), justify="left" if place < left else "right", no_wrap=place == 0, overflow="fold")
     for row in rows:
-        table.add_row(*(Text(cell) for cell in row))
+        table.add_row(*map(Text, row))
     console = Console(highlight=False)
     console.print(Text(heading, style="bold"))
     console.print(Padding(table, (0, 0, 1, 2)))
-
-
-def _print_plain_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]]) -> None:
-    lines = [*headings, *rows]
-    widths = [max(len(cell) for cell in column) for column in zip(*lines)]
-    print(heading)
-    for line in lines:
-        first, *others = (cell.ljust(width) if place == 0 else cell.rjust(width) for place, (cell, width) in enumerate(zip(line, widths)))
-        print("  " + "  ".join([first, *others]).rstrip())
-    print()
-
-
-def _print_rich(heading: str, cells: Sequence[tuple[str, str, str]]) -> None:
-    from rich.console import Console
-    from rich.padding import Padding
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(no_wrap=True)
-    table.add_column(overflow="fold")
-    for label, value, unit in cells:
-        table.add_row(Text(label), Text(f"{value} {unit}".rstrip()))
-    console = Console(highlight=False)
-    console.print(Text(heading, style="bold"))
-    console.print(Padding(table, (0, 0, 1, 2)))
-
-
-def _print_plain(heading: str, cells: Sequence[tuple[str, str, str]]) -> None:
-    width = max((len(label) for label, _, _ in cells), default=0)
-    print(heading)
-    for label, value, unit in cells:
-        print(f"  {label:<{width}}  {value} {unit}".rstrip())
-    print()
 
 
 def number_text(value: Any) -> str:

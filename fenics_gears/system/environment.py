@@ -24,7 +24,7 @@ def prepare(environment=os.environ):
 
 
 def defaults(environment):
-    """Variables and the values they have unless the user says otherwise; `environment` tells how the process was started."""
+    """Variables and their values where the user has not set them; `environment` shows how the process was started."""
     values = {"PYVISTA_OFF_SCREEN": "true"}
     if sys.platform == "linux":
         # VTK would try an X server first and print a warning where there is none; before 9.4 it ignores the variable.
@@ -34,14 +34,19 @@ def defaults(environment):
         for prefix in ("OMPI", "PRTE"):
             values[f"{prefix}_ALLOW_RUN_AS_ROOT"] = "1"
             values[f"{prefix}_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
-    ranks = max(_count(environment, name) for name in RANK_COUNTS)
+    ranks = started_ranks(environment)
     if ranks == max(1, _count(environment, "OMPI_COMM_WORLD_LOCAL_SIZE")):
         # On one machine ranks meet in shared memory; TCP only warns about interfaces it cannot pair.
         values["OMPI_MCA_btl"] = "^tcp,ofi"
     if ranks > 1 and "OMP_NUM_THREADS" not in environment:
-        # OpenBLAS and MKL follow OMP_NUM_THREADS unless they are told apart.
+        # OpenBLAS and MKL follow OMP_NUM_THREADS unless each is set by itself.
         values["OMP_NUM_THREADS"] = "1"
     return values
+
+
+def started_ranks(environment=os.environ):
+    """How many processes were started together; 1 for a process that was started alone."""
+    return max(_count(environment, name) for name in RANK_COUNTS)
 
 
 def _count(environment, name):

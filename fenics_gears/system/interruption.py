@@ -1,4 +1,4 @@
-"""Ctrl-C where it does no harm: between the parts of a counted stage, at once elsewhere, not at all while a result is written."""
+"""When Ctrl-C takes effect: in a counted stage between its parts, elsewhere at once, and not while a result is written."""
 
 from __future__ import annotations
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
-
 from fenics_gears.errors import ComputationError
-from fenics_gears.system.environment import RANK_COUNTS
+from fenics_gears.system.environment import started_ranks
 
 
 def communicator():
@@ -13,7 +11,7 @@ def communicator():
 
     Raises ComputationError where several processes were started that mpi4py cannot join.
     """
-    started = max(int(value) if value.isdigit() else 1 for value in (os.environ.get(name, "") for name in RANK_COUNTS))
+    started = started_ranks()
     if started <= 1:
         return None
     try:

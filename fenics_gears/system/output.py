@@ -5,14 +5,14 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from fenics_gears.errors import ComputationError, SceneError
 
 
 def check_writable(directory: Path) -> None:
-    """Say before the computation, not after it, that a result could not be written; creates nothing.
+    """Refuse before the computation a directory in which no result could be written; creates nothing.
 
     Raises SceneError.
     """
@@ -40,3 +40,10 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
                 written.append(directory / file.name)
     except OSError as error:
         raise ComputationError(f"{directory}: the result could not be written: {error.strerror or error}") from error
+
+
+def write_whole(file: Path, write: Callable[[Path], object]) -> Path:
+    """Write a file, and what belongs beside it, by `write(path)`: its name holds the whole file or none. Raises as `written_aside` does."""
+    with written_aside(file.parent, []) as aside:
+        write(aside / file.name)
+    return file

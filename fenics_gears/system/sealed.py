@@ -1,7 +1,7 @@
-"""Files that end with a digest of all bytes before it, checked before anything reads them.
+"""Files that end with a digest of all bytes before it; it is checked before anything else reads the file.
 
-HDF5 does not survive every damaged file: one wrong bit may end the process. It takes no notice of what follows its own end, so that a
-sealed file is still one that other programs read.
+HDF5 can end the whole process at one wrong bit of a damaged file. It ignores bytes after its own end, so other programs still read a
+sealed file.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ def overview(file: Path) -> Overview:
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
     """The table of docs/performance.md."""
-    headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "what limits them"]
+    headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "their largest error"]
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
     for name, each in found.items():
         own = f"{percent(each.own.error)} % in {seconds(each.own.time)} s"
@@ -85,9 +85,9 @@ def table_lines(found: dict[str, Overview]) -> list[str]:
 
 def _cost(each: Overview, target: float) -> str:
     if target < each.floor:
-        return f"not told: the reference is uncertain by {percent(each.floor)} %"
+        return f"unknown: the reference is uncertain by {percent(each.floor)} %"
     found = each.cheapest(target)
-    return "out of reach" if found is None else f"{seconds(found.time)} s ({found.name.partition(', body')[0]})"
+    return "not reached" if found is None else f"{seconds(found.time)} s ({found.name.partition(', body')[0]})"
 
 
 @styled
@@ -140,7 +140,7 @@ def _words(found: Overview, target: float) -> str:
     reached = found.cheapest(target)
     if reached:
         return f"{100 * target:g} %: {seconds(reached.time)} s, limited by the {reached.limited_by}"
-    return f"{100 * target:g} %: " + ("out of reach of these settings" if target >= found.floor else "less than the reference can tell")
+    return f"{100 * target:g} %: " + ("not reached by these settings" if target >= found.floor else "below the reference's uncertainty")
 
 
 def overview_section(found: dict[str, Overview]) -> str:
@@ -149,6 +149,6 @@ def overview_section(found: dict[str, Overview]) -> str:
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
         "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
-        "Errors: the larger of those of T_E in L2 and of T_EPP, the sum of all settings' own errors or the distance from the reference where that is more. Times: medians of "
+        "Errors are the larger of those of T_E in L2 and of T_EPP: the sum of the errors of all settings, or the difference from the reference where that is larger. Times: medians of "
         f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip

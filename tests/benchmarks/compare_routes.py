@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from tests.reference.involute_lever_arms import with_involute_arms
+from tests.simulation.reference.involute_lever_arms import with_involute_arms
 
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.resolution import EVERY_STEP, ONCE

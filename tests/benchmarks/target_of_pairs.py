@@ -137,13 +137,13 @@ def page(rows: list[Row], references: dict[str, Reference], not_reached: list[st
     where = machine()
     ratios = [row.times[0].total / row.times[1].total for row in rows]
     within = sum(row.true <= row.target for row in rows)
-    refused = "".join(f"\n\nNot reached, and said so: {each}" for each in not_reached)
+    refused = "".join(f"\n\nRefused: {each}" for each in not_reached)
     return (
-        f"**Of {len(rows)} targets {within} are reached; what is chosen takes {np.median(ratios):.2g} times as long as the cheapest settings found, "
+        f"**Of {len(rows)} targets {within} are reached; the chosen settings take {np.median(ratios):.2g} times as long as the cheapest settings found (median), "
         f"at most {max(ratios):.2g} times.**\n\n" + "\n".join(lines) + refused + f"\n\nThe references are uncertain by: {', '.join(told)}. Quasi-static, without "
-        "friction; all but the last with 30 um of tip relief, without which a sharp edge presses and errors fall slowly. "
-        "The cheapest settings were looked for among "
-        f"{len(SEARCHED) * len(STEPS)} of each pair, by their true error, luck of errors that cancel included (where none reaches a target, among finer ones too). Times without the cache, medians of {ROUNDS} in "
+        "friction; all but the last with 30 um of tip relief, without which sharp edges are in contact and errors decrease slowly. "
+        "The cheapest settings are those with the least time among "
+        f"{len(SEARCHED) * len(STEPS)} of each pair, judged by their true error, in which single errors may cancel by chance (finer settings were added where none of these reached a target). Times without the cache, medians of {ROUNDS} in "
         f"turns; load {where['load']}, {where['processor']}, {where['versions']}."
     )
 

@@ -16,11 +16,11 @@ DEMO = "demos/lundvall2004.toml"
 # Every rank runs these whole, by itself: what is built on all ranks by mistake would differ from what is built on one, or hang.
 # Jobs that share their work between ranks (studies, every step condensed) are started by tests of the suite, with 1, 2 and 3 ranks.
 OF_RANKS = (
-    "tests/elasticity", "tests/reference", "tests/hard_cases/test_row_05_schur_complement.py",
+    "tests/elasticity", "tests/simulation/reference", "tests/hard_cases/test_row_05_schur_complement.py",
     "tests/hard_cases/test_row_06_condensation.py", "tests/hard_cases/test_row_07_patch_test.py",
 )  # fmt: skip
 QUICK = (
-    "tests/setup", "tests/test_cli.py", "tests/elasticity/test_known_solutions.py", "tests/studies/test_ranks.py",
+    "tests/setup", "tests/commands/test_cli.py", "tests/elasticity/test_known_solutions.py", "tests/studies/test_ranks.py",
     "tests/show/test_stress_picture.py",
 )  # fmt: skip
 QUICK_OF_RANKS = ("tests/elasticity/test_known_solutions.py", "tests/elasticity/test_ring.py")

@@ -14,10 +14,10 @@ from fenics_gears import load_scene
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
-from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_sector_mesh
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Accuracy
+from meshes.root_crack import RootCrack, cracked_sector_mesh
 
 COARSE = Accuracy(element="P2", flank_element_size=0.4, body_element_size=2.0, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 

@@ -9,7 +9,7 @@ from tests.docs.markdown import table
 from tests.effects.examples import EXAMPLES, text_of
 
 from fenics_gears.contact.step_solver import METHODS
-from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, conflicts, effect
+from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, conflicts, effect_named
 from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.read import scene_from_text
@@ -100,7 +100,7 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
     for each in variables:
         name, dimensions, units, words = _row(result, each.name)
         assert (units, words) == (each.units, each.long_name), f"{each.name} is not as declared"
-        beside = f" (beside `[{effect(each.needs).written}]`)" if each.needs else ""
+        beside = f" (beside `[{effect_named(each.needs).written}]`)" if each.needs else ""
         rows.append((name, dimensions, units, words + beside))
     return table(("variable", "dimensions", "units", "is"), rows)
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from pydantic_core import PydanticUndefined
 from tests.docs.markdown import capital, from_docstring, table
 
-from fenics_gears.effects import EFFECTS, effect
+from fenics_gears.effects import EFFECTS, effect_named
 from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Allowed, allowed_in
 from fenics_gears.scene.schema import SceneText
@@ -67,11 +67,11 @@ def _units() -> list[str]:
 
 
 def _effect(name: str) -> list[str]:
-    found = effect(name)
+    found = effect_named(name)
     lines = [f"### `[{found.written}]`", "", capital(f"{found.description}; without it: {found.absent}")]
     for words, names in (("Needs", found.needs), ("Excludes", found.excludes)):
         if names:
-            lines.append(f"{words} {', '.join(f'`[{effect(name).written}]`' for name in names)}.")
+            lines.append(f"{words} {', '.join(f'`[{effect_named(name).written}]`' for name in names)}.")
     section = SectionOfScene((name,), found.text)
     return [*lines, "", *_body(section), *_parts(section)]
 

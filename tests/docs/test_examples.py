@@ -14,8 +14,8 @@ import pytest
 from tests.docs.blocks import PAGES, ROOT, blocks, in_text, name_of
 from tests.docs.commands_page import commands, parser
 
+from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.studies.fields import as_toml
 from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")

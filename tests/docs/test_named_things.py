@@ -1,7 +1,7 @@
 """Files and messages that the pages name are there."""
 
-import ast
 import re
+import tomllib
 
 import pytest
 import xarray
@@ -32,26 +32,28 @@ def test_the_tour_names_files_of_every_folder():
     assert len([name for name in named if name.endswith(".py") and (ROOT / name).exists()]) > 40
 
 
-def imported(module):
-    """What a module imports, anywhere in it, as dotted names."""
-    for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+def reading_table(heading):
+    """The cells of each row of a table on the page on reading the code, by the table's first heading."""
+    page = (ROOT / "docs" / "reading_the_code.md").read_text(encoding="utf-8")
+    table = re.search(rf"^\| {heading} \|.*\n\|[-|]+\n((?:\|.*\n)+)", page, re.M)[1]
+    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines()]
 
 
-def test_imports_point_the_way_that_the_page_says():
-    """Authority: the page's own list of folders, from the scene to the commands; none imports from one after it."""
-    table = (ROOT / "docs" / "reading_the_code.md").read_text(encoding="utf-8")
-    folders = re.findall(r"^\| `fenics_gears/(\w+)` \|", table, re.M)
-    assert folders[0] == "scene" and folders[-1] == "commands" and len(folders) == 10
-    against = []
-    for place, folder in enumerate(folders):
-        later = tuple(f"fenics_gears.{name}." for name in folders[place + 1 :])
-        for module in (ROOT / "fenics_gears" / folder).rglob("*.py"):
-            against += [f"{module.name}: {name}" for name in imported(module) if f"{name}.".startswith(later)]
-    assert not against
+def test_folders_stand_in_the_order_of_imports():
+    """Authority: the contract that import-linter checks (`tests/test_architecture.py`), the lowest folder first."""
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]
+    layers = [name.rpartition(".")[2] for name in settings["contracts"][0]["layers"]]
+    named = [row[0].strip("` ").rpartition("/")[2] for row in reading_table("folder")]
+    assert named == [name for name in reversed(layers) if name != "errors"]
+
+
+def test_lines_to_read_are_about_what_the_page_says():
+    """Authority: the files, counted; a page need not follow every line, but a third more is another page."""
+    rows = reading_table("you add")
+    assert len(rows) == 6
+    for _, _, files, lines in rows:
+        counted = sum(len((ROOT / name).read_text(encoding="utf-8").splitlines()) for name in re.findall("`(.*?)`", files))
+        assert counted == pytest.approx(int(lines.strip(" |")), rel=1 / 3)
 
 
 @pytest.mark.nightly

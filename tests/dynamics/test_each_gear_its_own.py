@@ -7,10 +7,8 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
+from fenics_gears.dynamics.drivetrain_data import Damping, GearInertia, Inertia, Rayleigh, Shaft, Shafts
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.effects.damping import Damping, Rayleigh
-from fenics_gears.effects.inertia import GearInertia, Inertia
-from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.model.description import describe

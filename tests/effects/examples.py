@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fenics_gears.effects import EFFECTS, effect
+from fenics_gears.effects import EFFECTS, effect_named
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 
@@ -117,7 +117,7 @@ end_frequency = "260 Hz"
 def with_needs(*sections: str) -> tuple[str, ...]:
     """The sections and all that they need, in the order of the list."""
     closed = set(sections)
-    while more := {need for each in closed for need in effect(each).needs} - closed:
+    while more := {need for each in closed for need in effect_named(each).needs} - closed:
         closed |= more
     return tuple(each.section for each in EFFECTS if each.section in closed)
 

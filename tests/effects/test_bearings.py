@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, quasi_static
 
-from fenics_gears.effects import effect, result_variables
-from fenics_gears.effects.bearings import Bearings, Support
+from fenics_gears.dynamics.drivetrain_data import Bearings, Support
+from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.drivetrain import drivetrain
@@ -114,7 +114,7 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene, paper_pair):
     bare = replace(paper_scene, bearings=None)
     assert not [name for name in drivetrain(bare, paper_pair).coordinates if name.startswith("centre")]
     assert len(drivetrain(bare, paper_pair).stiffness) == 3
-    gone = {variable.name for variable in effect("bearings").variables}
+    gone = {variable.name for variable in effect_named("bearings").variables}
     assert gone == {"centre_x", "centre_y", "energy_bearings"}
     assert not gone & {variable.name for variable in result_variables(bare)}
     assert not gone & set(simulate(replace(quasi_static(coarse_scene(bare)))))

@@ -13,7 +13,6 @@ from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes
-from fenics_gears.elasticity.whole_body.cracked_gear import cracked_gear_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
@@ -24,6 +23,7 @@ from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.refinement import checked_model
 from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.studies.study_file import load_study
+from meshes.root_crack import cracked_gear_mesh
 
 TEETH = "tooth_elasticity"
 COARSE = {"element": "P1", "flank_element_size": 0.4, "body_element_size": 3.0}

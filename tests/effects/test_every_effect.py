@@ -12,7 +12,7 @@ import pytest
 from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
 
 from fenics_gears.commands.cli import main
-from fenics_gears.effects import EFFECTS, effect, effects_on, result_variables
+from fenics_gears.effects import EFFECTS, effect_named, effects_on, result_variables
 from fenics_gears.simulation.simulate import simulate
 
 CHECKOUT = Path(__file__).parents[2]
@@ -33,7 +33,7 @@ RARE = {"inertia": {"fenics_gears.dynamics.mean_equilibrium"}, "friction": {"fen
 
 
 def may_stand_together(sections):
-    return not set(sections) & {other for section in sections for other in effect(section).excludes}
+    return not set(sections) & {other for section in sections for other in effect_named(section).excludes}
 
 
 def alone():
@@ -90,18 +90,18 @@ def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(sec
         after = capsys.readouterr().out.partition("\nEffects\n")[2].splitlines()
         lines[state] = next(line for line in after if line.split()[:1] == [section])
     assert lines["on"].split()[1] == "on" and lines["off"].split()[1] == "off"
-    assert effect(section).absent in lines["off"]
+    assert effect_named(section).absent in lines["off"]
     there = {variable.name for variable in result_variables(scene_of(*with_needs(section)))}
-    own = {variable.name for variable in effect(section).variables}
-    added = [*effect(section).unknowns, *effect(section).terms, *(own & there)]
-    assert added and all(words in lines["on"] for words in (effect(section).description, *added))
+    own = {variable.name for variable in effect_named(section).variables}
+    added = [*effect_named(section).unknowns, *effect_named(section).terms, *(own & there)]
+    assert added and all(words in lines["on"] for words in (effect_named(section).description, *added))
     assert not any(name in lines["on"].replace(",", " ").split() for name in own - there)
 
 
 def imports_of_hooks(section):
     """Modules of this program that an effect's own module imports inside the functions a run calls."""
     tree = ast.parse(inspect.getsource(sys.modules[EFFECTS[SECTIONS.index(section)].text.__module__]))
-    hooks = [getattr(effect(section), name) for name in RUN_HOOKS]
+    hooks = [getattr(effect_named(section), name) for name in RUN_HOOKS]
     called = {hook.__name__ for hook in hooks if hook is not None}
     functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name in called]
     found = {node.module for function in functions for node in ast.walk(function) if isinstance(node, ast.ImportFrom)}
@@ -133,7 +133,7 @@ def loaded():
 def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(section, loaded):
     """Authority: house rule 9; modules of an absent effect's physics are not imported, those of a named one are."""
     own = imports_of_hooks(section) | METHODS.get(section, set())
-    hooks = [getattr(effect(section), name) for name in RUN_HOOKS]
+    hooks = [getattr(effect_named(section), name) for name in RUN_HOOKS]
     assert own or not any(hooks)
     bare = loaded["nothing"] if section == TEETH else loaded[TEETH]
     assert not bare & (own | RARE.get(section, set()))

@@ -18,7 +18,7 @@ from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.dynamics.torque_ripple import varying_load
-from fenics_gears.effects import effect, result_variables
+from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.elasticity.cache import user_cache
@@ -271,7 +271,7 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene):
     """House rule 9: no variable, one clock of equal steps, no import."""
     model = model_of(paper_scene)
     assert isinstance(model.clock, SteadyClock) and model.loads == ()
-    assert not {variable.name for variable in effect("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
+    assert not {variable.name for variable in effect_named("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
     program = (
         "import sys; from fenics_gears import load_scene; from fenics_gears.model.model import model_of\n"
         f"model = model_of(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r})); model.clock, model.loads\n"

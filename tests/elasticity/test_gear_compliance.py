@@ -7,6 +7,7 @@ from dataclasses import replace
 import gmsh
 import numpy as np
 import pytest
+from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears.elasticity import gear_compliance
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
@@ -17,8 +18,7 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance, rotation
-from fenics_gears.elasticity.sector_mesh import sector_mesh, whole_gear_mesh
-from fenics_gears.elasticity.whole_gear import whole_gear_compliance
+from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.geometry.involute import arc_length, canonical_normal
 

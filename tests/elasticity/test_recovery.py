@@ -8,6 +8,7 @@ from scipy import sparse
 from scipy.interpolate import LinearNDInterpolator
 from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.flank_pressure import flank_arcs, pressed, stress_across
+from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears.contact.flank_forces import unmirrored
 from fenics_gears.elasticity.compliance import Reach
@@ -17,7 +18,7 @@ from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_interior import dofs_of
-from fenics_gears.elasticity.sector_mesh import sector_mesh, whole_gear_mesh
+from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.geometry.involute import arc_length, canonical_normal, canonical_point, roll_angle_at_arc_length
 

@@ -5,12 +5,11 @@ from math import pi
 import numpy as np
 import pytest
 from tests.coarse_sector import flank_motion, relative
+from tests.whole_gear import ring_stiffness, whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.ring import centre_motion, condensed_sector, ring_compliance, ring_stiffness
-from fenics_gears.elasticity.sector_mesh import whole_gear_mesh
-from fenics_gears.elasticity.whole_gear import whole_gear_compliance
+from fenics_gears.elasticity.ring import centre_motion, condensed_sector, ring_compliance
 from fenics_gears.errors import ComputationError
 
 

@@ -34,8 +34,9 @@ class Run:
         return self.model.scene.friction.coefficient if self.model.scene.friction else 0.0
 
 
-# Not numbers by design: contact nodes that do not stand, and the shares of rigid pairs that touch together.
-NODES_OF_THEIR_OWN, SHARES = ("contact_offset", "contact_roll_angle", "_opening"), ("pair_normal_force", "pair_coast_normal_force")
+# Not numbers by design: contact nodes that do not stand, the place of the largest pressure where none is off the edges, the share at a point of the path that no loaded pair passes, and those of rigid pairs
+# that touch together.
+NODES_OF_THEIR_OWN, SHARES = ("contact_offset", "contact_roll_angle", "_opening", "load_share", "pressure_roll_angle"), ("pair_normal_force", "pair_coast_normal_force")
 
 
 def run_of(model: Model, compliances: Compliances | None) -> Run:

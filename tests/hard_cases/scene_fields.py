@@ -10,8 +10,9 @@ from typing import Any
 
 from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Allowed, AllowedEither, AllowedList, allowed_in
-from fenics_gears.scene.schema import SceneText
-from fenics_gears.studies.fields import ABSENT, as_toml, changed, known_paths
+from fenics_gears.inputs.written import as_toml
+from fenics_gears.scene.schema import SceneText, known_paths
+from fenics_gears.studies.fields import ABSENT, changed
 
 DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 RELIEF = {"depth": "31 um", "start": "HPSTC"}
@@ -27,7 +28,7 @@ INSTEAD = {
 SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/mm")
 # Units of every kind of quantity that a scene has, by what `units` calls it.
 UNITS = {
-    "a length": "mm", "an angle": "deg", "a stress": "GPa", "a couple": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
+    "a length": "mm", "an angle": "deg", "a stress": "GPa", "a torque": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
     "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2", "a density": "g/cm^3", "a time": "s",
 }  # fmt: skip
 

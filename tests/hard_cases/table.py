@@ -15,10 +15,10 @@ from tests.hard_cases.cases import CASES
 
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "hard_cases.md"
-HEADING = """# Hard cases, and what was measured
+HEADING = """# Hard cases and measured values
 
-What must stay numerically stable. Each row is a file `tests/hard_cases/test_row_NN_*.py`, whose docstrings name the authority of every
-limit. This page is written by `python -m tests.hard_cases.table` from a run of those tests; the numbers are that run's.
+These cases must stay numerically stable. Each row belongs to a file `tests/hard_cases/test_row_NN_*.py`; the docstrings of its tests name the
+authority of every limit. `python -m tests.hard_cases.table` runs these tests and writes this page with the values that they measured.
 """
 
 

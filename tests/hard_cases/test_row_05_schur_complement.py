@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from tests.coarse_sector import PINION, coarse_condensed_sector, coarse_sector_mesh, flank_motion
+from tests.whole_gear import ring_stiffness
 
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.ring import centre_motion, ring_stiffness
+from fenics_gears.elasticity.ring import centre_motion
 
 TEETH = (0, 1, 5)
 

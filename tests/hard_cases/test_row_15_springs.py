@@ -44,7 +44,7 @@ def test_springs_of_any_stiffness_march_in_time(factor, coarse, measured):
     """From the task: with inertia every step converges, whatever the springs; the wheel's couple stays of the load's size."""
     result = simulate(stiffened(coarse, factor))
     torque = np.abs(result.reaction_couple.sel(gear="wheel").values).max() / coarse.load.wheel_torque
-    measured(f"largest couple over the load, springs {factor:g} of nominal", torque, "10")
+    measured(f"largest torque over the load, springs {factor:g} of nominal", torque, "10")
     assert result.attrs["complete"]
     assert np.all(np.isfinite(result.transmission_error.values))
     assert torque < 10.0

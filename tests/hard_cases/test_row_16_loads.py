@@ -34,7 +34,7 @@ def test_any_torque_is_carried(absent, friction, torque, coarse, measured):
     scene = scene if friction else frictionless(scene)
     result = simulate(scene)
     difference = np.abs(result.reaction_couple.sel(gear="wheel").values + torque).max()
-    measured(f"torque {torque:g} N mm: largest spurious couple", difference, "1e-9 of the torque, at least 1e-9 N mm", "N mm")
+    measured(f"torque {torque:g} N mm: largest spurious torque", difference, "1e-9 of the torque, at least 1e-9 N mm", "N mm")
     assert result.attrs["complete"]
     assert np.all(np.isfinite(result.transmission_error.values))
     # Without load the touching node's force is the round-off of zero, of either sign.

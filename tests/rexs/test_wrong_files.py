@@ -48,7 +48,7 @@ WRONG_VALUES = [
     ((MATERIAL, "density", 7.85, "kg / m"), "density = 7.85 kg / m is"),
     ((SHAFT, "rotational_speed", 750.0, "m / s"), "rotational_speed = 750.0 m / s is a speed, not an angular speed"),
     ((rexs.LOAD, "torque_around_u_axis", None), 'no torque. Its gears, 5 and 6, have none in their stage data'),
-    ((rexs.LOAD, "torque_around_u_axis", 437.0, "N"), "torque_around_u_axis = 437.0 N is a force, not a couple"),
+    ((rexs.LOAD, "torque_around_u_axis", 437.0, "N"), "torque_around_u_axis = 437.0 N is a force, not a torque"),
 ]
 
 
@@ -116,7 +116,7 @@ def test_pairs_that_are_none(tmp_path):
 
 def test_wrong_calls_are_refused(tmp_path):
     """What the call says in the file's place is a quantity of its kind."""
-    assert '--wheel-torque "437 N" is a force, not a couple' in refused(tmp_path, rexs.paper_model(), wheel_torque="437 N")
+    assert '--wheel-torque "437 N" is a force, not a torque' in refused(tmp_path, rexs.paper_model(), wheel_torque="437 N")
     assert '--pinion-speed "fast" does not begin with a number' in refused(tmp_path, rexs.paper_model(), pinion_speed="fast")
 
 

@@ -124,7 +124,7 @@ MUTATIONS = [
     ("poissons_ratio = 0.3", "poissons_ratio = 0.5", "gears.material.poissons_ratio = 0.5", ["is too large", "above -1 and below 0.5"]),
     ("poissons_ratio = 0.3", "poissons_ratio = -1", "gears.material.poissons_ratio = -1", ["is too small", "above -1 and below 0.5"]),
     ('"437 N m"', '"-437 N m"', 'load.wheel_torque = "-437 N m"', ["is negative", "coast flanks", "with the section [coast_flanks] any sign"]),
-    ('"437 N m"', '"437 N m/rad"', 'load.wheel_torque = "437 N m/rad"', ["is a torsional stiffness, not a couple"]),
+    ('"437 N m"', '"437 N m/rad"', 'load.wheel_torque = "437 N m/rad"', ["is a torsional stiffness, not a torque"]),
     ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 rpm"', 'motion.mesh_frequency = "200 rpm"', ["is an angular speed", '"200 Hz"']),
     ('mesh_frequency = "200 Hz"', 'pinion_speed = "12.5 Hz"', 'motion.pinion_speed = "12.5 Hz"', ["is a frequency", '"750 rpm"']),
     ('mesh_frequency = "200 Hz"', 'pinion_speed = "nan rpm"', 'motion.pinion_speed = "nan rpm"', ["is not a finite number"]),

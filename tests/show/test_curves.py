@@ -114,7 +114,7 @@ def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
     cycles = [growing.values[20 * each : 20 * each + 21] * 50e3 for each in range(12)]
     np.testing.assert_allclose(low, [each.min() for each in cycles], rtol=1e-12)
     np.testing.assert_allclose(high, [each.max() for each in cycles], rtol=1e-12)
-    assert last.get_title(loc="left") == "Transmission error over all 12 stored mesh cycles"
+    assert last.get_title(loc="left") == "Transmission error over all 12 mesh cycles"
 
 
 def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():

@@ -80,7 +80,7 @@ def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
     run["contact_pressure"][50, there, 2] = 9000.0
     figure = contact_pressure(run)
     assert mesh(figure).norm.vmax < 1700.0
-    assert figure.get_axes()[0].get_title(loc="left").endswith("beyond the colours up to 9000 MPa at mesh cycle 29.00")
+    assert figure.get_axes()[0].get_title(loc="left").endswith("single nodes beyond the colours, up to 9000 MPa at mesh cycle 29.00")
 
 
 def test_pitch_point_and_the_wheels_axis(paper_scene):

@@ -20,7 +20,7 @@ def test_costs_are_those_of_the_quickest_that_reaches_a_target():
     (row,) = table_lines({"200_hz_friction": sure})[2:]
     assert "0.5 s (the scene's own)" in row and "2 s (P2 0.1 mm, 9 nodes, 40 steps)" in row and "3 % in 0.5 s" in row
     (row,) = table_lines({"200_hz_friction": made_up(0.008)})[2:]
-    assert "not told: the reference is uncertain by 0.8 %" in row
+    assert "unknown: the reference is uncertain by 0.8 %" in row
 
 
 @pytest.mark.parametrize("name", TITLES)

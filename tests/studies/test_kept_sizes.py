@@ -41,3 +41,19 @@ def test_a_study_says_it_in_summary_and_dataset(folder, capsys):
     assert words in capsys.readouterr().out
     with xarray.open_dataset("here/study.nc", engine="h5netcdf") as opened:
         assert opened.attrs["remarks"].startswith(words)
+
+
+def test_the_summary_gives_transmission_errors_as_lengths_first(folder, capsys):
+    """Unit conversion: a length at the wheel's base circle is the angle times its radius."""
+    import xarray
+
+    study = write_study(folder, "[sweep]\nload.wheel_torque = [\"100 N m\", \"400 N m\"]")
+    assert main(["study", str(study), "--output", "here"]) == 0
+    (line,) = [each for each in capsys.readouterr().out.splitlines() if "transmission error, peak to peak" in each]
+    said = line.partition("peak to peak")[2].split()
+    with xarray.open_dataset("here/study.nc", engine="h5netcdf") as opened:
+        angles = opened.peak_to_peak_transmission_error.values
+    with xarray.open_dataset(next((folder / "here" / "cases").glob("*.nc")), engine="h5netcdf") as case:
+        lengths = angles * case.attrs["base_radius_wheel"] * 1e3
+    numbers = [f"{each:.4g}" for each in (lengths.min(), lengths.max(), angles.min(), angles.max())]
+    assert said == [numbers[0], "to", numbers[1], "um", "=", numbers[2], "to", numbers[3], "rad"]

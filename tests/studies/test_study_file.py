@@ -7,7 +7,7 @@ import pytest
 from tests.studies.conftest import DEMO, write_study
 
 from fenics_gears.commands.cli import main
-from fenics_gears.studies import fields
+from fenics_gears.inputs.written import as_toml, toml_value
 from fenics_gears.studies.study_file import load_study
 
 FREQUENCIES = 'motion.mesh_frequency = ["100 Hz", "200 Hz"]\n'
@@ -116,13 +116,13 @@ def test_a_scene_written_again_says_the_same():
     """Authority: identity, over the demonstration scene and awkward texts."""
     tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
     tree["title"] = 'with "quotes", a \\ and\na line\x7f'
-    assert tomllib.loads(fields.as_toml(tree)) == tree
+    assert tomllib.loads(as_toml(tree)) == tree
 
 
 @pytest.mark.parametrize("value, spelt", [(np.float64(0.1), "0.1"), (np.int64(3), "3"), (np.bool_(True), "true"), (np.str_("a"), '"a"')])
 def test_numpys_values_are_spelt_as_pythons(value, spelt):
     """Authority: TOML; numpy 2 spells its own np.float64(0.1)."""
-    assert fields.toml_value(value) == spelt
+    assert toml_value(value) == spelt
 
 
 WRONG = {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from fenics_gears.show.forces import force_charts
 from fenics_gears.show.motion import motion_charts
 from fenics_gears.show.orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
@@ -26,19 +28,20 @@ def forces(run: Run) -> Section:
 
 def pressure(run: Run) -> Section:
     """Largest pressure at every step, and the map of the mesh cycles shown."""
-    if not has_pressure(run):
-        none = "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the flank."
-        if run.scene is not None and run.scene.resolves_contact:
-            none = "There is none: the run has stored no contact fields (`[output] contact_fields`)."
-        return Section("pressure", "Contact pressure", [Words(none)])
-    return _section("pressure", "Contact pressure", run, lambda run: [largest_pressures(run), *pressure_maps(run)])
+    section = _section("pressure", "Contact pressure", run, lambda run: [*largest_pressures(run), *pressure_maps(run)])
+    if has_pressure(run) or not run.has_curves:
+        return section
+    none = "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the flank."
+    if run.scene is not None and run.scene.resolves_contact:
+        none = "There is no map over the flank: the run has stored no contact fields (`[output] contact_fields`)."
+    return replace(section, blocks=[*section.blocks, Words(none)])
 
 
 def _section(name: str, heading: str, run: Run, charts) -> Section:
     if not run.has_curves:
         return Section(name, heading, [Words(TOO_FEW, warns=True)])
     first, last = run.window
-    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of the stored {run.phase[0]:g} to {last:g}; on screen, a double click shows all but of single tooth pairs."
+    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a double click shows all of them, but not of single tooth pairs."
     fewer = f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
     words = "" if run.shows_all else part + (f" {fewer}" if run.steps > MOST_POINTS else "")
     return Section(name, heading, [*([Words(words)] if words else []), *charts(run)])

@@ -80,11 +80,11 @@ def in_one_sentence(report: Report) -> str:
     costs = "; ".join(_cost(report, target) for target in TARGETS if target >= report.floor)
     missed = [f"{100 * target:g} %" for target in TARGETS if target < report.floor]
     if missed:
-        told = f"{' and '.join(missed)} cannot be told, for the reference itself is uncertain by {percent(report.floor)} %"
-        costs = "; ".join(filter(None, (costs, told, _best(report) if len(missed) == len(TARGETS) else "")))
+        unknown = f"{' and '.join(missed)} cannot be assessed: the reference itself is uncertain by {percent(report.floor)} %"
+        costs = "; ".join(filter(None, (costs, unknown, _best(report) if len(missed) == len(TARGETS) else "")))
     mine = report.own
     worst = largest_part(mine.parts)
-    return f"{costs}; what limits you is the {worst} ({percent(mine.parts[worst])} of your {percent(mine.charged)} %)."
+    return f"{costs}; the largest part of the scene's own error is that of the {worst} ({percent(mine.parts[worst])} of {percent(mine.charged)} %)."
 
 
 def _cost(report: Report, target: float) -> str:
@@ -92,36 +92,36 @@ def _cost(report: Report, target: float) -> str:
     reached = [each for each in report.front if each.charged <= target]
     if reached:
         return f"{words} costs {seconds(reached[0].times.total)} s ({reached[0].name})"
-    return f"{words} is out of reach of what was run, {_best(report)}"
+    return f"{words} was not reached; {_best(report)}"
 
 
 def _best(report: Report) -> str:
     best = report.front[-1]
-    return f"the best of them, {percent(max(best.charged, report.floor))} %, costs {seconds(best.times.total)} s"
+    return f"the best setting that was run has an error of {percent(max(best.charged, report.floor))} % and costs {seconds(best.times.total)} s"
 
 
 def remarks(report: Report) -> list[str]:
     """What the reader must know beside the numbers."""
     found = [
-        f"the reference, Richardson's limits of all settings together, is uncertain by {percent(report.floor)} % in T_E and T_EPP: less cannot be told",
-        "a setting's error is measured with all others fine; a whole setting is charged their sum, or its own distance from the reference if that is more",
+        f"the reference, Richardson's limits of all settings together, is uncertain by {percent(report.floor)} % in T_E and T_EPP; smaller errors cannot be assessed",
+        "the error of a single setting is measured with all others fine; the charged error of a whole setting is the sum of these, or its own difference from the reference where that is larger",
     ]
     for result in report.refinements:
         order = result.order("T_E")
         if result.refinement.expected is None:
             continue
         if order is None:
-            found.append(f"{result.refinement.name}: no order in T_E, expected {result.refinement.expected:g} ({result.refinement.why}); its finest value is charged its last change")
+            found.append(f"{result.refinement.name}: no order in T_E, expected {result.refinement.expected:g} ({result.refinement.why}); the error of its finest value is taken to be its last change")
         elif abs(order - result.refinement.expected) > ORDER_OFF:
             found.append(f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g} ({result.refinement.why})")
     if any(result.refinement.base for result in report.refinements):
         found.append(
-            'condensation "every step" is another model, no finer one: forces have the arms of their nodes, where the other route has the '
-            "involute's; the difference, in one setting less fine than the others', does not go away with refinement"
+            'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their nodes, not the base radius; '
+            "the difference, measured with coarser settings than the others, does not vanish with refinement"
         )
     peak = report.uncertainty["peak pressure"]
     if peak > 0.1:
-        found.append(f"the peak pressure has no limit that these runs show ({percent(peak)} % uncertain): as where a tip's edge presses")
+        found.append(f"the peak pressure does not converge in these runs ({percent(peak)} % uncertain), as where a tip's edge is in contact")
     return found
 
 
@@ -129,13 +129,10 @@ def timed(report: Report) -> str:
     """How often things were timed."""
     counts = [each.times.rounds for result in report.refinements for each in result.levels]
     again = sum(rounds >= report.rounds for rounds in counts)
-    words = f"Whole settings timed {report.rounds} times in turns, medians; "
+    words = f"Times are medians. Whole settings were timed {report.rounds} times in turns, "
     if again == len(counts):
         return words + "single settings as often."
-    return words + (
-        f"{again} of {len(counts)} single settings as often, the others, which take longest, once: "
-        f"all rounds of all of them would have taken more than the {report.seconds_on_single:g} s that were given."
-    )
+    return words + f"{again} of {len(counts)} single settings as often, and the others, which take longest, once, to stay within {report.seconds_on_single:g} s."
 
 
 CSV_COLUMNS = (

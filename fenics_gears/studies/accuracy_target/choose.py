@@ -56,7 +56,7 @@ def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
     except TargetNotReached as reason:
         raise TargetNotReached(
             f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings of your own; "
-            "`gears accuracy` shows what each gains."
+            "`gears accuracy` shows the error of each."
         ) from None
 
 
@@ -150,7 +150,7 @@ def _reachable(runs: TrialRuns, target: float, factors: dict[str, float]) -> str
             continue
         _check(runs, sizes, largest_part(_errors_at(curves, sizes)), curves, factors)
         if _error_together([_corrected(curve, factors) for curve in curves], sizes) <= larger:
-            return f"{100.0 * larger:.2g} % can be"
+            return f"{100.0 * larger:.2g} % can be reached"
     return "nothing near it can be"
 
 

@@ -8,11 +8,12 @@ from dataclasses import asdict, replace
 
 import xarray as xr
 
+from fenics_gears.inputs.written import as_toml
 from fenics_gears.results.attributes import ESTIMATED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy_target.choose import Chosen, choose
-from fenics_gears.studies.fields import as_toml, changed
+from fenics_gears.studies.fields import changed
 from fenics_gears.system.progress import Progress
 
 # What to do about a warning that names settings: they may not stand beside a target.

@@ -111,10 +111,10 @@ class TrialRuns:
         """What makes errors fall slowly, or begin high, in words; empty where nothing is known to."""
         width = model_of(self.scene).resolution.half_width
         if width < 0.5 * self._unit:
-            return f", for under this load the contact's half-width is {width:.2g} mm only"
+            return f", because the contact's half-width under this load is only {width:.2g} mm"
         if self.scene.tip_relief is not None:
             return ""
-        return ", for errors fall slowly where the sharp edges of unrelieved tips press ([tip_relief] takes that away)"
+        return ", because errors decrease slowly where sharp edges of unrelieved tips are in contact ([tip_relief] avoids this)"
 
     def _run(self, setting: Setting) -> None:
         self.runs += 1

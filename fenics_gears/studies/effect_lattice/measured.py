@@ -11,25 +11,21 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import effects_on
-from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import ComputationError, GearsError, SceneError
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.elastic_route import gear_compliance, mesh_cycle, tooth_reach
-from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.machine import machine
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
-from fenics_gears.studies.gear_store import GEARS, gear_key
+from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS = 5
 TIMED_STEPS = 1000
-CONDENSED, MOST_SECONDS_CONDENSING = 3, 30.0
 # Contact operators of all subsets are kept between the rounds up to here; beyond it they are built again.
 MOST_BYTES = 1e9
 
@@ -105,11 +101,11 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
     for tangential in (False, True):
         compile_kernels(tangential)
     progress.stage("condense, and answers")
-    gears, benches = Gears(), []
+    store, benches = GearStore(None, cycles=False), []
     for done, subset in enumerate(subsets):
         progress.update(done, len(subsets), subset.name)
         try:
-            benches.append(Bench(subset, gears))
+            benches.append(Bench(subset, store))
         except GearsError as error:
             skipped.append(Skipped(subset.name, str(error).splitlines()[0]))
     if not benches:
@@ -120,8 +116,6 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
         for done, bench in enumerate(benches):
             progress.update(turn * len(benches) + done, rounds * len(benches), bench.subset.name)
             bench.time_steps()
-    progress.stage("condense for the time")
-    gears.condense_again()
     rows = tuple(bench.row() for bench in benches)
     return Report(scene, rows, tuple(skipped), *_full_by_bare(rows), machine())
 
@@ -144,68 +138,28 @@ def at_one_accuracy(scene: Scene) -> Scene:
     return replace(scene, accuracy=settings)
 
 
-class Gears:
-    """The gears of all subsets, each condensed once without the cache and shared; how long it took, s."""
-
-    def __init__(self):
-        self._kept, self._models, self._seconds = {}, {}, {}
-
-    def of(self, model: Model) -> tuple:
-        """Flank compliances of pinion and wheel."""
-        reach = tooth_reach(model)
-        return tuple(self._gear(model, name, reach) for name in GEARS)
-
-    def seconds(self, model: Model) -> float:
-        """Median time to mesh and condense both gears; compiling does not count."""
-        reach = tooth_reach(model)
-        return sum(statistics.median(self._seconds[gear_key(model, name, reach)]) for name in GEARS)
-
-    def condense_again(self) -> None:
-        """Repeat all condensations in turn for their time, where they do not take too long."""
-        if sum(sum(each) for each in self._seconds.values()) * (CONDENSED - 1) > MOST_SECONDS_CONDENSING:
-            return
-        for _ in range(CONDENSED - 1):
-            for key, arguments in self._models.items():
-                self._seconds[key].append(_condensing(gear_compliance(*arguments, None)))
-
-    def _gear(self, model: Model, name: str, reach: Reach):
-        key = gear_key(model, name, reach)
-        if key not in self._kept:
-            self._kept[key], self._models[key] = gear_compliance(model, name, reach, None), (model, name, reach)
-            self._seconds[key] = [_condensing(self._kept[key])]
-        return self._kept[key]
-
-
-def _condensing(gear) -> float:
-    return gear.timings["time_mesh"] + gear.timings["time_condense"]
-
-
 class Bench:
     """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot be run."""
 
-    def __init__(self, subset: Subset, gears: Gears):
-        self.subset, self._gears = subset, gears
-        self._model = model_of(subset.scene)
-        self._cycle, self._operators = self._build()
-        self._whole = self._run(subset.scene, self._cycle)
+    def __init__(self, subset: Subset, store: GearStore):
+        self.subset, self._store, self._model = subset, store, model_of(subset.scene)
+        self._gears, self._cycle, self._operators = self._build()
+        self._whole = self._run(subset.scene, self._gears, self._cycle)
         self._step_times: list[float] = []
         operators = [self._cycle.position(step).operator for step in range(self._cycle.steps)]
         self.bytes = sum(operator.compliance.nbytes for operator in operators)
         self._contact_rows = sum(len(operator.jacobian) for operator in operators) / len(operators)
 
-    def _build(self) -> tuple[Cycle, float]:
-        """The contact operators of a mesh cycle, all of them, and the seconds they took."""
-        elastic = self._model.scene.resolves_contact
-        compliances = self._gears.of(self._model) if elastic else ()
+    def _build(self) -> tuple[tuple, Cycle, float]:
+        """The gears, which subsets share, the contact operators of a mesh cycle, and the seconds that these took."""
+        gears, cycle = self._store.prepared(self._model, SilentProgress(), None)
         begun = time.perf_counter()
-        cycle = mesh_cycle(self._model, compliances) if elastic else prepared(self._model, SilentProgress(), None)[1]
         for step in range(cycle.steps):
             cycle.position(step)
-        return cycle, time.perf_counter() - begun
+        return gears, cycle, time.perf_counter() - begun
 
-    def _run(self, scene: Scene, cycle: Cycle) -> xr.Dataset:
-        compliances = self._gears.of(self._model) if self._model.scene.resolves_contact else ()
-        result = simulate(scene, preparation=lambda model, progress, cache: (compliances, cycle))
+    def _run(self, scene: Scene, gears: tuple, cycle: Cycle) -> xr.Dataset:
+        result = simulate(scene, preparation=lambda model, progress, cache: (gears, cycle))
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
         return result
@@ -219,7 +173,7 @@ class Bench:
         motion = self._model.scene.motion
         cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
         shorter = replace(self.subset.scene, motion=replace(motion, mesh_cycles=cycles, recorded_cycles=1))
-        self._timed = self._run(shorter, self._cycle if self._cycle is not None else self._build()[0])
+        self._timed = self._run(shorter, self._gears, self._cycle if self._cycle is not None else self._build()[1])
         self._step_times.append(self._timed.attrs["time_march"] / self._timed.attrs["steps"])
 
     def row(self) -> Row:
@@ -238,7 +192,7 @@ class Bench:
                 coordinates, self._contact_rows, closed, iterations, scene.inertia is not None, scene.friction is not None, _varying(scene)
             ),
             step_times=tuple(self._step_times),
-            condense=self._gears.seconds(self._model) if scene.resolves_contact else 0.0,
+            condense=sum(gear.timings["time_mesh"] + gear.timings["time_condense"] for gear in self._gears),
             operators=self._operators,
             transmission_error=run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"],
             peak_force=largest_normal_force(run),

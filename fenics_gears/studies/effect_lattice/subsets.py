@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
-from fenics_gears.effects import EFFECTS, effect, effects_on, without
+from fenics_gears.effects import EFFECTS, effect_named, effects_on, without
 from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import broken_rules
@@ -99,7 +99,7 @@ def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[s
 def smallest_valid(wanted: Sections, every: Sections, problem: Valid) -> Sections | None:
     """The smallest valid set of effects that holds the `wanted` ones, among `every`; None where there is none near."""
     closed = wanted
-    while missing := {need for each in closed for need in effect(each).needs if need in every} - closed:
+    while missing := {need for each in closed for need in effect_named(each).needs if need in every} - closed:
         closed = closed | missing
     further = in_order(every - closed)
     candidates = (closed | set(added) for count in range(MOST_FURTHER + 1) for added in combinations(further, count))
@@ -108,7 +108,7 @@ def smallest_valid(wanted: Sections, every: Sections, problem: Valid) -> Section
 
 def largest_valid(left: Sections, problem: Valid) -> Sections | None:
     """The largest valid set of effects within those that are `left`; None where there is none near."""
-    while lost := {each for each in left if not set(effect(each).needs) <= left}:
+    while lost := {each for each in left if not set(effect_named(each).needs) <= left}:
         left = left - lost
     candidates = (left - set(gone) for count in range(MOST_FURTHER + 1) for gone in combinations(in_order(left), count))
     return next((each for each in candidates if not problem(each)), None)

@@ -5,7 +5,7 @@
 
 Exudyn (J. Gerstmayr, https://github.com/jgerstm/EXUDYN) is a multi-body program of the University of Innsbruck. It is given rigid bodies
 and springs only (`exudyn_pair.py`); this program its drivetrain with a mesh of one spring (`contact.spring_cycle`), marched as any run.
-The pair is demos/real_pairs/wu_19_48.toml, J1 : J2 = 1 : 19, with another bearing in every direction and another stiffness of either shaft.
+The pair is pair_19_48.toml of this folder, J1 : J2 = 1 : 19, with another bearing in every direction and another stiffness of either shaft.
 
 Exudyn 1.13.6 gave the seven natural frequencies, 215.3 to 4818.5 Hz, the same within 3e-15 of each, and the response to a step of the couple, both
 by average acceleration at 2 us, the same within 4e-8 of its swing over 10 ms.
@@ -26,15 +26,14 @@ from fenics_gears import load_scene
 from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.drivetrain import forces_of_torque
+from fenics_gears.dynamics.drivetrain_data import Bearings, Shaft, Shafts, Support
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
-from fenics_gears.effects.bearings import Bearings, Support
-from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.drivetrain import drivetrain, lumped_gears
 
 HERE = Path(__file__).parent
-SCENE = HERE.parents[2] / "demos" / "real_pairs" / "wu_19_48.toml"
+SCENE = HERE / "pair_19_48.toml"
 # N/mm; the couples are small (N mm): the program is of small displacements, Exudyn is not.
 MESH, COUPLE, COUPLE_AFTER = 2.2e5, 1000.0, 500.0
 STEP, STEPS = 2e-6, 5000

@@ -107,34 +107,34 @@ def _standard_gear(teeth: int, module: float, solid: bool) -> GearData:
     return GearData(teeth, 0.0, module * (teeth + 2.0), root, bore, 0.38)
 
 
-LINEAR, NONE = "as many as there are", "does not depend on it"
+LINEAR, NONE = "proportional to their number", "does not depend on it"
 AXES = (
     Axis(
         "flank nodes", "nodes along the pinion's flank (P2, two an element)", logarithmic(8, 800), of_flank_elements, "flank_nodes",
         {
-            "mesh": Theory(1.0, "elements grow away from the flank: as many layers whatever their size, so cells as n"),
-            "assemble": Theory(1.0, "as many as there are cells"),
-            "schur": Theory(2.0, "the flank's n dofs are kept beside a graded strip, whose separators are short: fronts of n dofs, squared (N^1.5 is for a square mesh of which nothing is kept)"),
+            "mesh": Theory(1.0, "element sizes increase with the distance from the flank, so the number of layers is fixed and cells are proportional to n"),
+            "assemble": Theory(1.0, "proportional to the number of cells"),
+            "schur": Theory(2.0, "the n dofs of the flank are retained and the graded strip beside it has short separators, so fronts have n dofs, squared (N^1.5 holds for a square mesh without retained dofs)"),
             "ring": Theory(3.0, "dense inverse of the flank's stiffness"),
-            "operators": Theory(2.0, "contact nodes' rows and columns of the flank's compliance: as many flank nodes under a fixed window, squared"),
+            "operators": Theory(2.0, "rows and columns of the flank's compliance at the contact nodes: the number of flank nodes in a fixed window, squared"),
             "solving": Theory(0.0, NONE),
             "condense arrays": Theory(2.0, "dense matrices of the flank's dofs"),
-            "condense peak": Theory(2.0, "dense matrices of the flank's dofs, a dozen of them at once"),
-            "operators arrays": Theory(2.0, "the flank's compliance between every two teeth, once more in the order in which it is gone through"),
+            "condense peak": Theory(2.0, "a dozen dense matrices of the flank's dofs at once"),
+            "operators arrays": Theory(2.0, "the flank's compliance between every two teeth, stored a second time in the order of its use"),
         },
     ),
     Axis(
         "contact nodes", "contact nodes of a pair's window, flank elements finer along with them", logarithmic(6, 600), of_contact_nodes, "contact_nodes",
         {
-            "operators": Theory(2.0, "each pair of contact nodes; its rank by Cholesky with pivots: n^3/3, once n is large"),
-            "solving": Theory(2.0, "products with all nodes' rows n^2; the closed nodes' dense system n^3, once n is large"),
-            "operators arrays": Theory(2.0, "each pair of contact nodes"),
+            "operators": Theory(2.0, "every pair of contact nodes; for large n the rank by pivoted Cholesky, n^3/3"),
+            "solving": Theory(2.0, "products with the rows of all nodes, n^2; for large n the dense system of the closed nodes, n^3"),
+            "operators arrays": Theory(2.0, "every pair of contact nodes"),
         },
     ),
     Axis(
         "teeth of a rim", "teeth of the wheel, a rim three modules thick", logarithmic(20, 2000), lambda z: of_teeth(z, False), "teeth",
         {
-            "mesh": Theory(0.0, "one sector, whatever the number of them"),
+            "mesh": Theory(0.0, "one sector, whatever the number of teeth"),
             "schur": Theory(0.0, "one sector"),
             "ring": Theory(0.0, "joined by doubling: log z"),
             "fourier": Theory(1.0, "a dense inverse for every other tooth"),
@@ -146,9 +146,9 @@ AXES = (
     Axis(
         "teeth of a solid gear", "teeth of the wheel, solid down to 0.45 of its root radius", logarithmic(20, 2000), lambda z: of_teeth(z, True), "teeth",
         {
-            "mesh": Theory(1.0, "a sector becomes a wedge as long as z is large, of elements as wide as itself: cells as z"),
-            "schur": Theory(2.0, "cuts of as many nodes as z are kept beside a strip: fronts of as many dofs, squared"),
-            "ring": Theory(3.0, "log z dense eliminations of a cut, of as many nodes as z"),
+            "mesh": Theory(1.0, "a sector becomes a wedge whose length is proportional to z, with elements as wide as the wedge, so cells are proportional to z"),
+            "schur": Theory(2.0, "retained cuts have a number of nodes proportional to z beside a strip: fronts of as many dofs, squared"),
+            "ring": Theory(3.0, "log z dense eliminations of a cut, whose nodes are proportional to z"),
             "fourier": Theory(4.0, "a dense inverse of a cut for every other tooth"),
             "operators": Theory(0.0, NONE),
             "solving": Theory(0.0, NONE),
@@ -166,10 +166,10 @@ AXES = (
     Axis(
         "mesh cycles", "mesh cycles of 20 steps at 200 Hz", logarithmic(2, 400), of_cycles, "cycles",
         {
-            "operators": Theory(0.0, "the positions of a mesh cycle serve them all"),
+            "operators": Theory(0.0, "the positions of one mesh cycle are used for all cycles"),
             "solving": Theory(1.0, LINEAR),
-            "operators arrays": Theory(0.0, "the positions of a mesh cycle serve them all"),
-            "solving arrays": Theory(0.0, "what is not to be kept is forgotten"),
+            "operators arrays": Theory(0.0, "the positions of one mesh cycle are used for all cycles"),
+            "solving arrays": Theory(0.0, "steps that are not recorded are not kept"),
         },
     ),
 )  # fmt: skip

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from tests.coarse_sector import COARSE, PINION, STEEL, coarse_condensed_sector, coarse_sector_mesh, relative
+from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
@@ -10,13 +11,11 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import ring_compliance, rotation
-from fenics_gears.elasticity.sector_mesh import whole_gear_mesh
 from fenics_gears.elasticity.whole_body import parts
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
-from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, cracked_gear_mesh
 from fenics_gears.elasticity.whole_body.outline import whole_body
-from fenics_gears.elasticity.whole_gear import whole_gear_compliance
 from fenics_gears.errors import ComputationError
+from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 
 def standing_anywhere(mesh: BodyMesh) -> BodyMesh:

@@ -20,8 +20,8 @@ from fenics_gears.elasticity.recovery import GearRecovery
 from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
-from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, crack_line, cracked_gear_mesh
 from fenics_gears.elasticity.whole_body.outline import whole_body
+from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh
 
 P2 = ELEMENTS["P2"]
 SIZES = element_sizes(PINION, P2, 0.4)

@@ -11,10 +11,10 @@ from fenics_gears.elasticity.element_sizes import SizeField, SizeSource, along, 
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh, corner_areas, oriented
 from fenics_gears.elasticity.sector_mesh import filled
-from fenics_gears.elasticity.whole_body.cracked_gear import RootCrack, crack_line, cracked_gear_mesh, cracked_sector_mesh, opened
 from fenics_gears.elasticity.whole_body.outline import boundary_sides, joined_cells
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.outline import tooth_outline
+from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh, cracked_sector_mesh, opened
 
 LENGTH, HEIGHT = 6.0, 1.0
 

@@ -178,7 +178,7 @@ def test_the_target_named_instead_can_be_reached(scene, monkeypatch):
 def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
     """Its contact is narrower than any element that trial runs begin with."""
     monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
-    with pytest.raises(TargetNotReached, match=r"for under this load the contact's half-width is 0\.0\d+ mm only"):
+    with pytest.raises(TargetNotReached, match=r"because the contact's half-width under this load is only 0\.0\d+ mm"):
         choose(scene_from_text(text.replace('"437 N m"', '"1 N m"')), 0.001, SilentProgress())
 
 

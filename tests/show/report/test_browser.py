@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from tests.report.browser import CHROMIUM, Browser
-from tests.report.pages import seen
+from tests.show.report.browser import CHROMIUM, Browser
+from tests.show.report.pages import seen
 
 from fenics_gears.commands.cli import main
 

@@ -76,7 +76,7 @@ def test_description_says_what_a_run_will_use(paper_scene):
     sections = dict(describe(paper_scene).sections)
     accuracy = {label: value for label, value, _ in sections["Accuracy"]}
     assert accuracy["flank element size"] == 0.08
-    assert accuracy["steps"] == "3000, of which the last 201 are stored"
+    assert accuracy["steps"] == "3000, curves of all are stored, contact fields of the last 201"
     assert "Natural frequencies with one tooth pair in mesh (about)" in sections
     rows = {label: (value, unit) for label, value, unit in sections["Natural frequencies with one tooth pair in mesh (about)"]}
     frequency, said = rows["mode 1"]

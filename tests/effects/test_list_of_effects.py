@@ -20,7 +20,7 @@ def without(*sections):
     """The demo without some sections."""
     text = DEMO
     for section in sections:
-        text = re.sub(rf"^\[{effects.effect(section).written}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
+        text = re.sub(rf"^\[{effects.effect_named(section).written}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
     return text
 
 
@@ -37,8 +37,8 @@ def test_an_absent_section_takes_its_effect_and_variables_away(section):
     scene, plain = scene_from_text(DEMO), scene_from_text(without(section))
     assert getattr(plain, section) is None
     gone = {variable.name for variable in effects.result_variables(scene)} - {variable.name for variable in effects.result_variables(plain)}
-    assert gone == {variable.name for variable in effects.effect(section).variables}
-    assert effects.effect(section) not in effects.effects_on(plain)
+    assert gone == {variable.name for variable in effects.effect_named(section).variables}
+    assert effects.effect_named(section) not in effects.effects_on(plain)
 
 
 def test_a_scene_without_effects_is_one():
@@ -59,7 +59,7 @@ def test_names_in_the_list_are_consistent():
 
 def test_needs_and_conflicts_are_found():
     """Authority: design.md; damping is that of moving masses. A meshed body's crack would be closed by its coast flanks."""
-    assert effects.missing_needs(["damping"]) == [(effects.effect("damping"), "inertia")]
+    assert effects.missing_needs(["damping"]) == [(effects.effect_named("damping"), "inertia")]
     assert effects.missing_needs(["damping", "inertia"]) == []
-    assert effects.conflicts(SECTIONS) == [(effects.effect("body_meshes"), "coast_flanks")]
+    assert effects.conflicts(SECTIONS) == [(effects.effect_named("body_meshes"), "coast_flanks")]
     assert effects.conflicts([section for section in SECTIONS if section != "body_meshes"]) == []

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.reference.involute_lever_arms import with_involute_arms
+from tests.simulation.reference.involute_lever_arms import with_involute_arms
 
 CASES = ("static", "static frictionless", "200 Hz", "200 Hz frictionless")
 

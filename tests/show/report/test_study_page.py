@@ -6,7 +6,7 @@ import shutil
 import numpy as np
 import pytest
 import xarray as xr
-from tests.report.pages import seen
+from tests.show.report.pages import seen
 
 from fenics_gears.commands.cli import main
 from fenics_gears.show.cases import Cases

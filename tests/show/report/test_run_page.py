@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.report.conftest import scene_text
-from tests.report.pages import seen
+from tests.show.report.conftest import scene_text
+from tests.show.report.pages import seen
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -22,7 +22,7 @@ from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run import Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
-CHECKOUT = Path(__file__).parents[2]
+CHECKOUT = Path(__file__).parents[3]
 SECTIONS = [
     "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
     "versions", "scene",
@@ -63,7 +63,7 @@ def test_every_section_is_there_and_says_what_the_result_holds(report, run):
         "Energy held",
     }
     assert wanted <= set(captions(page))
-    assert {"The pair", "Largest pressure of a contact node", "Largest tension in the fillets of either gear"} <= set(captions(page))
+    assert {"The pair", "Largest contact pressure", "Largest tension in the fillets of either gear"} <= set(captions(page))
     assert sum(each.startswith("Transmission error on the wheel's base circle") for each in captions(page)) == 1
     assert any(each.startswith("Contact pressure") for each in captions(page))
     pictures = [attributes for tag, attributes in page.tags if tag == "img"]

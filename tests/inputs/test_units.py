@@ -28,11 +28,11 @@ ROUND_OFF = 4e-16
         ("206e9 Pa", 206000.0, "a stress"),
         ("206e3 N/mm^2", 206000.0, "a stress"),
         ("206e3 N/mm²", 206000.0, "a stress"),
-        ("437 N m", 437000.0, "a couple"),
-        ("437 Nm", 437000.0, "a couple"),
-        ("437 N*m", 437000.0, "a couple"),
-        ("437 N·m", 437000.0, "a couple"),
-        ("1 lbf in", 4.4482216152605 * 25.4, "a couple"),
+        ("437 N m", 437000.0, "a torque"),
+        ("437 Nm", 437000.0, "a torque"),
+        ("437 N*m", 437000.0, "a torque"),
+        ("437 N·m", 437000.0, "a torque"),
+        ("1 lbf in", 4.4482216152605 * 25.4, "a torque"),
         ("0.203e9 N mm/rad", 2.03e8, "a torsional stiffness"),
         ("1 N mm/deg", 180 / math.pi, "a torsional stiffness"),
         ("0.155e6 N/mm", 155000.0, "a stiffness"),
@@ -81,7 +81,7 @@ def test_what_may_be_radians_is_no_speed(written):
     [("437 N m", "437 N m/rad"), ("200 Hz", "200 rad/s"), ("200 Hz", "200 rpm"), ("1 mm", "1 rad"), ("1 1/s", "1 rad/s")],
 )
 def test_an_angle_is_a_dimension(one, other):
-    """Authority: design.md's units; a couple is no torsional stiffness and a frequency no angular speed."""
+    """Authority: design.md's units; a torque is no torsional stiffness and a frequency no angular speed."""
     assert quantity(one)[1] != quantity(other)[1]
 
 

@@ -1,10 +1,9 @@
-"""The command line: exit codes, what is written when, and how progress is told.
+"""The command line: exit codes, what is written when, and what they print.
 
 The simulation is replaced by one that returns at once: what is under test is what the commands do with its outcomes.
 """
 
 import contextlib
-import io
 import os
 import re
 import signal
@@ -23,9 +22,8 @@ from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.system import progress
 
-CHECKOUT = Path(__file__).parents[1]
+CHECKOUT = Path(__file__).parents[2]
 DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
 
 
@@ -394,57 +392,9 @@ def test_the_test_command_runs_pytest_on_the_checkout(tmp_path):
     """Authority: design.md; options go to pytest, paths count from the checkout."""
     environment = {**os.environ, "PYTHONPATH": str(CHECKOUT)}
     call = [sys.executable, "-m", "fenics_gears", "test", "--collect-only", "-q"]
-    run = subprocess.run([*call, "tests/scene/test_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    run = subprocess.run([*call, "tests/effects/test_list_of_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert run.returncode == 0
-    assert "test_effects.py" in run.stdout and "test_cli.py" not in run.stdout
-
-
-class Clock:
-    """A clock that is set by hand."""
-
-    now = 0.0
-
-    def __call__(self):
-        return self.now
-
-
-def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
-    """Authority: identity; a fifth done after 6 s leaves 24 s at the same pace."""
-    clock, stream = Clock(), io.StringIO()
-    lines = progress.LineProgress(stream, interval=5.0, clock=clock)
-    lines.stage("march")
-    for tenth in range(101):
-        clock.now = 0.1 * tenth * 3
-        lines.update(tenth, 100)
-    lines.close()
-    told = stream.getvalue().splitlines()
-    assert told[0] == "march: 17 of 100 (17 %) after 5.1 s, about 25 s left"
-    assert len(told) == 6
-    assert told[-1] == "march: 30 s"
-
-
-def test_progress_costs_nothing_to_speak_of():
-    """Count: an update between two lines looks at the clock once and writes nothing."""
-    looks = iter(range(1, 2000))
-    stream = io.StringIO()
-    lines = progress.LineProgress(stream, interval=3000.0, clock=lambda: float(next(looks)))
-    lines.stage("march")
-    before = next(looks)
-    for done in range(1000):
-        lines.update(done, 1000)
-    assert next(looks) - before == 1001 and stream.getvalue() == ""
-
-
-def test_a_bar_stops_where_the_work_stopped():
-    """Authority: issue 2; an interrupted run must not look finished."""
-    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
-    bar = progress.BarProgress(console)
-    bar.stage("condense pinion")
-    bar.stage("march")
-    bar.update(30, 100)
-    bar.close()
-    last = console.file.getvalue().rpartition("march")[2]
-    assert "30/100" in last and "100/100" not in last
+    assert "test_list_of_effects.py" in run.stdout and "test_cli.py" not in run.stdout
 
 
 def test_a_reader_that_goes_away_is_no_error():

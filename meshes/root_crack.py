@@ -13,7 +13,7 @@ import numpy as np
 from fenics_gears.elasticity.element_sizes import ElementSizes, SizeField, SizeSource, along, divided
 from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
 from fenics_gears.elasticity.sector_boundary import SectorBoundary, root_curve, sector_boundary
-from fenics_gears.elasticity.sector_mesh import filled, joined_sectors, sector_mesh
+from fenics_gears.elasticity.sector_mesh import filled, sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
@@ -144,3 +144,28 @@ def _turns(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Angle (k,), rad, that a closed polygon turns around points (k, 2)."""
     seen = (polygon[None] - points[:, None]) @ np.array([1.0, 1.0j])
     return np.angle(np.roll(seen, -1, axis=1) / seen).sum(axis=1)
+
+
+def joined_sectors(sectors: list[BodyMesh]) -> BodyMesh:
+    """Mesh of a whole gear from the sector of each tooth, counter-clockwise; their cuts have the same nodes."""
+    teeth, points, index, count = len(sectors), [], [], 0
+    pitch = 2.0 * np.pi / teeth
+    for tooth, sector in enumerate(sectors):
+        own = np.setdiff1d(np.arange(len(sector.points)), _points_by_radius(sector, "upper cut"))
+        cosine, sine = np.cos(tooth * pitch), np.sin(tooth * pitch)
+        points.append(sector.points[own] @ np.array([[cosine, sine], [-sine, cosine]]))
+        index.append(np.empty(len(sector.points), dtype=int))
+        index[tooth][own] = count + np.arange(len(own))
+        count += len(own)
+    for tooth, sector in enumerate(sectors):
+        ahead = (tooth + 1) % teeth
+        index[tooth][_points_by_radius(sector, "upper cut")] = index[ahead][_points_by_radius(sectors[ahead], "lower cut")]
+    edges = {f"flank {tooth}": numbers[sector.edges["flank"]] for tooth, (numbers, sector) in enumerate(zip(index, sectors))}
+    edges["hub"] = np.vstack([numbers[sector.edges["hub"]] for numbers, sector in zip(index, sectors)])
+    cells = np.vstack([numbers[sector.cells] for numbers, sector in zip(index, sectors)])
+    return BodyMesh(np.vstack(points), cells, edges)
+
+
+def _points_by_radius(mesh: BodyMesh, name: str) -> np.ndarray:
+    points = mesh.edge_points(name)
+    return points[np.argsort(np.linalg.norm(mesh.points[points], axis=1))]

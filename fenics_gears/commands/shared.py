@@ -1,0 +1,105 @@
+"""What several commands share: exit codes, arguments, the files that they read, and their progress."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from fenics_gears.errors import ComputationError, GeometryError, SceneError
+from fenics_gears.system.console import on_terminal
+from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
+
+# Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its numbers mean nothing.
+NO_MEANING = 4
+INTERRUPTED = 130
+# 128 + SIGPIPE, as a shell has it.
+NOBODY_READS = 141
+
+RUN_FILE, STUDY_FILE, CASES = "run.nc", "study.nc", "cases"
+
+
+def add_scene_argument(command) -> None:
+    """The argument SCENE of a command's parser."""
+    command.add_argument("scene", type=Path, metavar="SCENE", help="a scene file (TOML)")
+
+
+def add_output_argument(command) -> None:
+    """The option --output of a command that writes a scene's results."""
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the scene file>)")
+
+
+def add_run_argument(command) -> None:
+    """The argument RUN of a command that reads a finished run."""
+    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")
+
+
+def checked_scene(path: Path):
+    """The scene of a file, its values and its geometry found right. Raises SceneError and GeometryError."""
+    from fenics_gears.scene.read import load_scene
+
+    scene = load_scene(path)
+    from fenics_gears.effects import check_files
+    from fenics_gears.geometry.pair import gear_pair
+    from fenics_gears.model.modification import corner, removals
+
+    try:
+        pair = gear_pair(scene.gears)
+        removals(scene, pair)
+        corner(scene, pair)
+    except GeometryError as error:
+        raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
+    check_files(scene, pair)
+    return scene
+
+
+def checked_scene_and_directory(options):
+    """The scene of a command's options, found right, and the directory to write into, found writable. Raises as `checked_scene` does."""
+    from fenics_gears.system.output import check_writable
+
+    scene = checked_scene(options.scene)
+    directory = options.output or Path("results") / scene.name
+    check_writable(directory)
+    return scene, directory
+
+
+def run_file(path: Path) -> Path:
+    """The file of the run that is meant by its directory or the file itself. Raises SceneError for what is no run, a study among others."""
+    if path.name == STUDY_FILE or path.is_dir() and not (path / RUN_FILE).is_file() and ((path / STUDY_FILE).is_file() or (path / CASES).is_dir()):
+        directory = path if path.is_dir() else path.parent
+        raise SceneError(
+            f"{path} is a study, of many runs. `gears report {directory}` writes a page of pictures on all of them; "
+            f"of a single case this command takes the file, {directory / CASES}/NAME.nc."
+        )
+    file = path / RUN_FILE if path.is_dir() else path
+    if not file.is_file():
+        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
+    return file
+
+
+def loaded_run(file: Path, load: Callable | None = None):
+    """The dataset of a run's file, by `load` where it is another kind of result. Raises SceneError where it cannot be read: the call is wrong."""
+    from fenics_gears import results
+
+    try:
+        return (load or results.load)(file)
+    except ComputationError as error:
+        raise SceneError(str(error)) from error
+
+
+def shown_progress(quiet: bool) -> Progress:
+    """What shows a computation's progress on the standard error: bars on a terminal, lines elsewhere, nothing if `quiet`."""
+    if quiet:
+        return SilentProgress()
+    if not on_terminal(sys.stderr):
+        return LineProgress()
+    from rich.console import Console
+
+    return BarProgress(Console(stderr=True))
+
+
+def print_files(files: Iterable[Path], quiet: bool) -> None:
+    """Print the files that a command wrote, a line each, unless `quiet`."""
+    if not quiet:
+        for file in files:
+            print(file)

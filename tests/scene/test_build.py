@@ -1,0 +1,70 @@
+"""A scene from plain dictionaries. Authority: the same scene read from a file."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fenics_gears
+from fenics_gears import build_scene, load_scene
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.read import scene_from_text
+
+DEMOS = sorted((Path(__file__).parents[2] / "demos").glob("*.toml"))
+SCENES = [path for path in DEMOS if "sweep" not in tomllib.loads(path.read_text(encoding="utf-8"))]
+DEMO = tomllib.loads((DEMOS[0].parent / "lundvall2004.toml").read_text(encoding="utf-8"))
+
+
+def facts(scene):
+    """All of a scene but its text, whose layout and comments are the file's own."""
+    return {name: value for name, value in vars(scene).items() if name != "text"}
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+def test_dictionaries_make_the_scene_that_the_file_makes(path):
+    """Authority: `load_scene`, over every demo; and the text that the scene carries makes it again."""
+    built = build_scene(tomllib.loads(path.read_text(encoding="utf-8")), path.stem, directory=path.parent)
+    assert facts(built) == facts(load_scene(path))
+    assert scene_from_text(built.text, path.stem, directory=path.parent) == built
+
+
+def test_values_of_numpy_tuples_and_none_are_taken():
+    """Authority: the same scene in plain Python; None is what a file leaves out."""
+    damping = {"ratios": (0.05, np.float64(0.1))}
+    sections = DEMO | {"damping": damping, "friction": {"coefficient": np.float64(0.1)}, "tip_relief": None}
+    sections["gears"] = DEMO["gears"] | {"material": DEMO["gears"]["material"] | {"youngs_modulus": "206 GPa"}}
+    plain = DEMO | {"damping": {"ratios": [0.05, 0.1]}, "friction": {"coefficient": 0.1}}
+    plain["gears"] = sections["gears"]
+    plain.pop("tip_relief", None)
+    assert build_scene(sections) == build_scene(plain)
+    assert build_scene(sections | {"damping": {"ratios": np.array([0.05, 0.1])}}) == build_scene(plain)
+
+
+def test_mistakes_are_named_by_field_and_without_lines_of_a_text_that_nobody_wrote():
+    """Authority: the messages of a file, which name lines besides."""
+    with pytest.raises(SceneError) as caught:
+        build_scene(DEMO | {"load": {"wheel_torque": 437}, "frictoin": {}}, "mine")
+    assert "mine: load.wheel_torque = 437\n    is a number without its unit." in str(caught.value)
+    assert 'mine: [frictoin]\n    is not a known section or field of a scene. Did you mean "friction"?' in str(caught.value)
+    assert str(caught.value).endswith("2 mistakes in mine. Nothing was computed or written.")
+
+
+@pytest.mark.parametrize(
+    ("sections", "said"),
+    [
+        ({"load": {"wheel_torque": object()}}, "is neither a text nor a number"),
+        ({"load": {437: "437 N m"}}, "the name 437 is no text"),
+        ({"load": {"wheel torque": "437 N m"}}, 'load.wheel torque = "437 N m"'),
+    ],
+)
+def test_what_no_file_can_hold_is_refused(sections, said):
+    """Authority: TOML, whose keys are texts and whose values are texts, numbers, truth values, lists and tables of them."""
+    with pytest.raises(SceneError, match=said):
+        build_scene(DEMO | sections)
+
+
+def test_it_is_public():
+    """Authority: the package's own list of names."""
+    assert "build_scene" in fenics_gears.__all__
+    assert all(hasattr(fenics_gears, name) for name in fenics_gears.__all__)

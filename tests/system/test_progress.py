@@ -1,0 +1,55 @@
+"""How progress is reported: lines in a log, a bar on a terminal."""
+
+import io
+
+import pytest
+
+from fenics_gears.system import progress
+
+
+class Clock:
+    """A clock that is set by hand."""
+
+    now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
+    """Authority: identity; a fifth done after 6 s leaves 24 s at the same pace."""
+    clock, stream = Clock(), io.StringIO()
+    lines = progress.LineProgress(stream, interval=5.0, clock=clock)
+    lines.stage("march")
+    for tenth in range(101):
+        clock.now = 0.1 * tenth * 3
+        lines.update(tenth, 100)
+    lines.close()
+    told = stream.getvalue().splitlines()
+    assert told[0] == "march: 17 of 100 (17 %) after 5.1 s, about 25 s left"
+    assert len(told) == 6
+    assert told[-1] == "march: 30 s"
+
+
+def test_progress_costs_nothing_to_speak_of():
+    """Count: an update between two lines looks at the clock once and writes nothing."""
+    looks = iter(range(1, 2000))
+    stream = io.StringIO()
+    lines = progress.LineProgress(stream, interval=3000.0, clock=lambda: float(next(looks)))
+    lines.stage("march")
+    before = next(looks)
+    for done in range(1000):
+        lines.update(done, 1000)
+    assert next(looks) - before == 1001 and stream.getvalue() == ""
+
+
+def test_a_bar_stops_where_the_work_stopped():
+    """Authority: issue 2; an interrupted run must not look finished."""
+    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
+    bar = progress.BarProgress(console)
+    bar.stage("condense pinion")
+    bar.stage("march")
+    bar.update(30, 100)
+    bar.close()
+    last = console.file.getvalue().rpartition("march")[2]
+    assert "30/100" in last and "100/100" not in last

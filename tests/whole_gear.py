@@ -1,0 +1,82 @@
+"""The whole gear by brute force, to compare the fast routes with: its mesh, its flank compliance, the stiffness of its ring of sectors."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense
+from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.ring import centre_motion, check_congruent, rotation, turned_nodes
+from fenics_gears.elasticity.roll_angles import node_roll_angles
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_data import Material
+from meshes.root_crack import joined_sectors
+
+
+def whole_gear_compliance(
+    mesh: BodyMesh, gear: Gear, material: Material, *, element: str = "P2", loaded_tooth: int = 0, tooth_offsets: int = 1, comm=None
+) -> FlankCompliance:
+    """Flank compliance seen by one loaded tooth of a fully meshed gear.
+
+    mesh: the whole gear with "hub" and "flank t" as in BodyMesh, all flanks meshed alike. tooth_offsets: how many teeth ahead of
+    the loaded one are known. In a body without symmetry every loaded tooth has its own.
+    Raises ComputationError where the mesh lacks a flank or the hub.
+    """
+    chosen = element_named(element)
+    teeth = [(loaded_tooth + offset) % gear.teeth for offset in range(tooth_offsets + 1)]
+    points = {f"flank {tooth}": by_radius(mesh.edge_nodes(f"flank {tooth}", chosen.order)) for tooth in teeth}
+    body = condense(mesh, chosen, material.poissons_ratio, {**points, "hub": mesh.edge_nodes("hub", chosen.order)}, comm)
+    flanks = np.concatenate([body.dofs(name) for name in points])
+    compliance = np.linalg.inv(body.stiffness[np.ix_(flanks, flanks)])
+    size = len(body.dofs(f"flank {teeth[0]}"))
+    into_frames = [np.kron(np.eye(size // 2), rotation(tooth * gear.angular_pitch)) for tooth in teeth]
+    blocks = np.stack([
+        into_frames[offset].T @ compliance[offset * size:(offset + 1) * size, :size] @ into_frames[0]
+        for offset in range(tooth_offsets + 1)
+    ])
+    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
+    vertices = by_radius(mesh.points[mesh.edge_points(f"flank {teeth[0]}")])
+    return FlankCompliance(
+        roll_angle=node_roll_angles(gear, vertices, chosen.order),
+        element_order=chosen.order,
+        blocks=blocks / material.youngs_modulus,
+        timings=body.timings,
+    )
+
+
+def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
+    """Mesh of the whole gear: ``teeth`` copies of the sector, merged along their cuts.
+
+    Tooth t stands t pitches counter-clockwise of tooth 0 and its flank is "flank t".
+    """
+    return joined_sectors([sector] * teeth)
+
+
+def ring_stiffness(sector: CondensedBody, teeth: int, loaded: tuple[int, ...]) -> np.ndarray:
+    """Stiffness (2n len(loaded) + 3, ...) over the flanks of the loaded teeth and the centre (dx, dy, phi), E = 1 MPa.
+
+    Assembled from all sectors, dense. Flank dofs are in each tooth's own frame, the centre's in that of tooth 0.
+    """
+    check_congruent(sector, teeth)
+    flank, cut = len(sector.dofs("flank")), len(sector.dofs("lower"))
+    size = teeth * (flank + cut) + 3
+    turn = turned_nodes(teeth, cut // 2)
+    total = np.zeros((size, size))
+    for tooth in range(teeth):
+        map_to_ring = np.zeros((len(sector.stiffness), size))
+        first = teeth * flank
+        ahead = first + (tooth + 1) % teeth * cut
+        map_to_ring[sector.dofs("flank"), tooth * flank + np.arange(flank)] = 1.0
+        map_to_ring[sector.dofs("lower"), first + tooth * cut + np.arange(cut)] = 1.0
+        map_to_ring[np.ix_(sector.dofs("upper"), ahead + np.arange(cut))] = turn
+        map_to_ring[np.ix_(sector.dofs("hub"), np.arange(size - 3, size))] = centre_motion(
+            sector.points["hub"], 2.0 * np.pi * tooth / teeth
+        )
+        total += map_to_ring.T @ sector.stiffness @ map_to_ring
+    kept = np.concatenate([tooth * flank + np.arange(flank) for tooth in loaded] + [np.arange(size - 3, size)])
+    free = np.setdiff1d(np.arange(size), kept)
+    eliminated = np.linalg.solve(total[np.ix_(free, free)], total[np.ix_(free, kept)])
+    stiffness = total[np.ix_(kept, kept)] - total[np.ix_(kept, free)] @ eliminated
+    return 0.5 * (stiffness + stiffness.T)
