@@ -1,6 +1,6 @@
 """The attributes of a result: what each is, and when it is there. A test holds the results of runs to this list.
 
-What may be in a result beside them: one attribute for each rung of the solver's ladder, by the prefix ``RUNG``, and one for each setting whose
+What may be in a result beside them: one attribute for each method of the solver, by the prefix ``RUNG``, and one for each setting whose
 error was estimated, by the prefix ``ESTIMATED``.
 """
 

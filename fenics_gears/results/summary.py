@@ -169,10 +169,10 @@ def _estimated_error(attributes) -> list[Row]:
 
 
 def _rungs(attributes) -> list[Row]:
-    """How often a step needed a rung of the fallback ladder beyond its route's own method; nothing where none did."""
+    """How many steps needed a fallback of their route's own method; nothing where none did."""
     own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else NEWTON
     used = {name.removeprefix(RUNG): int(count) for name, count in attributes.items() if name.startswith(RUNG)}
     used.pop(own, None)
     if not used:
         return []
-    return [("steps solved by the fallback ladder", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]
+    return [("steps solved by fallbacks", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]

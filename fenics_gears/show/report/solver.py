@@ -26,7 +26,7 @@ def solver(run: Run) -> Section:
     if rungs:
         every = sum(count for _, count in rungs)
         cells = [(name, f"{count:,}", f"{100.0 * count / every:.4g}") for name, count in rungs]
-        statistics.append(Table(("Rung of the solver", "Steps", "Share (%)"), cells, "Steps by rung"))
+        statistics.append(Table(("Method", "Steps", "Share (%)"), cells, "Steps by method of the solver"))
     blocks.append(Beside(statistics))
     if run.has_curves:
         counts = {"newton_iterations": ("Newton iterations of each step", "Iterations"), "closed_nodes": ("Closed contact nodes", "Nodes")}
