@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.lines import line_numbers
 from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Problem, line_numbers
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene

@@ -40,7 +40,7 @@ def solver(run: Run) -> Section:
 def _described(run: Run) -> Block:
     """Model, accuracy and natural frequencies; why not, where the scene needs what is not here, such as files of meshes."""
     try:
-        sections = () if run.scene is None else describe(run.scene).sections
+        sections = () if run.scene is None else describe(run.scene)
     except GearsError as error:
         return Words(f"Model and accuracy cannot be told without what the scene was run with: {str(error).splitlines()[0]}")
     return Beside([Facts(rows, heading) for heading, rows in sections if heading.startswith(DESCRIBED)])
