@@ -13,7 +13,7 @@ from fenics_gears import load_scene, simulate
 from fenics_gears.effects.body_meshes import BodyMeshes, MeshFile, located
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
+from fenics_gears.elasticity.element_sizes import element_sizes
 from meshes.root_crack import RootCrack, cracked_gear_mesh
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair

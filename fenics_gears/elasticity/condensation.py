@@ -41,7 +41,6 @@ def condense(
     element: Element,
     poissons_ratio: float,
     points: dict[str, np.ndarray],
-    comm=None,
     cells_of: dict[str, np.ndarray] | None = None,
 ) -> CondensedBody:
     """Schur complement of a body's stiffness onto groups of nodes, disjoint and given by coordinates (mm).
@@ -51,7 +50,7 @@ def condense(
     clock = perf_counter()
     compile_ahead(element)
     compiled = perf_counter()
-    space = displacement_space(mesh, element, comm)
+    space = displacement_space(mesh, element)
     matrix = stiffness_matrix(space, element, poissons_ratio)
     assembled = perf_counter()
     cells_of = cells_of or {}

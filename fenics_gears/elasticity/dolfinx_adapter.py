@@ -44,8 +44,8 @@ _CELL_NAME = {3: "triangle", 4: "quadrilateral"}
 _HAS_FUNCTIONSPACE = hasattr(fem, "functionspace")
 
 
-def create_mesh(points, cells, comm=MPI.COMM_SELF):
-    """DOLFINx mesh of straight-sided cells.
+def create_mesh(points, cells):
+    """DOLFINx mesh of straight-sided cells, on this process alone.
 
     points: (n, 2), mm. cells: (m, 3) or (m, 4), corners counter-clockwise.
     """
@@ -56,7 +56,7 @@ def create_mesh(points, cells, comm=MPI.COMM_SELF):
     ordered = np.ascontiguousarray(cells[:, _CORNER_ORDER[corners]], dtype=np.int64)
     coordinates = np.ascontiguousarray(points, dtype=np.float64)
     return dolfinx.mesh.create_mesh(
-        comm, cells=ordered, x=coordinates, **{element_name: domain}
+        MPI.COMM_SELF, cells=ordered, x=coordinates, **{element_name: domain}
     )
 
 

@@ -20,7 +20,7 @@ from fenics_gears.elasticity.ring import cut_response, turned_nodes
 from fenics_gears.errors import ComputationError
 
 
-def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None) -> CondensedBody:
+def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> CondensedBody:
     """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" (both without hub nodes) and "hub"."""
     hub = mesh.edge_nodes("hub", element.order)
     points = {
@@ -29,7 +29,7 @@ def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float, comm
         "centreline": by_radius(without(mesh.edge_nodes("centreline", element.order), hub)),
         "hub": hub,
     }
-    return condense(mesh, element, poissons_ratio, points, comm)
+    return condense(mesh, element, poissons_ratio, points)
 
 
 def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach) -> tuple[np.ndarray, np.ndarray]:

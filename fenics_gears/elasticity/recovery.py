@@ -8,13 +8,13 @@ sector from its two cuts by one more solve.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import Element, element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.nodal_stress import nodal_stress
 from fenics_gears.elasticity.ring import check_congruent, rotation
@@ -44,11 +44,11 @@ class GearRecovery:
     gear, material: lengths in mm, MPa. mesh: the sector that its compliance was computed on, in modules. Use it in a `with`, or `close` it.
     """
 
-    def __init__(self, gear: Gear, material: Material, mesh: BodyMesh, element: Element, comm=None):
+    def __init__(self, gear: Gear, material: Material, mesh: BodyMesh, element: Element):
         self.gear, self.material, self.element = gear, material, element
-        self.interior = SectorInterior(mesh, element, material.poissons_ratio, comm)
+        self.interior = SectorInterior(mesh, element, material.poissons_ratio)
         self.nodal_stress = nodal_stress(self.interior.nodes, material.poissons_ratio)
-        self._same, self._ahead = self._cut_stiffness(mesh, comm)
+        self._same, self._ahead = self._cut_stiffness(mesh)
 
     def __enter__(self) -> GearRecovery:
         return self
@@ -131,10 +131,10 @@ class GearRecovery:
             harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
         return np.fft.irfft(harmonics, n=self.gear.teeth, axis=0)
 
-    def _cut_stiffness(self, mesh: BodyMesh, comm) -> tuple[np.ndarray, np.ndarray]:
+    def _cut_stiffness(self, mesh: BodyMesh) -> tuple[np.ndarray, np.ndarray]:
         points = self.interior.nodes.points
         groups = {name: points[getattr(self.interior, name)] for name in ("lower", "upper", "hub")}
-        sector = condense(mesh, self.element, self.material.poissons_ratio, groups, comm)
+        sector = condense(mesh, self.element, self.material.poissons_ratio, groups)
         check_congruent(sector, self.gear.teeth)
         turn = np.kron(np.eye(len(groups["upper"])), rotation(self.gear.angular_pitch))
         same = sector.between("lower", "lower") + turn.T @ sector.between("upper", "upper") @ turn
@@ -174,21 +174,10 @@ class GearRecovery:
         return hub[[np.argmin(np.abs(np.angle(np.exp(1j * (ends - angle)))))]]
 
 
-def gear_recovery(
-    gear: Gear,
-    material: Material,
-    *,
-    element: str,
-    flank_element_size: float,
-    body_element_size: float | None = None,
-    coast_flank: bool = False,
-    comm=None,
-) -> GearRecovery:
+def gear_recovery(gear: Gear, material: Material, discretisation: Discretisation, coast_flank: bool = False) -> GearRecovery:
     """A gear's recovery on the very mesh that `flank_compliance` has with the same settings."""
-    chosen = element_named(element)
-    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
-    mesh = sector_mesh(gear.of_module_one, sizes.in_modules_of(gear), chosen.quadrilateral)
-    return GearRecovery(gear, material, mesh, chosen, comm)
+    element, sizes = element_named(discretisation.element), discretisation.sizes(gear, both_flanks=coast_flank)
+    return GearRecovery(gear, material, sector_mesh(gear.of_module_one, sizes.in_modules_of(gear), element.quadrilateral), element)
 
 
 def turned_stress(stress: np.ndarray, angle: float) -> np.ndarray:

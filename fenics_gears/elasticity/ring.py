@@ -19,7 +19,7 @@ from fenics_gears.errors import ComputationError
 
 
 def condensed_sector(
-    mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None, flank: np.ndarray | None = None
+    mesh: BodyMesh, element: Element, poissons_ratio: float, flank: np.ndarray | None = None
 ) -> CondensedBody:
     """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
 
@@ -32,7 +32,7 @@ def condensed_sector(
         "upper": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
         "hub": hub,
     }
-    return condense(mesh, element, poissons_ratio, points, comm)
+    return condense(mesh, element, poissons_ratio, points)
 
 
 def check_congruent(sector: CondensedBody, teeth: int) -> None:

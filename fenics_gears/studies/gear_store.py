@@ -76,10 +76,8 @@ def has_gears(model: Model) -> bool:
 
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
-    resolution = model.resolution
-    sizes = resolution.flank_element_size, resolution.body_element_size
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(model.pair, name), model.scene.gears.material_of(name), resolution.element, sizes, reach, resolution.elastic_teeth, own
+    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, own
 
 
 def cycle_key(model: Model) -> tuple:
@@ -87,10 +85,7 @@ def cycle_key(model: Model) -> tuple:
     scene, resolution = model.scene, model.resolution
     accuracy = (
         resolution.condensation,
-        resolution.element,
-        resolution.flank_element_size,
-        resolution.body_element_size,
-        resolution.elastic_teeth,
+        resolution.discretisation,
         resolution.contact_grid,
         resolution.steps_per_mesh_cycle,
     )
