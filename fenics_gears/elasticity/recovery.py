@@ -17,7 +17,7 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.nodal_stress import nodal_stress
-from fenics_gears.elasticity.ring import check_congruent, rotation
+from fenics_gears.elasticity.ring import cyclic, rotation, sector_cuts
 from fenics_gears.elasticity.sector_interior import SectorInterior, dofs_of
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
@@ -135,10 +135,8 @@ class GearRecovery:
         points = self.interior.nodes.points
         groups = {name: points[getattr(self.interior, name)] for name in ("lower", "upper", "hub")}
         sector = condense(mesh, self.element, self.material.poissons_ratio, groups)
-        check_congruent(sector, self.gear.teeth)
-        turn = np.kron(np.eye(len(groups["upper"])), rotation(self.gear.angular_pitch))
-        same = sector.between("lower", "lower") + turn.T @ sector.between("upper", "upper") @ turn
-        return same, sector.between("lower", "upper") @ turn
+        cuts, turn = sector_cuts(sector, self.gear.teeth)
+        return cyclic(turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn)
 
     def _hub_force(self, unit: np.ndarray) -> np.ndarray:
         """Sum over the sectors of the hub's forces on them, (3,)."""
