@@ -45,7 +45,7 @@ def condense(
 ) -> CondensedBody:
     """Schur complement of a body's stiffness onto groups of nodes, disjoint and given by coordinates (mm).
 
-    cells_of: for groups of which nodes may be in one place, as on the faces of a crack, the centre (k, 2) of a cell of each node.
+    cells_of: for groups with several nodes in one place, as on the faces of a crack, the centre (k, 2) of a cell of each node.
     """
     clock = perf_counter()
     compile_ahead(element)
@@ -76,6 +76,6 @@ def by_radius(points: np.ndarray) -> np.ndarray:
 
 
 def without(points: np.ndarray, excluded: np.ndarray) -> np.ndarray:
-    """Those of points (k, 2) that are none of the excluded (j, 2)."""
+    """Points (k, 2) without the excluded ones (j, 2)."""
     distance = np.linalg.norm(points[:, None] - excluded[None], axis=-1).min(axis=1)
     return points[distance > 1e-9 * np.abs(points).max()]

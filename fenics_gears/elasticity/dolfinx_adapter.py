@@ -1,4 +1,4 @@
-"""The only module that knows DOLFINx: what the program uses of it, alike on 0.5, 0.9 and 0.11."""
+"""The only module that imports DOLFINx: what the program uses of it, alike on 0.5, 0.9 and 0.11."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def node_coordinates(space) -> np.ndarray:
 
 
 def constant(mesh, value: float):
-    """Number in a form that may change without compiling the form again."""
+    """Number in a form; it may change without compiling the form again."""
     return fem.Constant(mesh, PETSc.ScalarType(value))
 
 
@@ -117,7 +117,7 @@ def quiet_compiler():
 def with_compiled(build):
     """Call ``build()``, which compiles; where a compile was once killed halfway, remove what it left and call it again.
 
-    The form compiler takes the source file of a killed compile for one under way, waits 10 s and names the file.
+    The form compiler believes that a killed compile is still under way; it waits 10 s and names the source file in its error.
     """
     try:
         return build()

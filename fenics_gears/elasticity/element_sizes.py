@@ -1,4 +1,4 @@
-"""How large the elements are, and where: fine at the flank, growing away from it."""
+"""Sizes of the elements over a sector: fine at the flank, growing away from it."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ class ElementSizes:
     hub_angle: float = HUB_ANGLE
 
     def refined(self, factor: float) -> ElementSizes:
-        """All but the flank `factor` times as large, so that the meshes of several factors are one family, whose error falls with an order.
+        """All sizes but the flank's times `factor`: meshes of several factors are one family, whose error falls with an order.
 
-        Growth inwards stays within what elements bear, and the bore keeps its edges where the others are made larger.
+        Growth inwards is limited, so that elements do not become slivers; edges along the bore are never made larger.
         """
         return replace(
             self, fillet=factor * self.fillet, coast=factor * self.coast, body=factor * self.body,
@@ -84,7 +84,7 @@ class Discretisation:
 def element_sizes(gear: Gear, element: Element, flank: float, body: float | None = None) -> ElementSizes:
     """Element sizes (mm) of a gear's sector mesh for a wanted size on the flank and, if not None, in the body.
 
-    With the body's size all others but the flank's are made larger or smaller than by default, as much as it is. Raises SceneError for a
+    The body's size scales all others but the flank's by the same factor. Raises SceneError for a
     size that is not positive and finite.
     """
     for name, size in (("flank_element_size", flank), ("body_element_size", body)):
@@ -108,7 +108,7 @@ class SizeSource:
 
 @dataclass(frozen=True)
 class SizeField:
-    """The smallest size that any source asks for, at most ``largest`` (mm)."""
+    """The smallest of the sizes of all sources, at most ``largest`` (mm)."""
 
     sources: tuple[SizeSource, ...]
     largest: float
@@ -124,7 +124,7 @@ class SizeField:
     def set_background(self, gmsh, points, tags, scale: float) -> None:
         """Make ``scale`` times this field the mesh size of the current gmsh model.
 
-        points: (n, 2) and tags: (n,) of the model's geometric points. Of the sources, those points count that are among them.
+        points: (n, 2) and tags: (n,) of the model's geometric points; other points of the sources are ignored.
         """
         lookup, fields = cKDTree(points), []
         for source in self.sources:
@@ -149,13 +149,17 @@ class SizeField:
         gmsh.model.mesh.field.setAsBackgroundMesh(smallest)
 
 
+def arc_lengths(curve: np.ndarray) -> np.ndarray:
+    """Lengths (m,) along a finely sampled curve (m, 2) from its first point."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+
+
 def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2) -> np.ndarray:
     """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand.
 
     A multiple of ``multiple`` divisions, at least ``fewest``, both ends included.
     """
-    steps = np.linalg.norm(np.diff(curve, axis=0), axis=1)
-    length = np.concatenate([[0.0], np.cumsum(steps)])
+    length, steps = arc_lengths(curve), np.linalg.norm(np.diff(curve, axis=0), axis=1)
     density = np.concatenate([[0.0], np.cumsum(steps * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])
     count = multiple * int(np.ceil(max(density[-1], fewest) / multiple - 1e-9))
     return np.interp(np.linspace(0.0, density[-1], count + 1), density, length) / length[-1]
@@ -163,5 +167,5 @@ def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2)
 
 def along(curve: np.ndarray, fractions: np.ndarray) -> np.ndarray:
     """Points (k, 2) of a finely sampled curve (m, 2) at fractions (k,) of its arc length."""
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+    length = arc_lengths(curve)
     return np.stack([np.interp(fractions * length[-1], length, curve[:, i]) for i in range(2)], axis=-1)

@@ -1,4 +1,4 @@
-"""From gear data to flank compliance: the stages of the elastic model of a gear."""
+"""Flank compliance of a gear from its data: mesh one sector, condense it, join the ring; or read it from the cache."""
 
 from __future__ import annotations
 
@@ -31,46 +31,49 @@ def flank_compliance(
     reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an unknown element or an
     impossible size, ComputationError when a stage fails.
     """
-    chosen, elastic_teeth = element_named(discretisation.element), discretisation.elastic_teeth
+    chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)
     _check(gear, material, reach)
     similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
     clock = perf_counter()
-    felt = reach if elastic_teeth is None else _within(reach, elastic_teeth - 1)
+    coupled = _coupled(reach, discretisation.elastic_teeth)
     key = content_key({
         "version": ALGORITHM_VERSION,
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "element": chosen.name,
         "sizes": asdict(sizes),
-        "reach": asdict(felt),
+        "reach": asdict(coupled),
     })
     arrays = cache.load(key) if cache is not None else None
     if arrays is not None:
         unit = _from_arrays(arrays, chosen.order)
         timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
     else:
-        unit, timings = _computed(similar, chosen, sizes, material.poissons_ratio, felt)
+        unit, timings = _computed(similar, chosen, sizes, material.poissons_ratio, coupled)
         if cache is not None:
             cache.store(key, _as_arrays(unit))
     found = replace(_scaled(unit, 1.0 / material.youngs_modulus), timings={**unit.timings, **timings})
-    return found if felt == reach else with_unfelt_teeth(found, reach.farthest)
+    return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
 
 
-def _within(reach: Reach, felt: int) -> Reach:
-    """What is left of a reach where teeth farther apart than `felt` pitches do not feel each other; all of that, where anything is left out."""
-    return reach if reach.farthest <= felt else Reach(felt, reach.across and (-felt, felt))
+def _coupled(reach: Reach, elastic_teeth: int | None) -> Reach:
+    """The part of a reach within which teeth feel each other (`Discretisation`)."""
+    if elastic_teeth is None or reach.farthest < elastic_teeth:
+        return reach
+    farthest = elastic_teeth - 1
+    return Reach(farthest, reach.across and (-farthest, farthest))
 
 
-def with_unfelt_teeth(body: FlankCompliance, offsets: int) -> FlankCompliance:
-    """The compliance over more offsets, zero for teeth further away than those that are known.
+def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankCompliance:
+    """The compliance over more offsets, zero for teeth farther away than those that are known.
 
-    Raises SceneError where what is left is no compliance: the load of teeth whose coupling is left out in part would do negative work.
+    Raises SceneError where the result is not positive definite: loads on the teeth would then do negative work.
     """
-    known, unfelt = body.offsets, np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
-    padded = replace(body, blocks=np.concatenate([body.blocks, unfelt]))
+    known, zeros = body.offsets, np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
+    padded = replace(body, blocks=np.concatenate([body.blocks, zeros]))
     if isinstance(body, BothFlanksCompliance):
-        padded = replace(padded, across=np.concatenate([unfelt, body.across, unfelt]), first_across=-offsets)
+        padded = replace(padded, across=np.concatenate([zeros, body.across, zeros]), first_across=-offsets)
     if known:
         whole = np.block([[padded.block(a - b) for b in range(offsets + 1)] for a in range(offsets + 1)])
         try:
@@ -93,7 +96,7 @@ def _check(gear: Gear, material: Material, reach: Reach) -> None:
 
 
 def _as_arrays(body: FlankCompliance) -> dict[str, np.ndarray]:
-    """What the cache keeps of a compliance for Young's modulus 1 MPa."""
+    """Arrays for the cache of a compliance for Young's modulus 1 MPa."""
     arrays = {
         "roll_angle": body.roll_angle,
         "same_tooth": packed(body.blocks[:1]),
@@ -133,7 +136,7 @@ def unpacked(triangles: np.ndarray) -> np.ndarray:
 
 
 def _scaled(body: FlankCompliance, factor: float) -> FlankCompliance:
-    """The compliance times a number; nobody else has the arrays, which are as large as all else together."""
+    """The compliance times a number, in place: the arrays are large, and nothing else refers to them."""
     np.multiply(body.blocks, factor, out=body.blocks)
     if isinstance(body, BothFlanksCompliance):
         np.multiply(body.across, factor, out=body.across)
@@ -141,7 +144,7 @@ def _scaled(body: FlankCompliance, factor: float) -> FlankCompliance:
 
 
 def _computed(gear, element, sizes, poissons_ratio, reach):
-    """Compliance for Young's modulus 1 MPa, and what it took."""
+    """Compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius
     from fenics_gears.elasticity.roll_angles import node_roll_angles

@@ -1,7 +1,7 @@
 """A gear of symmetric tooth sectors, both of whose flanks are loaded: half a sector condensed, the other half by symmetry.
 
-Motions of a symmetric sector are sums of those that are their own mirror image and of those that are its negative. They do not feel one
-another, so that each has a stiffness of half the size: on the centreline the former do not move across it, the latter not along it.
+Every motion of a symmetric sector is the sum of a symmetric and an antisymmetric one. The two are uncoupled, and each has a stiffness
+of half the size: on the centreline the symmetric one does not move across it, the antisymmetric one not along it.
 With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s s + a^T S_a a`` where
 ``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half and ``(R_s - R_a) / 2`` across.
 """
@@ -43,7 +43,7 @@ def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, re
     turn, mirror = turned_nodes(teeth, nodes), np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
     link = np.block([[mirror @ cut @ mirror, mirror @ cut_cross @ turn], [turn.T @ cut_cross.T @ mirror, turn.T @ cut @ turn]])
     joint = cut_response(link, teeth, reach.farthest + 1)
-    # Forces on either flank reach the lower and the upper cut, whose motions are those in the frame of the lower one.
+    # From forces on either flank to the lower and the upper cut, both in the frame of a lower cut.
     drive, coast = np.hstack([to_cut_cross @ mirror, to_cut @ turn]), np.hstack([to_cut @ mirror, to_cut_cross @ turn])
 
     first, last = reach.across

@@ -1,8 +1,7 @@
-"""From forces on a gear's flanks to the displacement and stress of its whole body.
+"""Displacement and stress of a gear's whole body from the forces on its flanks.
 
-The flank compliance holds what the teeth do at their flanks; what it left out is solved back. Loads inside a sector reach its cuts by one
-solve with the factored sector, the cuts of all sectors follow from the ring's cyclic system (`elasticity.ring`), and the inside of each
-sector from its two cuts by one more solve.
+Three solves: loads inside a sector are brought to its cuts by the factored sector; the ring's cyclic system (`elasticity.ring`) moves the
+cuts of all sectors; from its two cuts the inside of each sector follows by the factored sector again.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ class RecoveredBody:
     """A gear's sectors under load, the hub held: sector s stands s pitches counter-clockwise of the first, each in its own tooth's frame.
 
     displacement: (teeth, n, 2), mm. stress: (teeth, n, 3), MPa: xx, yy, xy at the nodes, averaged over the elements that meet there,
-    those of the neighbouring sector at a cut included. hub_force: (3,), N per mm of face width and N: forces and couple of the hub on
+    those of the neighbouring sector at a cut included. hub_force: (3,), N per mm of face width and N: forces and torque of the hub on
     the body, in the frame of sector 0, about the gear's centre.
     """
 

@@ -1,4 +1,4 @@
-"""The stiffness of a gear at all positions of a mesh cycle, meshed anew at each, shared out between MPI ranks."""
+"""Stiffness of a gear at all positions of a mesh cycle, meshed anew at each; MPI ranks share the positions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ALGORITHM_VERSION = 2
 
 @dataclass(frozen=True)
 class RemeshedStiffness:
-    """A gear's stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, at each position; `timings`: what it cost (s)."""
+    """A gear's stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, at each position; `timings` (s)."""
 
     positions: list[np.ndarray]
     timings: dict
@@ -85,14 +85,14 @@ def _computed(gear, material, discretisation, positions, mine, report) -> tuple[
 
 
 def _shared(compute, count: int, comm) -> tuple[dict[int, np.ndarray], dict]:
-    """All ranks' positions on rank 0, none on the others, and the largest of their times; a failure on one is raised on all."""
+    """All ranks' positions on rank 0, none on the others, and the longest of their times; a failure on one is raised on all."""
     if comm is None:
         return compute(range(count))
     failure, mine, times = None, {}, {}
     try:
         mine, times = compute(range(comm.rank, count, comm.size))
     except Exception as error:
-        # Whatever it is, the other ranks wait to be told.
+        # Of any kind: the other ranks wait in allgather and would hang.
         failure = f"rank {comm.rank}: {error}" if isinstance(error, GearsError) else f"rank {comm.rank}: {type(error).__name__}: {error}"
     failures = [each for each in comm.allgather(failure) if each is not None]
     if failures:

@@ -2,8 +2,8 @@
 
 Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
 ``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
-exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. Of many teeth that are not asked for runs of
-sectors are joined instead (`elasticity.cut_chain`).
+exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with many teeth runs of sectors are
+joined instead, which is quicker (`elasticity.cut_chain`).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from fenics_gears.errors import ComputationError
 def condensed_sector(
     mesh: BodyMesh, element: Element, poissons_ratio: float, flank: np.ndarray | None = None
 ) -> CondensedBody:
-    """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
+    """A sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
 
     flank: (k, 2), mm, nodes to keep of the flank or flanks; all of the drive flank's, by radius, when None.
     """

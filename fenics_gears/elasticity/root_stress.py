@@ -1,7 +1,7 @@
 """Stress in a tooth's fillets per force on the flanks: a row for each fillet point, so that a time step's stress is one small product.
 
-The rows come by reciprocity (Betti): the load that stands for a fillet point's stress moves the flanks by what forces there do to that
-stress. One solve for each fillet point serves all flank nodes of all teeth.
+The rows come by reciprocity (Betti): under the load that is dual to the stress at a fillet point, the displacement of the flanks is that
+stress per unit force on them. One solve for each fillet point serves all flank nodes of all teeth.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""From the mesh of a whole gear to its flank compliance: each tooth's part condensed by PETSc, the parts joined exactly.
+"""Flank compliance of a gear meshed as a whole: each tooth's part is condensed by PETSc, the parts are joined exactly.
 
 With F the flank dofs of part t and I the interface dofs of all parts, block inversion gives the compliance between flanks as
 ``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, where ``X_t = S_FF^-1 S_FI`` of part t and ``J = sum_t (S_II - S_IF S_FF^-1 S_FI)``
@@ -67,7 +67,7 @@ def whole_body_compliance(
 def _key(mesh: BodyMesh, gear: Gear, material: Material, element: Element, tooth_offsets: int) -> str:
     import hashlib
 
-    # The mesh by its points' and cells' own bytes: written out as numbers it would have megabytes.
+    # By the bytes of points and cells: as text the mesh would take megabytes.
     content = hashlib.sha256()
     for array in (mesh.points, mesh.cells.astype(np.int64)):
         content.update(np.ascontiguousarray(array).tobytes())
