@@ -83,12 +83,7 @@ def gear_key(model: Model, name: str, reach: Reach) -> tuple:
 def cycle_key(model: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on."""
     scene, resolution = model.scene, model.resolution
-    accuracy = (
-        resolution.condensation,
-        resolution.discretisation,
-        resolution.contact_grid,
-        resolution.steps_per_mesh_cycle,
-    )
+    accuracy = resolution.condensation, resolution.discretisation, resolution.contact_grid, resolution.steps_per_mesh_cycle
     in_operators = tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.corner or effect.elasticity)
-    model = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, model), tuple(model.drivetrain.indices), scene.friction is not None
+    springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs), tuple(model.drivetrain.indices), scene.friction is not None
