@@ -76,24 +76,14 @@ def has_gears(model: Model) -> bool:
 
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
-    resolution = model.resolution
-    sizes = resolution.flank_element_size, resolution.body_element_size
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(model.pair, name), model.scene.gears.material_of(name), resolution.element, sizes, reach, resolution.elastic_teeth, own
+    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, own
 
 
 def cycle_key(model: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on."""
     scene, resolution = model.scene, model.resolution
-    accuracy = (
-        resolution.condensation,
-        resolution.element,
-        resolution.flank_element_size,
-        resolution.body_element_size,
-        resolution.elastic_teeth,
-        resolution.contact_grid,
-        resolution.steps_per_mesh_cycle,
-    )
+    accuracy = resolution.condensation, resolution.discretisation, resolution.contact_grid, resolution.steps_per_mesh_cycle
     in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.elasticity))
-    mesh = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, mesh), tuple(model.drivetrain.indices), scene.friction is not None
+    springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs), tuple(model.drivetrain.indices), scene.friction is not None

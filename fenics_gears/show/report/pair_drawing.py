@@ -117,7 +117,7 @@ def _points(pair: GearPair, coast: bool) -> dict[str, float]:
     alone = pair.fewest_pairs == 1
     ends = ("end of contact", "start of contact") if coast else ("start of contact", "end of contact")
     names = (ends[0], "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", ends[1])
-    places = (pair.path_start, pair.start_of_fewest_pairs, pair.pitch_point, pair.end_of_fewest_pairs, pair.path_end)
+    places = (pair.path_start, pair.lpstc, pair.pitch_point, pair.hpstc, pair.path_end)
     return {name: place for name, place in zip(names, places) if name}
 
 

@@ -12,9 +12,8 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
-from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import Material, Scene
+from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 
@@ -27,10 +26,9 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
     run: of `scene`, with contact nodes on the flanks; cycle: the one that it had.
     """
     model = model_of(scene)
-    resolution = model.resolution
     rows = _rows(
-        model.pair.pinion, scene.gears.material_of("pinion"), resolution.element, resolution.flank_element_size, resolution.body_element_size,
-        tooth_reach(model).farthest + 1, scene.coast_flanks is not None,
+        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation, tooth_reach(model).farthest + 1,
+        scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
     steps = range(run.sizes["contact_time"] - cycle.steps, run.sizes["contact_time"])
@@ -52,10 +50,4 @@ def _stress(point: np.ndarray, stored: StoredForces, model) -> float:
     return float(np.max(of_teeth, initial=0.0))
 
 
-@lru_cache(maxsize=64)
-def _rows(
-    pinion: Gear, material: Material, element: str, flank: float, body: float | None, reach: int, coast_flank: bool,
-) -> RootStressRows:  # fmt: skip
-    return root_stress_rows(
-        pinion, material, element=element, flank_element_size=flank, body_element_size=body, reach=reach, coast_flank=coast_flank,
-    )  # fmt: skip
+_rows = lru_cache(maxsize=64)(root_stress_rows)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Scene

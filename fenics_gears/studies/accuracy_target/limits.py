@@ -7,7 +7,7 @@ from math import inf
 
 import numpy as np
 
-from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.errors import ComputationError
 from fenics_gears.model.cost import flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
 from fenics_gears.model.model import MOST_STORED_BYTES, Model, model_of
