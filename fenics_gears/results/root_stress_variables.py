@@ -1,4 +1,4 @@
-"""Root stress in the result: the stress along the surface of both fillets of every loaded tooth, over time."""
+"""Root stress in the result: stress along the surface of both fillets of each loaded tooth, over time."""
 
 from __future__ import annotations
 

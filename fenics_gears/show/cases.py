@@ -26,7 +26,7 @@ STATES = ("done", "warnings", "failed", "missing")
 
 
 @dataclass(frozen=True)
-class Field:
+class SweptField:
     """A swept field: its path in the scene, its unit, its value in each case (n,), numbers (not a number where it is absent) or words."""
 
     name: str
@@ -79,7 +79,7 @@ class Cases:
         return int(self.dataset["failed"].size)
 
     @cached_property
-    def fields(self) -> list[Field]:
+    def fields(self) -> list[SweptField]:
         """The swept fields, the last one turning fastest."""
         shape, found = self.dataset["failed"], []
         for name, coordinate in self.dataset.coords.items():
@@ -87,7 +87,7 @@ class Cases:
                 continue
             spread = coordinate.broadcast_like(shape).transpose(*shape.dims)
             unit = str(coordinate.attrs.get("units", ""))
-            found.append(Field(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit.replace("um", "µm"), spread.values.ravel()))
+            found.append(SweptField(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit.replace("um", "µm"), spread.values.ravel()))
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
         return sorted(found, key=lambda field: order.get(field.name, 0))
 

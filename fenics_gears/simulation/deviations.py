@@ -1,4 +1,4 @@
-"""What effects add to the gaps of a mesh cycle from step to step."""
+"""Effects that change the gaps of a mesh cycle from step to step, such as run-out and flank errors."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from fenics_gears.model.model import Model
 
 
 def deviating(model: Model, cycle: Cycle) -> Cycle:
-    """The cycle with what the scene's effects add to its gaps from step to step."""
+    """The cycle with the gaps that the scene's effects add at each step; the cycle itself where none does."""
     scene = model.scene
     effects = [effect for effect in effects_on(scene) if effect.gaps is not None]
     if not effects:

@@ -15,7 +15,7 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.studies.record import Record, record_of
+from fenics_gears.studies.record import CaseRecord, record_of
 from fenics_gears.studies.study import Case, Study
 from fenics_gears.system.output import written_aside
 
@@ -23,7 +23,7 @@ LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"
 
 
-def save_case(run: xr.Dataset, case: Case, directory: Path) -> Record:
+def save_case(run: xr.Dataset, case: Case, directory: Path) -> CaseRecord:
     """Write the run of a case, aside first, and return its record; a note on an earlier failure goes."""
     record = record_of(run)
     attributes = {"case_key": case.key, "case_values": json.dumps(case.values), "record_digest": record.digest()}
@@ -43,7 +43,7 @@ def save_failure(case: Case, reason: str, details: str, directory: Path) -> None
         LOGGER.warning("%s: the note on its failure could not be written: %s", case, error)
 
 
-def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, Record]:
+def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, CaseRecord]:
     """Records, by the case's index, of the cases whose whole and undamaged runs are there.
 
     A file whose case has another index by now gets its new name.
@@ -60,7 +60,7 @@ def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, Record]:
     return found
 
 
-def _undamaged(path: Path, case: Case) -> Record | None:
+def _undamaged(path: Path, case: Case) -> CaseRecord | None:
     try:
         run = results.load(path)
         record = record_of(run)

@@ -16,7 +16,7 @@ from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
-from fenics_gears.studies.record import CURVES, Record
+from fenics_gears.studies.record import CURVES, CaseRecord
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.work import Failure
 from fenics_gears.system.output import written_aside
@@ -36,7 +36,7 @@ NUMBERS = {
 }
 
 
-def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int, Failure]) -> xr.Dataset:
+def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, Failure]) -> xr.Dataset:
     """One dataset of a study's cases so far; NaN where a case has no result, or not that number.
 
     The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed and
@@ -77,7 +77,7 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
     )
 
 
-def _further(records: Mapping[int, Record]) -> dict[str, tuple[str, str]]:
+def _further(records: Mapping[int, CaseRecord]) -> dict[str, tuple[str, str]]:
     """Units and long name of the numbers besides that some record has."""
     known = {name for record in records.values() for name in record.numbers}
     return {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
@@ -110,7 +110,7 @@ def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
     return axis.name, (axis.name if study.combine == "product" else "case", values, attributes)
 
 
-def _curves(study: Study, records: Mapping[int, Record]) -> tuple[dict[str, tuple], str]:
+def _curves(study: Study, records: Mapping[int, CaseRecord]) -> tuple[dict[str, tuple], str]:
     """The curves that some case has, over the study's dimensions and the mesh phase; or why there are none."""
     if not records:
         return {}, "none: no case has a result"

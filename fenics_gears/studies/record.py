@@ -18,7 +18,7 @@ CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "n
 
 
 @dataclass(frozen=True)
-class Record:
+class CaseRecord:
     """Numbers and curves of one run.
 
     `numbers`: by name, those of `STUDIED` that the run has among them; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
@@ -41,7 +41,7 @@ class Record:
         return digest.hexdigest()
 
 
-def record_of(run: xr.Dataset) -> Record:
+def record_of(run: xr.Dataset) -> CaseRecord:
     """The record of a complete run; the wall time is the attribute `wall_time`, s."""
     numbers = {
         "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
@@ -56,4 +56,4 @@ def record_of(run: xr.Dataset) -> Record:
     phase = last["mesh_phase"].values
     curves = {name: last[name].values for name in CURVES if name in run}
     labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
-    return Record(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))
+    return CaseRecord(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))

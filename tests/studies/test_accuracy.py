@@ -159,7 +159,7 @@ def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, m
     coarse = {"flank elements": 0.7, "contact nodes": 0.7, "body elements": 4.0, "steps": 4}
     monkeypatch.setattr(refinement, "REMESHED_FINE", coarse)
     assert [each.name for each in refinement.refinements(scene)][-1] == "condensation"
-    study = reports.Study(scene, reports.SilentProgress(), True, 1)
+    study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)
     study.refinements = (refinement.condensation(scene),)
     (result,) = study.refine()
     anew, once = result.levels
@@ -182,7 +182,7 @@ def test_the_energy_account_closes_to_round_off(report):
 def test_the_sentence_says_no_more_than_the_reference_can(report):
     """Authority: the reference's uncertainty; a target below it is not claimed."""
     said = table.in_one_sentence(replace(report, uncertainty=dict.fromkeys(MEASURES, 0.004)))
-    assert "0.1 % cannot be told" in said and said.startswith("1 % in T_E")
+    assert "0.1 % cannot be judged" in said and said.startswith("1 % in T_E")
     assert f"what limits you is the {table.largest_part(report.own.parts)}" in said
     cheap = replace(report.settings[0], errors=dict.fromkeys(MEASURES, 1e-4), parts={"steps per mesh cycle": 2e-4})
     sure = replace(report, settings=(replace(report.own), cheap), uncertainty=dict.fromkeys(MEASURES, 1e-5))
@@ -218,7 +218,7 @@ def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypat
         return run_sharing(scene, gears)
 
     monkeypatch.setattr(reports, "run_sharing", fails)
-    study = reports.Study(scene, reports.SilentProgress(), True, 1)
+    study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)
     study.refinements = tuple(each for each in study.refinements if each.name == "interpolation")
     (result,) = study.refine()
     assert [each.level.label for each in result.levels] == ["averaged"]

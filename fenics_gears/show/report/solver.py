@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fenics_gears.errors import GearsError
 from fenics_gears.model.description import describe
+from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.summary import solver_rows, stage_rows
 from fenics_gears.show.chart import over_time
 from fenics_gears.show.panels import PALETTE
@@ -12,7 +13,6 @@ from fenics_gears.show.run import Run
 
 # What `gears check` says of a scene that is not said elsewhere on the page.
 DESCRIBED = ("Model", "Accuracy", "Natural frequencies")
-RUNG = "steps_by_rung: "
 
 
 def solver(run: Run) -> Section:

@@ -1,4 +1,4 @@
-"""A report as a table for people, in words, and as CSV."""
+"""The report of `gears accuracy` as tables, in words, and as CSV."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from pathlib import Path
 
 from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.measures import MEASURES, judged
-from fenics_gears.studies.accuracy.report import RefinementResult, Report, WholeResult
+from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import STAGES, Times
 
-# Measures whose orders are told.
+# Measures whose observed orders are shown.
 ORDERED = ("T_E", "T_EPP", "root stress")
 HEADINGS = ("setting", "value", *MEASURES, "time", "order T_E", *ORDERED[1:], "expected")
 UNITS = ("", "", *["%"] * len(MEASURES), "s", *[""] * len(ORDERED), "")
 WHOLE_HEADINGS = ("whole setting", "charged", *MEASURES, "mesh", "condense", "march", "time", "what limits it")
 WHOLE_UNITS = ("", "%", *["%"] * len(MEASURES), "s", "s", "s", "s", "")
 TARGETS = (0.01, 0.001)
-# An order this far from the expected one is said.
+# An order further than this from the expected one gets a remark.
 ORDER_OFF = 0.5
 
 
-def table_rows(report: Report) -> list[tuple[str, ...]]:
+def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
     """A row for each level; a setting's name and orders stand in its first."""
     rows = []
     for result in report.refinements:
@@ -35,7 +35,7 @@ def table_rows(report: Report) -> list[tuple[str, ...]]:
     return rows
 
 
-def whole_rows(report: Report) -> list[tuple[str, ...]]:
+def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
     """A row for each whole setting and cheaper model; those of the Pareto front are marked."""
     front = report.front
     rows = []
@@ -75,19 +75,19 @@ def limits_it(each: WholeResult) -> str:
     return largest_part(each.parts) if each.parts else "the model"
 
 
-def in_one_sentence(report: Report) -> str:
-    """What the user wants to know: what an error costs, and what limits her own setting."""
+def in_one_sentence(report: AccuracyReport) -> str:
+    """What an error of 1 % and of 0.1 % costs, and what limits the scene's own setting."""
     costs = "; ".join(_cost(report, target) for target in TARGETS if target >= report.floor)
     missed = [f"{100 * target:g} %" for target in TARGETS if target < report.floor]
     if missed:
-        told = f"{' and '.join(missed)} cannot be told, for the reference itself is uncertain by {percent(report.floor)} %"
+        told = f"{' and '.join(missed)} cannot be judged, for the reference itself is uncertain by {percent(report.floor)} %"
         costs = "; ".join(filter(None, (costs, told, _best(report) if len(missed) == len(TARGETS) else "")))
     mine = report.own
     worst = largest_part(mine.parts)
     return f"{costs}; what limits you is the {worst} ({percent(mine.parts[worst])} of your {percent(mine.charged)} %)."
 
 
-def _cost(report: Report, target: float) -> str:
+def _cost(report: AccuracyReport, target: float) -> str:
     words = f"{100 * target:g} % in T_E and T_EPP"
     reached = [each for each in report.front if each.charged <= target]
     if reached:
@@ -95,15 +95,15 @@ def _cost(report: Report, target: float) -> str:
     return f"{words} is out of reach of what was run, {_best(report)}"
 
 
-def _best(report: Report) -> str:
+def _best(report: AccuracyReport) -> str:
     best = report.front[-1]
     return f"the best of them, {percent(max(best.charged, report.floor))} %, costs {seconds(best.times.total)} s"
 
 
-def remarks(report: Report) -> list[str]:
-    """What the reader must know beside the numbers."""
+def remarks(report: AccuracyReport) -> list[str]:
+    """Remarks on how to read the numbers."""
     found = [
-        f"the reference, Richardson's limits of all settings together, is uncertain by {percent(report.floor)} % in T_E and T_EPP: less cannot be told",
+        f"the reference, Richardson's limits of all settings together, is uncertain by {percent(report.floor)} % in T_E and T_EPP: smaller errors cannot be judged",
         "a setting's error is measured with all others fine; a whole setting is charged their sum, or its own distance from the reference if that is more",
     ]
     for result in report.refinements:
@@ -125,8 +125,8 @@ def remarks(report: Report) -> list[str]:
     return found
 
 
-def timed(report: Report) -> str:
-    """How often things were timed."""
+def timed(report: AccuracyReport) -> str:
+    """How often settings were timed, in words."""
     counts = [each.times.rounds for result in report.refinements for each in result.levels]
     again = sum(rounds >= report.rounds for rounds in counts)
     words = f"Whole settings timed {report.rounds} times in turns, medians; "
@@ -146,7 +146,7 @@ CSV_COLUMNS = (
 )  # fmt: skip
 
 
-def write_csv(report: Report, file: Path) -> None:
+def write_csv(report: AccuracyReport, file: Path) -> None:
     """All numbers: a line for each level, whole setting, cheaper model, the reference's uncertainty, and what did not run."""
     with open(file, "w", encoding="utf-8", newline="") as opened:
         writer = csv.DictWriter(opened, CSV_COLUMNS, restval="")
@@ -159,7 +159,7 @@ def write_csv(report: Report, file: Path) -> None:
             writer.writerow({"kind": "failed", "name": name, "setting": reason, **report.machine})
 
 
-def _level_lines(report: Report):
+def _level_lines(report: AccuracyReport):
     for result in report.refinements:
         orders = {f"order_{name.replace(' ', '_')}": result.order(name) for name in ORDERED} | {"order_expected": result.refinement.expected}
         for each in result.levels:
@@ -169,7 +169,7 @@ def _level_lines(report: Report):
             }  # fmt: skip
 
 
-def _whole_lines(report: Report):
+def _whole_lines(report: AccuracyReport):
     for each in (*report.settings, *report.models):
         words = each.setting.words if each.setting else ""
         kind = "setting" if each.setting else "model"
