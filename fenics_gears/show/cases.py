@@ -1,4 +1,4 @@
-"""The cases of a study as rows: what was swept, what came out, which file holds it."""
+"""The cases of a study: swept values, results and file of each."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from fenics_gears.show.units import factor
 PRESENT, ABSENT = "present", "absent"
 # Sections whose name says nothing that their fields' names do not.
 PLAIN_SECTIONS = ("motion", "load", "gears", "accuracy", "output")
-# Times the largest of the other cases: beside such a value theirs are a line along the axis.
+# A value this many times the largest of the other cases would make them a line along the axis.
 FAR_OFF = 10.0
 LISTED_CASES = 12
 STATES = ("done", "warnings", "failed", "missing")
@@ -101,7 +101,7 @@ class Cases:
 
     @cached_property
     def states(self) -> list[str]:
-        """How each case stands."""
+        """The state of each case: one of `STATES`."""
         done, failed, warned = (
             np.isfinite(self.numbers("peak_to_peak_transmission_error")),
             self.dataset["failed"].values.ravel(),

@@ -1,4 +1,4 @@
-"""The picture of `gears effects`: what each effect costs and what it changes, a line for each subset of the scene's effects."""
+"""The picture of `gears effects`: cost and change of each effect, a line for each subset of the scene's effects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where in the picture of a pair the contact with the largest force is."""
+"""The place of the most loaded contact in the picture of a pair."""
 
 from __future__ import annotations
 

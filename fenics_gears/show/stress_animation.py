@@ -1,4 +1,4 @@
-"""A turn through the stored mesh cycles as a moving picture: GIF everywhere, MP4 where ffmpeg is installed."""
+"""The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed."""
 
 from __future__ import annotations
 

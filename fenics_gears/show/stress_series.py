@@ -1,4 +1,4 @@
-"""A turn through the stored mesh cycles for ParaView: a .vtu file for each step, and the .pvd file that lists them with their times."""
+"""The stored mesh cycles for ParaView: a .vtu file for each step, and the .pvd file that lists them with their times."""
 
 from __future__ import annotations
 

@@ -24,13 +24,13 @@ def result_charts(cases: Cases) -> dict[str, Chart]:
 
 
 def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Chart:
-    """A chart without the cases beside which all others would be flat."""
+    """A chart of all cases but those without meaning whose values would flatten all others."""
     far_off = cases.far_off(values)
     return over_parameter(cases, np.where(far_off, np.nan, values), unit, name, cases.far_off_in_words(far_off))
 
 
 def effort_charts(cases: Cases) -> list[Chart]:
-    """What the cases took."""
+    """Wall time and Newton iterations of the cases."""
     of = {"wall_time": ("s", "Wall time of a case"), "newton_iterations": ("", "Newton iterations of a case")}
     return [
         over_parameter(cases, cases.numbers(name), unit, words)

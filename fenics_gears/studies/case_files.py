@@ -1,4 +1,4 @@
-"""The files of a study's cases: one NetCDF a case, or a text on why it failed; found again by what they hold."""
+"""The files of a study's cases: a NetCDF file for each, or a text on why it failed. A later run of the study finds them by their content."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def _undamaged(path: Path, case: Case) -> CaseRecord | None:
 
 @contextlib.contextmanager
 def sole_writer(directory: Path) -> Iterator[None]:
-    """The study's directory, for this process alone; what a killed study left half-written is removed.
+    """Lock the study's directory for this process, and remove half-written files of a study that was killed.
 
     Raises ComputationError where another study is writing there, or nothing can be written.
     """
@@ -100,9 +100,9 @@ def sole_writer(directory: Path) -> Iterator[None]:
 
 
 def base_changed(study: Study, directory: Path) -> bool:
-    """Whether the study was last run here on a base scene that said something else; notes the present one.
+    """Whether the study was last run here with another base scene; writes `study.json` with the present one.
 
-    `study.json` also tells which file holds which case.
+    That file also lists which file holds which case.
     """
     path = directory / "study.json"
     try:

@@ -1,4 +1,4 @@
-"""The records of all cases as one dataset over the swept fields."""
+"""The dataset of a study: the records of all cases over the swept fields."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ NUMBERS = {
 
 
 def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, Failure]) -> xr.Dataset:
-    """One dataset of a study's cases so far; NaN where a case has no result, or not that number.
+    """The dataset of the cases so far; NaN where a case has no result or lacks a number.
 
     The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed and
     `failure` says why; curves are there when every case has the same steps.
@@ -55,7 +55,7 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
     result["meaningless"] = (study.dimensions, worthless.reshape(study.shape), words)
     texts = {
         "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
-        "warnings": ("what the run says against itself", {i: record.warnings for i, record in records.items()}),
+        "warnings": ("warnings of the run", {i: record.warnings for i, record in records.items()}),
         "case_file": ("file of the case", {i: f"cases/{study.cases[i].name}.nc" for i in records}),
     }
     for name, (long_name, said) in texts.items():
@@ -78,7 +78,7 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
 
 
 def _further(records: Mapping[int, CaseRecord]) -> dict[str, tuple[str, str]]:
-    """Units and long name of the numbers besides that some record has."""
+    """Units and long names of the further numbers that some record has."""
     known = {name for record in records.values() for name in record.numbers}
     return {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
 

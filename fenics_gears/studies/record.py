@@ -1,4 +1,4 @@
-"""What a study's dataset takes from the run of one case."""
+"""The numbers and curves that a study's dataset takes from the run of a case."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.settled import of_settled
 
-# Curves over the last cycles; those that a run has are taken.
+# Curves of the last cycles, taken where a run has them.
 CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness")
 
 
@@ -21,8 +21,8 @@ CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "n
 class CaseRecord:
     """Numbers and curves of one run.
 
-    `numbers`: by name, those of `STUDIED` that the run has among them; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
-    first recorded step; `labels`: units and long name of each curve; `warnings`: what the run says against itself.
+    `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase`
+    (steps,): mesh cycles since the first recorded step; `labels`: units and long name of each curve; `warnings`: those of the run.
     """
 
     numbers: dict[str, float]

@@ -23,7 +23,7 @@ LOGGER = logging.getLogger(__name__)
 
 @dataclass
 class Outcome:
-    """What a study has come to: results and failures by the case's index; `kept` results were there before."""
+    """Results and failures of a study so far, by the case's index; `kept`: how many results were there before."""
 
     study: Study
     file: Path | None = None
@@ -68,7 +68,7 @@ def _run(study: Study, directory: Path, team: Alone | Together, progress: Progre
 
 
 def _opening(study: Study, kept: int, missing: int, changed: bool, size: int) -> str:
-    """One line on what is to be done."""
+    """One line on how many cases are there and to be computed."""
     of_it = f"{kept} kept, {missing} to be computed" if kept else f"{missing} to be computed"
     since = " The base scene has changed since the last time." if changed else ""
     return f"{study.title}: {len(study.cases)} cases, {of_it}" + (f", by {size} processes." if size > 1 else ".") + since

@@ -1,4 +1,4 @@
-"""From a study file to a `Study` whose every case has been validated."""
+"""Reads a study file into a `Study` and validates all its cases."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
 MOST_MISTAKES = 10
-# Names that the combined dataset has for itself.
+# Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
 
 
 @dataclass(frozen=True)
 class Changes:
-    """What a study file says, each field of a scene by its path."""
+    """The changes that a study file makes to the base scene, by the paths of its fields."""
 
     without: tuple[fields.Path, ...]
     fixed: dict[fields.Path, Any]
@@ -41,7 +41,7 @@ class Changes:
     combine: str
 
     def points(self) -> Iterator[tuple[Any, ...]]:
-        """The swept values of each case, the last axis turning fastest."""
+        """The swept values of each case; the last axis changes fastest."""
         values = [axis.values for axis in self.axes]
         return itertools.product(*values) if self.combine == "product" else zip(*values)
 
@@ -57,7 +57,7 @@ class Changes:
 
 
 class Mistakes:
-    """The mistakes of a study file so far, each said once."""
+    """The mistakes of a study file so far, each once."""
 
     def __init__(self, source: str, lines: Mapping[tuple[str, ...], int]):
         self._source, self._lines, self._said = source, lines, {}
@@ -200,7 +200,7 @@ def _shown(value: Any) -> str:
 
 
 def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
-    """The axes, each called by the last part of its path where that is clear."""
+    """The axes, each named by the last part of its path where that is unique."""
     last = [path[-1] for path, _ in swept]
     return tuple(
         Axis(path, values, path[-1] if last.count(path[-1]) == 1 and path[-1] not in TAKEN else "_".join(path), unit_of(values))
@@ -249,7 +249,7 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
 
 
 def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[Case, ...]:
-    """Every case, validated; the same mistake of many cases is said once. `directory`: of the base scene."""
+    """All cases, validated; a mistake that many cases share is reported once. `directory`: of the base scene."""
     cases: list[Case] = []
     by_key: dict[str, Case] = {}
     wrong: dict[tuple, list[str]] = {}
@@ -285,7 +285,7 @@ def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Sc
 
 
 def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:
-    """A mistake of some cases' scenes as one of the study file: at the line that makes it, where one line does."""
+    """A mistake in the scenes of some cases as a mistake of the study file, at the line that causes it where there is one."""
     named = [("sweep", axis.path) for axis in changes.axes] + [("set", path) for path in changes.fixed]
     for table, path in named:
         length = min(len(path), len(field))

@@ -44,7 +44,7 @@ class CaseTask:
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a case has no result."""
+    """A case without a result, and why."""
 
     reason: str
 
@@ -55,7 +55,7 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
     tasks: dict[tuple, GearTask] = {}
     for case in cases:
         model = model_of(case.scene)
-        # A target's gears are known when its settings are chosen.
+        # With a target the gears' meshes are known only after settings are chosen.
         if case.scene.accuracy.target is not None or not route_of(model).condensed_once:
             continue
         cycle = cycle_key(model)[:4]  # the reach follows from gears and accuracy
@@ -69,7 +69,7 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
 
 
 def in_order_of_sharing(cases: list[Case]) -> list[Case]:
-    """The cases with those next to each other that share their contact operators; otherwise as they are."""
+    """The cases in their order, but those that share contact operators next to each other."""
     groups: dict[tuple, list[Case]] = {}
     for case in cases:
         groups.setdefault(cycle_key(model_of(case.scene)), []).append(case)
@@ -77,7 +77,7 @@ def in_order_of_sharing(cases: list[Case]) -> list[Case]:
 
 
 def condense(task: GearTask, tick: Tick | None = None) -> None:
-    """Bring a gear's flank compliance into the cache, and into this process."""
+    """Condense a gear into the cache and into this process's store."""
     own_gear_store().gear(model_of(task.scene), task.name, task.reach, user_cache())
 
 

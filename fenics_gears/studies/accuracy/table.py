@@ -116,7 +116,7 @@ def remarks(report: AccuracyReport) -> list[str]:
             found.append(f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g} ({result.refinement.why})")
     if any(result.refinement.base for result in report.refinements):
         found.append(
-            'condensation "every step" is another model, no finer one: forces have the arms of their nodes, where the other route has the '
+            'condensation "every step" is another model, no finer one: forces have the lever arms of their nodes, where the other route has the '
             "involute's; the difference, in one setting less fine than the others', does not go away with refinement"
         )
     peak = report.uncertainty["peak pressure"]
