@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass
 from math import ceil, exp, inf, isfinite, log, pi, sqrt
 from typing import TYPE_CHECKING
@@ -73,11 +74,7 @@ def _step_at(model: Model, time: float, steps: int) -> float:
     if time <= 0.0 or not steps:
         return 0
     if time <= model.clock.time(steps):
-        low, high = 0, steps
-        while low < high:
-            middle = (low + high) // 2
-            low, high = (low, middle) if model.clock.time(middle) >= time else (middle + 1, high)
-        return low
+        return bisect_left(range(steps + 1), time, key=model.clock.time)
     return inf if not isfinite(time) else steps + ceil((time - model.clock.time(steps)) / model.time_step)
 
 

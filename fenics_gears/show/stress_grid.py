@@ -5,35 +5,30 @@ Pictures have the line of centres upright, the pinion above; files have the fram
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 
 # VTK's numbers of cell types, by corners.
 VTK_CELL = {3: 5, 4: 9}
 # Mesh cycles: whole ones may be written a little less.
 ROUNDING = 1e-9
+MIRROR = np.array([-1.0, 1.0])
 
 
-@dataclass(frozen=True)
-class Frame:
-    """From the frame of the line of action to the picture's: turned until the line of centres is upright."""
+def upright(pair: GearPair, points: np.ndarray, coast: bool = False) -> np.ndarray:
+    """Points or vectors (..., 2) in the frame of the line of action as the picture has them, with the line of centres upright.
 
-    angle: float
-
-    def __call__(self, points: np.ndarray) -> np.ndarray:
-        """Points or vectors (..., 2) as the picture has them."""
-        return np.asarray(points) @ rotation(self.angle).T
-
-
-def upright(mesh: GearsInMesh) -> Frame:
-    """The picture's frame of a pair."""
-    return Frame(-mesh.pair.operating_pressure_angle)
+    coast: on the line of action of the coast flanks, which is the mirror image at the line of centres.
+    """
+    shown = np.asarray(points) @ rotation(-pair.operating_pressure_angle).T
+    return shown * MIRROR if coast else shown
 
 
 def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
@@ -47,7 +42,7 @@ def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
     arm = body.points - body.centre
     arc = -0.5 * mesh.approach if mesh.coast else 0.5 * mesh.approach
     turned = arc / radius * np.column_stack([-arm[:, 1], arm[:, 0]])
-    return upright(mesh)(body.points + scale * (body.elastic + turned))
+    return upright(mesh.pair, body.points + scale * (body.elastic + turned))
 
 
 def largest_movement(mesh: GearsInMesh) -> float:

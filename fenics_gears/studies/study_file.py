@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -83,7 +84,7 @@ def load_study(path: str | Path) -> Study:
     Raises SceneError, naming every mistake at once, before anything is computed.
     """
     path = Path(path)
-    text, tree = _parsed(path, "study")
+    text, tree = _parsed(path)
     if "gears" in tree and "sweep" not in tree:
         raise SceneError(f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written.")
     # A swept field has one name here, whether its dots are written bare or within quotes.
@@ -111,15 +112,15 @@ def load_study(path: str | Path) -> Study:
     )
 
 
-def _parsed(path: Path, kind: str) -> tuple[str, dict[str, Any]]:
-    """The text of a TOML file and what it says."""
+def _parsed(path: Path) -> tuple[str, dict[str, Any]]:
+    """The text of a study file, and the tree that it holds."""
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         neighbours = [each.name for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
         raise SceneError(f"{path}: there is no such file.{did_you_mean(path.name, neighbours)}") from None
     except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a {kind} is a TOML file") from None
+        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a study is a TOML file") from None
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
     try:
@@ -229,9 +230,7 @@ def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> No
     if combine == "zip" and len(set(lengths.values())) > 1:
         listed = ", ".join(f"{name} has {length}" for name, length in lengths.items())
         mistakes.add(("combine",), '"zip"', f"needs as many values of each swept field: {listed}.")
-    cases = 1
-    for length in lengths.values():
-        cases *= length
+    cases = math.prod(lengths.values())
     if combine == "product" and cases > MOST_CASES:
         mistakes.add(("sweep",), "", f"makes {cases} cases. Allowed: up to {MOST_CASES}.")
 

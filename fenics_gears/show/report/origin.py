@@ -7,7 +7,7 @@ from pathlib import Path
 
 import fenics_gears
 from fenics_gears.show.report.page import Facts, Listing, Section, Words
-from fenics_gears.studies.effect_lattice.machine import versions
+from fenics_gears.studies.machine import versions
 
 # Packages that compute and that draw and write a report.
 PAGE_PACKAGES = ("numpy", "fenics-dolfinx", "petsc4py", "plotly", "matplotlib", "pyvista", "jinja2")

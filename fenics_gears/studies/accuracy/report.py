@@ -19,7 +19,7 @@ from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement, 
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting
-from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS, QUICK_ROUNDS = 5, 1

@@ -59,15 +59,14 @@ class StepWork:
 class Expectation:
     """Ratio of the times of two steps.
 
-    `arithmetic`: of their operations alone. `fitted`: with what a step takes whatever its size, None where too few subsets tell;
-    `small` and `large`: the two times that it consists of, s; `rate`: operations a second.
+    `arithmetic`: of their operations alone. `fitted`: with the own time of a step, None where too few subsets were run to fit it;
+    `small` and `large`: the two fitted times, s.
     """
 
     arithmetic: float
     fitted: float | None = None
     small: float | None = None
     large: float | None = None
-    rate: float | None = None
 
 
 def expected_ratio(small: StepWork, large: StepWork, others: Sequence[tuple[StepWork, float]]) -> Expectation:
@@ -85,4 +84,4 @@ def expected_ratio(small: StepWork, large: StepWork, others: Sequence[tuple[Step
     times = asked[:, used] @ constants
     if constants[-1] <= 0.0 or times.min() <= 0.0:
         return Expectation(arithmetic)
-    return Expectation(arithmetic, float(times[1] / times[0]), float(times[0]), float(times[1]), float(1.0 / constants[-1]))
+    return Expectation(arithmetic, float(times[1] / times[0]), float(times[0]), float(times[1]))
