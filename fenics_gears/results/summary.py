@@ -175,4 +175,4 @@ def _rungs(attributes) -> list[Row]:
     used.pop(own, None)
     if not used:
         return []
-    return [("steps solved by the fallback ladder", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]
+    return [("steps solved by a fallback method", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]

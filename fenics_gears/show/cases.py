@@ -114,9 +114,9 @@ class Cases:
 
     def far_off(self, values: np.ndarray) -> np.ndarray:
         """Which cases (n,) have a value that is many times all others' and belongs to a result without meaning."""
-        worthless = np.array([NO_MEANING in each for each in self.texts("warnings")]) & np.isfinite(values)
-        sound = np.isfinite(values) & ~worthless
-        return worthless & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max()) if sound.any() else np.zeros(self.count, dtype=bool)
+        without_meaning = np.array([NO_MEANING in each for each in self.texts("warnings")]) & np.isfinite(values)
+        sound = np.isfinite(values) & ~without_meaning
+        return without_meaning & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max()) if sound.any() else np.zeros(self.count, dtype=bool)
 
     def far_off_in_words(self, far_off: np.ndarray) -> str:
         """A note on cases that are not drawn; empty without any."""

@@ -76,10 +76,10 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
             continue
         order, expected = result.order("T_E"), result.refinement.expected
         aside = f" ({result.refinement.why})" if result.refinement.base else ""
-        told = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+        note = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
         style = "-" if expected is not None else ":"
         colour = PALETTE[place % len(PALETTE)]
-        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.refinement.name + told)
+        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.refinement.name + note)
     axes.set_xscale("log")
     axes.set_yscale("log")
     _percent_over_seconds(axes)

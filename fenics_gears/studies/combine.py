@@ -50,9 +50,9 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
         result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
     failed = np.array([int(i in failures) for i in _indices(study)])
     result["failed"] = (study.dimensions, failed.reshape(study.shape), {"units": "1", "long_name": "whether the case failed"})
-    worthless = np.array([int(i in records and NO_MEANING in records[i].warnings) for i in _indices(study)])
+    without_meaning = np.array([int(i in records and NO_MEANING in records[i].warnings) for i in _indices(study)])
     words = {"units": "1", "long_name": "whether the case's result has no meaning"}
-    result["meaningless"] = (study.dimensions, worthless.reshape(study.shape), words)
+    result["meaningless"] = (study.dimensions, without_meaning.reshape(study.shape), words)
     texts = {
         "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
         "warnings": ("warnings of the run", {i: record.warnings for i, record in records.items()}),

@@ -92,7 +92,7 @@ def test_the_summary_counts_the_ladder(coarse, measured):
     scene = with_friction(quasi_static(coarse), 2.0, ("shafts", "bearings"))
     result = simulate(scene)
     counts = rungs_of(result)
-    (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by the fallback ladder"]
+    (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by a fallback method"]
     measured("summary at mu = 2", line, "the counts of the result")
     assert sum(counts.values()) == result.attrs["steps"] and len(counts) > 1
     assert line == ", ".join(f"{count} by {rung}" for rung, count in counts.items() if rung != "newton")

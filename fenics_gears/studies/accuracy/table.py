@@ -80,8 +80,8 @@ def in_one_sentence(report: AccuracyReport) -> str:
     costs = "; ".join(_cost(report, target) for target in TARGETS if target >= report.floor)
     missed = [f"{100 * target:g} %" for target in TARGETS if target < report.floor]
     if missed:
-        told = f"{' and '.join(missed)} cannot be judged, for the reference itself is uncertain by {percent(report.floor)} %"
-        costs = "; ".join(filter(None, (costs, told, _best(report) if len(missed) == len(TARGETS) else "")))
+        note = f"{' and '.join(missed)} cannot be judged, for the reference itself is uncertain by {percent(report.floor)} %"
+        costs = "; ".join(filter(None, (costs, note, _best(report) if len(missed) == len(TARGETS) else "")))
     mine = report.own
     worst = largest_part(mine.parts)
     return f"{costs}; what limits you is the {worst} ({percent(mine.parts[worst])} of your {percent(mine.charged)} %)."
