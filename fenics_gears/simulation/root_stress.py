@@ -1,4 +1,4 @@
-"""``[output] root_stress``: the rows of both gears that a march's stresses are taken by."""
+"""``[output] root_stress``: the matrices of both gears from flank forces to root stress, by which a march records it."""
 
 from __future__ import annotations
 

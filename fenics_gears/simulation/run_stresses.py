@@ -1,4 +1,4 @@
-"""Both gears of a run in mesh at a stored time: where every node stands, how it is displaced, and the stress there."""
+"""Both gears of a run at a stored time: place, displacement and stress of every node."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from tests.benchmarks.marked_section import write_section
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.accuracy import table
-from fenics_gears.studies.accuracy.report import Report, measure
+from fenics_gears.studies.accuracy.report import AccuracyReport, measure
 from fenics_gears.system.progress import LineProgress
 
 ROOT = Path(__file__).parents[2]
@@ -40,7 +40,7 @@ def markers(name: str) -> tuple[str, str]:
     return f"<!-- accuracy, {name}: begin -->", f"<!-- accuracy, {name}: end -->"
 
 
-def section(name: str, report: Report) -> str:
+def section(name: str, report: AccuracyReport) -> str:
     """The sentence, the picture, both tables and the remarks."""
     own = [("|".join(["", *cells, ""])) for cells in ((_with_units(table.HEADINGS, table.UNITS)), *table.table_rows(report))]
     own.insert(1, "|---" * len(table.HEADINGS) + "|")

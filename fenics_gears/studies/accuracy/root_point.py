@@ -1,6 +1,6 @@
 """Peak stress at one material point of the pinion's tooth root: where the fillet's tangent stands at 30 degrees to the tooth's centreline.
 
-The point is the gear's, whatever its mesh, so that meshes can be compared by it; the largest stress anywhere sits elsewhere on every mesh.
+Meshes can be compared at this point, for it is the same on all of them; the place of the largest stress differs from mesh to mesh.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ PINION = 0
 
 
 def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
-    """Largest tension (MPa) at the point over the last stored mesh cycle, of whichever fillet it is pulled in: that on the loaded side.
+    """Largest tension (MPa) at the point over the last stored mesh cycle, of both fillets: it is that on the loaded side.
 
-    run: of `scene`, with contact nodes on the flanks; cycle: the one that it had.
+    run: a result of `scene` with contact fields; cycle: its mesh cycle.
     """
     model = model_of(scene)
     rows = _rows(
@@ -37,7 +37,7 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
 
 
 def point_rows(rows: RootStressRows) -> np.ndarray:
-    """Rows (2 reach + 1, 2, d) of the point on either side; of a fillet without such a tangent those of its middle."""
+    """Rows (2 reach + 1, 2, d) of the point on either side; of the fillet's middle where the fillet has no such tangent."""
     points = rows.rows.shape[1] // 2
     place = points - 1 if np.isfinite(rows.rows[rows.reach, points - 1]).all() else (points - 1) // 2
     return rows.rows[:, [place, points + place]]
