@@ -44,7 +44,7 @@ MOST_STEPS_PER_MESH_CYCLE = 1000
 LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.
 ONCE, EVERY_STEP = "once", "every step"
-# Where the scene has no material: window in modules, and the nodes in it among which the first to touch is sought.
+# For rigid flanks: contact window in modules, and the number of nodes in it among which the first contact is searched.
 RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
 # Fewer see so little of the change from one tooth pair to two that the peak-to-peak transmission error is up to 10 % too small, with 4 up to half.
 FEWEST_STEPS = 20
