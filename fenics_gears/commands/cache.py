@@ -1,4 +1,4 @@
-"""``gears cache``: where the condensed gears are kept and what they take; empties it where asked to."""
+"""``gears cache``: where the condensed gears are kept and how large they are; it can be emptied."""
 
 from __future__ import annotations
 

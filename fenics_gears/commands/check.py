@@ -23,7 +23,7 @@ def check(options: argparse.Namespace) -> int:
 
     description = describe(scene)
     print(f"{scene.title}\n")
-    for heading, rows in description.sections:
+    for heading, rows in description:
         print_rows(heading, rows)
     print_rows("Effects", effect_rows(scene))
     return 0

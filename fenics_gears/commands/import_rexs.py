@@ -1,4 +1,4 @@
-"""``gears import FILE.rexs``: a pair of a REXS file, written out as a scene that says where every value is from."""
+"""``gears import FILE.rexs``: a pair of a REXS file, written as a scene that names the origin of every value."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ def _rayleigh_acts(tree: Tree) -> Iterator[Problem]:
     sections = with_gears(tree, "damping")
     values = {name: {path: quantity_in(section[name]) for path, section in sections.items() if name in section} for name in RAYLEIGH}
     of_stiffness, of_mass = (values[name] for name in RAYLEIGH)
-    # A value that cannot be read is another's problem.
+    # A value that cannot be read is reported with its own field.
     if any(value != 0 for value in of_mass.values()) or not of_stiffness or None in of_stiffness.values():
         return
     if not any(of_stiffness.values()):

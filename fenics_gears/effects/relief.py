@@ -18,7 +18,7 @@ STEPS_JUDGED = 4
 
 
 def start_field(word: str, word_meaning: str) -> Any:
-    """Where a relief starts: ``word``, a roll angle or a diameter."""
+    """The field that says where a relief starts: ``word``, a roll angle or a diameter."""
     return either(
         ("1e-3 deg", "360 deg", "29.61 deg"),
         ("0.1 mm", "100 m", "80.1 mm"),
@@ -29,7 +29,7 @@ def start_field(word: str, word_meaning: str) -> Any:
 
 
 def length_field(measured: str) -> Any:
-    """How long a relief is, in place of its start."""
+    """The field for the length of a relief, in place of its start."""
     return quantity("1e-3 um", "100 m", "3 mm", meaning=f"length of the relief {measured}, from its start to its end", otherwise="from `start`")
 
 

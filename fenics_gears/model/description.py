@@ -22,13 +22,6 @@ MILLIMETRE = 1e-3  # m
 
 
 @dataclass(frozen=True)
-class Description:
-    """Headings, each with rows (label, value, unit)."""
-
-    sections: tuple[tuple[str, Rows], ...]
-
-
-@dataclass(frozen=True)
 class EffectState:
     """An effect of a scene: whether it is on, what the model is by it or without it, and what it adds."""
 
@@ -51,17 +44,20 @@ def effect_states(scene: Scene) -> list[EffectState]:
     return states
 
 
-def describe(scene: Scene) -> Description:
-    """Describe a scene: geometry, model, accuracy, natural frequencies, cost. Raises GeometryError for impossible gears."""
+def describe(scene: Scene) -> list[tuple[str, Rows]]:
+    """Geometry, model, accuracy, natural frequencies and cost of a scene: headings, each with rows (label, value, unit).
+
+    Raises GeometryError for impossible gears.
+    """
     model = model_of(scene)
-    sections = [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
+    sections: list[tuple[str, Rows]] = [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
     if model.drivetrain.mass is not None:
         sections.append(("Inertia", _inertia_rows(model)))
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(model)))
     sections.append(("Expected cost (about)", _cost_rows(model)))
     if model.warnings:
         sections.append(("Warnings", [("", warning, "") for warning in model.warnings]))
-    return Description(tuple(sections))
+    return sections
 
 
 def _model_rows(model: Model) -> Rows:

@@ -16,6 +16,7 @@ import numpy as np
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.model.drivetrain import mesh_stiffness
@@ -43,7 +44,7 @@ MOST_STEPS_PER_MESH_CYCLE = 1000
 LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.
 ONCE, EVERY_STEP = "once", "every step"
-# Where the scene has no material: window in modules, and the nodes in it among which the first to touch is sought.
+# For rigid flanks: contact window in modules, and the number of nodes in it among which the first contact is searched.
 RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
 # Fewer see so little of the change from one tooth pair to two that the peak-to-peak transmission error is up to 10 % too small, with 4 up to half.
 FEWEST_STEPS = 20
@@ -65,6 +66,11 @@ class Resolution:
     condensation: str
     body_element_size: float | None = None
     elastic_teeth: int | None = None
+
+    @property
+    def discretisation(self) -> Discretisation:
+        """How the gears' bodies are divided into finite elements."""
+        return Discretisation(self.element, self.flank_element_size, self.body_element_size, self.elastic_teeth)
 
 
 def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:

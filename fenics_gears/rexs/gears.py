@@ -1,4 +1,4 @@
-"""The gears of a stage: their teeth, circles and material, as the file gives them, as they follow from it, or as the standard has them."""
+"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the standard."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from fenics_gears.rexs.attributes import Reading, every, first, given, needed
 from fenics_gears.rexs.stage import GearParts, Stage
 from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place
 
-# By the section of a scene ("gears.pinion"), its fields; None for what could not be found, which the reading's problems then tell.
+# By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's problems.
 Sections = dict[str, dict[str, Value | None]]
 # ISO 53, basic rack A: addendum, dedendum and tip radius of the rack's tooth, in modules.
 ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = 1.0, 1.25, 0.38
@@ -18,7 +18,7 @@ BORE = 0.4
 # ISO 6336-1: Young's modulus (N/mm^2) and Poisson's ratio of steel.
 STEEL = (206e3, 0.3)
 MATERIAL = ("youngs_modulus", "poissons_ratio")
-# What repeats module, teeth or shifts may be rounded, in modules.
+# Rounding that is allowed where the file repeats module, teeth or shifts, in modules.
 ROUNDED = 1e-3
 
 

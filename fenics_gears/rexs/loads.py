@@ -1,4 +1,4 @@
-"""The torque on the driven gear and the speed of the driving one: of the gears themselves, of the stage, or of their shafts."""
+"""Torque on the driven gear and speed of the driving one, looked up at the gears, the stage and the shafts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a REXS file holds: components with attributes, relations between components, load cases. Texts as written; units not yet converted."""
+"""A REXS file as components with attributes, relations between them, and load cases; values are texts as written, with units not yet converted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A REXS file in any of its three forms, as the tree that its JSON form is; which form it has, its content says."""
+"""Reading a REXS file of any of its three forms, found by its content, as the tree of its JSON form."""
 
 from __future__ import annotations
 

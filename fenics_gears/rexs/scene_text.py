@@ -1,4 +1,4 @@
-"""A scene's values as TOML, with a comment behind each that says where it is from."""
+"""A scene's values as TOML, each with its origin in a comment behind it."""
 
 from __future__ import annotations
 

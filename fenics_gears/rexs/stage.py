@@ -1,4 +1,4 @@
-"""Which pair of a model is meant, and the components that say something of it."""
+"""The pair that is meant in a REXS model, and the components that describe it."""
 
 from __future__ import annotations
 

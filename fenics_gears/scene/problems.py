@@ -1,4 +1,4 @@
-"""What is wrong with a scene file, in sentences that a person can act on."""
+"""Mistakes of a scene file against its schema, in sentences that say what to do."""
 
 from __future__ import annotations
 

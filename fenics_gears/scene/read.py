@@ -12,9 +12,8 @@ from typing import Any
 from fenics_gears.effects import tooth_elasticity, top_level
 from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.lines import line_numbers
 from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Problem, line_numbers
 from fenics_gears.inputs.written import WrittenFloat, as_toml
 from fenics_gears.scene import data, schema
 from fenics_gears.scene.problems import problems_of_schema, without_echoes

@@ -1,4 +1,4 @@
-"""What must hold between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own module.
+"""Rules between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own module.
 
 The rules read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is reported elsewhere.
 """

@@ -1,6 +1,6 @@
-"""How far a computation is: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet.
+"""Progress of a computation: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet.
 
-Whoever computes calls ``stage`` once per stage and ``update`` as often as is cheap; whoever shows decides how often to speak.
+The computation calls ``stage`` once per stage and ``update`` as often as is cheap; the display decides how often to show it.
 """
 
 from __future__ import annotations

@@ -135,7 +135,7 @@ def test_density_gives_mass_and_moment_of_inertia_of_each_gear_by_its_own_width(
     text = re.sub(r"\[inertia\].*?(?=^\[)", DENSITY, paper_scene.text, flags=re.M | re.S)
     scene = scene_from_text(text.replace("teeth = 16", 'teeth = 16\nface_width = "18 mm"').replace("teeth = 24", 'teeth = 24\nface_width = "14 mm"'))
     pinion, wheel = gear_section(paper_pair.pinion), gear_section(paper_pair.wheel)
-    said = dict(describe(scene).sections)
+    said = dict(describe(scene))
     assert ("face width in common", 14.0, "mm: pinion 18 mm, wheel 14 mm") in said["Model"]
     rows = {label: value for label, value, _ in said["Inertia"]}
     assert rows["pinion mass"] == pytest.approx(7.85e-6 * 18.0 * pinion.area, rel=1e-12)

@@ -48,7 +48,7 @@ def test_large_steps_are_finite_bounded_and_named(coarse, name, damped, measured
     assert ratio <= 2.0
     said = [line for line in result.attrs["warnings"].splitlines() if f"within {PERIOD_ERROR:.0%} up to" in line]
     assert len(said) == 1 and f"up to {resolved_frequency(model_of(scene).time_step):.4g} Hz" in said[0]
-    assert said[0] in [words for _, words, _ in dict(describe(scene).sections)["Warnings"]]
+    assert said[0] in [words for _, words, _ in dict(describe(scene))["Warnings"]]
 
 
 def test_the_remedy_is_a_remedy(coarse):
@@ -85,7 +85,7 @@ def test_inertia_that_does_not_matter_is_named_and_its_effect_is_of_the_size_sai
     scene = replace(coarse, friction=None, accuracy=replace(COARSE, steps_per_mesh_cycle=1000), motion=Motion(1.0, 2, 1))
     (said,) = [words for words in model_of(scene).warnings if "inertia hardly matters" in words]
     assert "leave out [inertia] and [damping]" in said
-    labels = [label for label, _, _ in dict(describe(scene).sections)["Expected cost (about)"]]
+    labels = [label for label, _, _ in dict(describe(scene))["Expected cost (about)"]]
     assert {"quasi-static instead: marching", "quasi-static instead: memory"} <= set(labels)
     dynamic, static = simulate(scene).transmission_error.values, simulate(quasi_static(scene)).transmission_error.values
     difference = np.sqrt(np.mean((dynamic - static) ** 2)) / np.ptp(static)

@@ -73,7 +73,7 @@ def test_natural_frequencies_against_single_oscillators(paper_scene, paper_pair)
 
 def test_description_says_what_a_run_will_use(paper_scene):
     """`gears check` and a run read the same settings."""
-    sections = dict(describe(paper_scene).sections)
+    sections = dict(describe(paper_scene))
     accuracy = {label: value for label, value, _ in sections["Accuracy"]}
     assert accuracy["flank element size"] == 0.08
     assert accuracy["steps"] == "3000, curves of all are stored, contact fields of the last 201"
@@ -85,7 +85,7 @@ def test_description_says_what_a_run_will_use(paper_scene):
     assert rows["highest frequency that is resolved"][0] == pytest.approx(sqrt(0.12) / (2.0 * pi * 5e-5))
     assert rows["highest frequency that is sampled"][0] == pytest.approx(1e4)
     static = replace(paper_scene, inertia=None, damping=None)
-    assert "Natural frequencies with one tooth pair in mesh (about)" not in dict(describe(static).sections)
+    assert "Natural frequencies with one tooth pair in mesh (about)" not in dict(describe(static))
 
 
 def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):

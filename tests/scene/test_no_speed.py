@@ -72,5 +72,5 @@ def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():
 @pytest.mark.parametrize(("text", "said"), [(SPEEDLESS, ["counts mesh cycles, 1 s each"]), (STATIC, [])])
 def test_check_says_that_time_is_nominal(text, said):
     """Only where it is."""
-    rows = dict(describe(scene_from_text(text)).sections)["Model"]
+    rows = dict(describe(scene_from_text(text)))["Model"]
     assert [value for label, value, _ in rows if label == "time"] == said
