@@ -52,3 +52,9 @@ def limits(values: np.ndarray, least: float) -> tuple[float, float]:
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     half = 0.5 * max(1.12 * (high - low), least)
     return 0.5 * (low + high) - half, 0.5 * (low + high) + half
+
+
+def legend(axes, columns: int, location: str = "lower right") -> None:
+    """Legend above the panel, where no curve can be; the demonstrations' pictures use it."""
+    side = 1.0 if location.endswith("right") else 0.0
+    axes.legend(loc=location, bbox_to_anchor=(side, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4)

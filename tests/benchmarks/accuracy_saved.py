@@ -12,7 +12,7 @@ from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import Limit
 from fenics_gears.studies.accuracy.measures import MEASURES, judged
 from fenics_gears.studies.accuracy.refinement import fine, refinements
-from fenics_gears.studies.accuracy.report import OWN, LevelResult, RefinementResult, Report, WholeResult
+from fenics_gears.studies.accuracy.report import OWN, AccuracyReport, LevelResult, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import Times
 from fenics_gears.studies.accuracy.setting import half_width, own_setting
 from fenics_gears.studies.accuracy.table import ORDERED
@@ -20,7 +20,7 @@ from fenics_gears.studies.accuracy.table import ORDERED
 MACHINE = ("processor", "load", "threads", "versions")
 
 
-def saved_report(scene: Scene, file: Path) -> Report:
+def saved_report(scene: Scene, file: Path) -> AccuracyReport:
     """A scene's report with the errors and median times of its CSV; limits have orders alone, times no stages.
 
     Raises ValueError where the program would refine the scene otherwise than the CSV did.
@@ -43,7 +43,7 @@ def saved_report(scene: Scene, file: Path) -> Report:
     reference = next(line for line in lines if line["kind"] == "reference")
     failures = tuple((line["name"], line["setting"]) for line in lines if line["kind"] == "failed")
     rounds = max(each.times.rounds for each in settings)
-    return Report(
+    return AccuracyReport(
         scene, half_width(scene), fine(scene), results, tuple(settings), tuple(models), _errors(reference), failures,
         {name: reference[name] for name in MACHINE}, rounds, float("nan"),
     )  # fmt: skip
