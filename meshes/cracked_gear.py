@@ -13,8 +13,8 @@ import sys
 from pathlib import Path
 
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.errors import GearsError, SceneError
 from fenics_gears.inputs.units import QuantityError, quantity
 from fenics_gears.model.model import model_of

@@ -134,7 +134,7 @@ def _check_ligament(polygon: np.ndarray, mouth: int, line: np.ndarray, crack: Ro
     wrong = np.flatnonzero(~inside | (left < np.minimum(LEAST_LIGAMENT, 0.5 * from_mouth)))
     if len(wrong) or crack.depth <= 0.0:
         reach = gear.module * (from_mouth[wrong[0]] if len(wrong) else 0.0)
-        reason = "must be deeper than nothing" if crack.depth <= 0.0 else (
+        reason = "its depth must be positive" if crack.depth <= 0.0 else (
             f"leaves less than {LEAST_LIGAMENT * gear.module:.3g} mm of the tooth's sector whole from about {reach:.3g} mm on"
         )
         raise SceneError(f"crack of {crack.depth:.4g} mm at {np.degrees(crack.angle):.4g} degrees to the tooth's centreline: {reason}")

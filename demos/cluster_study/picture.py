@@ -45,12 +45,13 @@ def draw(found: Gain) -> Figure:
     bar.ax.set_xticklabels([f"{each:g}" for each in RATIOS])
     bar.set_label("Ratio (blue: the relief helps, red: it harms)")
     plain.set_ylabel("Torque on the wheel (N m)")
+    figure.legend(*ratio.get_legend_handles_labels(), loc="upper right")
     return figure
 
 
 def _map(axes: Axes, found: Gain, values: np.ndarray, shades, colours: str, title: str):
     drawn = axes.pcolormesh(found.frequencies, found.torques, values, norm=shades, cmap=colours, shading="gouraud")
-    axes.axhline(DESIGN_TORQUE, color=DARK, linewidth=1.0, linestyle=":")
+    axes.axhline(DESIGN_TORQUE, color=DARK, linewidth=1.6, linestyle=":", label=f"{DESIGN_TORQUE:g} N m, for which the relief was chosen")
     axes.set_xscale("log")
     axes.set_xticks(TICKS, [str(tick) for tick in TICKS])
     axes.minorticks_off()

@@ -12,13 +12,13 @@ import xarray as xr
 from fenics_gears import load_scene, simulate
 from fenics_gears.effects.body_meshes import BodyMeshes, MeshFile, located
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
-from meshes.root_crack import RootCrack, cracked_gear_mesh
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Scene
 from fenics_gears.show.spectrum import OrderLines, order_lines
+from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 HERE = Path(__file__).parent
 # Depths of the crack (mm); none is the healthy pinion, a ring of equal sectors.

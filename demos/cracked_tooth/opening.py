@@ -15,17 +15,16 @@ from demos.cracked_tooth.depths import CRACKED_TOOTH, DEPTHS, HERE
 from fenics_gears import load_scene
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius
-from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.element_sizes import ElementSizes, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.factor import Factor
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_interior import dofs_of
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
-from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Material
+from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh
 
 P2 = ELEMENTS["P2"]
 # The load is spread smoothly about this roll angle (rad), above the pitch point: as high as a tooth carries alone.

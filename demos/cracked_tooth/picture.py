@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 
 from demos.cracked_tooth.depths import ITS_CYCLE, Turn
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from meshes.root_crack import RootCrack, crack_line
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
+from meshes.root_crack import RootCrack, crack_line
 
 COLOURS = (DARK, PALETTE[4], PALETTE[0], PALETTE[1])
 CRACK = PALETTE[1]

@@ -17,11 +17,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from demos.cracked_tooth.depths import HERE, ITS_CYCLE, Turn, turns
 from demos.cracked_tooth.picture import draw, name
 from fenics_gears import load_scene
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
-from meshes.root_crack import RootCrack, cracked_sector_mesh
 from fenics_gears.model.model import model_of
 from fenics_gears.show.panels import DOTS_PER_INCH
+from meshes.root_crack import RootCrack, cracked_sector_mesh
 
 # The crack whose mesh is shown.
 SHOWN = RootCrack(3.0)

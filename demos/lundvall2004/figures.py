@@ -155,7 +155,7 @@ def _draw_frequencies(axes: Axes, curve: xr.Dataset, static: xr.Dataset) -> None
     for friction, line in LINES.items():
         axes.plot(frequency, peak_to_peak(curve, friction), **line)
         still = float(static.peak_to_peak_transmission_error.sel(friction=friction))
-        axes.axhline(still, color=line["color"], linewidth=0.9, linestyle=(0, (1, 3)), label=f"static, {line['label']}")
+        axes.axhline(still, color=line["color"], linewidth=1.4, linestyle=(0, (1, 2)), label=f"static, {line['label']}")
     axes.set_xscale("log")
     axes.set_xlim(frequency[0], frequency[-1])
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")

@@ -22,15 +22,16 @@ class Pair:
 
 
 def measured(path: Path) -> Pair:
-    """Both runs of a scene; the dynamic factor is the largest force of a tooth pair over that without inertia."""
+    """The last cycles of both runs of a scene; the dynamic factor is the largest force of a tooth pair over that without inertia."""
     from fenics_gears import load_scene, simulate
     from fenics_gears.model.drivetrain import lumped_gears
     from fenics_gears.model.model import model_of
+    from fenics_gears.results import shown
 
     scene = load_scene(path)
     model = model_of(scene)
-    at_speed = simulate(scene)
-    static = simulate(replace(scene, inertia=None, damping=None, motion=replace(scene.motion, mesh_cycles=2)))
+    at_speed = shown(simulate(scene))
+    static = shown(simulate(replace(scene, inertia=None, damping=None, motion=replace(scene.motion, mesh_cycles=2))))
     inertias = [1e3 * gear.moment_of_inertia for gear in lumped_gears(scene, model.pair).values()]
     errors = [1e3 * model.pair.wheel.base_radius * run.attrs["peak_to_peak_transmission_error"] for run in (static, at_speed)]
     forces = [float(run.pair_normal_force.max()) for run in (at_speed, static)]

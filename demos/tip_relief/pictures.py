@@ -54,7 +54,7 @@ def _draw_map(axes: Axes, found: Map, best: Optimum, scale: Normalize):
     axes.clabel(lines, fmt="%g µm", fontsize=10)
     for length, words in ((SHORT, "short"), (LONG, "long")):
         axes.axvline(length, color="white", linewidth=1.0, linestyle=":")
-        axes.annotate(words, (length, found.depths[-1]), xytext=(5, -7), textcoords="offset points", color="white", va="top", fontsize=12, fontweight="bold")
+        axes.annotate(words, (length, found.depths[-1]), xytext=(5, -14), textcoords="offset points", color="white", va="top", fontsize=12, fontweight="bold")
     axes.plot(best.design.length, best.design.depth, "o", color=PALETTE[1], markeredgecolor="white", markersize=10)
     axes.contour(found.lengths, found.depths, found.left, levels=[best.peak_to_peak + ALLOWED], colors=PALETTE[1], linewidths=2.2)
     axes.annotate(

@@ -69,3 +69,4 @@ def _shade(above: Axes, below: Axes, curve: Sweep) -> None:
     for axes in (above, below):
         for low, high in zip(edges[:-1][curve.lost], edges[1:][curve.lost]):
             axes.axvspan(low, high, color=SHADE, linewidth=0.0, zorder=0)
+    above.fill_between([], [], color=SHADE, label="contact lost, with coast flanks")

@@ -21,9 +21,9 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tip_edge import TipEdge, tip_edge
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CornerContact:
-    """The tip edges of pinion and wheel."""
+    """The tip edges of pinion and wheel; equal to itself alone, so that what depends on it can be kept by it."""
 
     edges: tuple[TipEdge, TipEdge]
 

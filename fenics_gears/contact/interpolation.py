@@ -121,19 +121,13 @@ def flank_interpolation(
 
 
 class Averages:
-    """A contact node sees averages over its hat function, so that nothing jumps as it passes nodes of the flank."""
+    """A contact node sees averages over its hat function, so that nothing jumps as it passes nodes of the flank.
 
-    def places(self, offsets: np.ndarray) -> np.ndarray:
-        """Offsets (mm, any shape) at which nodes at `offsets` (n,) need the values that they see."""
-        return quadrature_offsets(offsets)
+    `places`: offsets at which nodes need the values that they see; `seen`: what they see of values there; `of_flank`: the weights of
+    the flank's nodes.
+    """
 
-    def seen(self, offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
-        """Values (n,) that the nodes see of those at their `places`."""
-        return hat_average(offsets, values)
-
-    def of_flank(self, *arguments) -> FlankInterpolation:
-        """Weights of the flank's nodes; arguments as of `flank_interpolation`."""
-        return flank_interpolation(*arguments)
+    places, seen, of_flank = staticmethod(quadrature_offsets), staticmethod(hat_average), staticmethod(flank_interpolation)
 
 
 class Points:

@@ -32,6 +32,8 @@ class Position:
     carried_from: np.ndarray
 
 
+# The reach of teeth, the size of a result and the cycle itself all ask for the same places.
+@lru_cache(maxsize=4096)
 def pair_places(
     pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False, corner: CornerContact | None = None
 ) -> tuple[Place, ...]:
@@ -40,16 +42,6 @@ def pair_places(
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips touch by
     their edges too; places are theoretical ones all the same.
     """
-    # Cached, since the reach of teeth, the size of a result and the cycle itself all ask for it; tip edges cannot be a key.
-    return _pair_places(pair, grid, phase, coast_flanks) if corner is None else _places(pair, grid, phase, coast_flanks, corner)
-
-
-@lru_cache(maxsize=4096)
-def _pair_places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool) -> tuple[Place, ...]:
-    return _places(pair, grid, phase, coast_flanks, None)
-
-
-def _places(pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool, corner: CornerContact | None) -> tuple[Place, ...]:
     half = 0.5 * grid.length
 
     def can_touch(place: Place) -> bool:

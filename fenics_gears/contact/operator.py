@@ -150,32 +150,28 @@ class CompliancePairing:
 
         `response_directions(gear, pair)` and `load_directions(gear, pair)` give unit vectors (d, 2) in tooth frames.
         """
+        if not responding or not loaded:
+            return np.zeros((0, 0))
         rows, columns = node_slices(responding), node_slices(loaded)
-        result = None
+        kinds = len(response_directions(0, responding[0])), len(load_directions(0, loaded[0]))
+        result = np.zeros((kinds[0], rows[-1].stop, kinds[1], columns[-1].stop))
         for a, pair_a in enumerate(responding):
             for b, pair_b in enumerate(loaded):
                 if symmetric and b > a:
                     continue
-                part = None
+                part = np.zeros((kinds[0], len(pair_a.offsets), kinds[1], len(pair_b.offsets)))
                 for gear in range(2):
-                    directions_a, directions_b = response_directions(gear, pair_a), load_directions(gear, pair_b)
-                    if part is None:
-                        part = np.zeros((len(directions_a), len(pair_a.offsets), len(directions_b), len(pair_b.offsets)))
-                    if result is None:
-                        result = np.zeros((len(directions_a), rows[-1].stop, len(directions_b), columns[-1].stop))
                     n_a, n_b = pair_a.interpolation[gear], pair_b.interpolation[gear]
                     compliance_product(
                         self._block(gear, pair_a, pair_b),
-                        n_a.weights, n_a.first, n_a.last, directions_a,
-                        n_b.weights, n_b.first, n_b.last, directions_b,
+                        n_a.weights, n_a.first, n_a.last, response_directions(gear, pair_a),
+                        n_b.weights, n_b.first, n_b.last, load_directions(gear, pair_b),
                         part,
                     )  # fmt: skip
                 result[:, rows[a], :, columns[b]] = part
                 if symmetric and b < a:
                     result[:, rows[b], :, columns[a]] = part.transpose(2, 3, 0, 1)
-        if result is None:
-            return np.zeros((0, 0))
-        return result.reshape(result.shape[0] * result.shape[1], -1)
+        return result.reshape(kinds[0] * rows[-1].stop, -1)
 
 
 def own_directions(tangential: bool):

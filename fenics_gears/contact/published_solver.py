@@ -9,7 +9,6 @@ import numpy as np
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.newton import measure
 from fenics_gears.contact.published_newton import Equations, Iterate, iterates
 from fenics_gears.contact.relative_stiffness import RelativeStiffness
 from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, StepSolution, solve_step
@@ -112,11 +111,9 @@ def _newton(equations: Equations, displacement, forces, force_tolerance: float) 
 
 def _attempt(reduced: RelativeStiffness, problem: StepProblem, equations: Equations, tried: list[Iterate], outcome: str):
     """An attempt as ContactNotConverged lists it: name, outcome, residuals and sets of every iterate."""
-    history, sets = np.zeros((len(tried), 5)), np.zeros((len(tried), len(problem.gap)), dtype=np.int8)
-    for row, iterate in enumerate(tried):
-        sets[row] = equations.status(iterate.displacement, iterate.forces)
-        measure(
-            history[row], problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap,
-            problem.slip_before, problem.friction, sets[row], iterate.forces, reduced.coordinates(problem.load, iterate.displacement), iterate.displacement,
-        )  # fmt: skip
-    return PUBLISHED, outcome, history, sets
+    sets = np.array([equations.status(each.displacement, each.forces) for each in tried], dtype=np.int8)
+    history = [
+        problem.residual(status, each.forces, reduced.coordinates(problem.load, each.displacement), each.displacement)
+        for status, each in zip(sets, tried)
+    ]
+    return PUBLISHED, outcome, np.array(history), sets

@@ -13,7 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.interpolation import hat_integrals
-from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
 from fenics_gears.contact.operator import ContactOperator, operator_on_lines, over_nodes
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
@@ -54,21 +54,28 @@ class RigidCycle(Cycle):
         self._removal, self._coordinates = removal, coordinates
 
     def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
-        """The step with nothing touching, else with the leading drive flanks, else with the leading coast flanks, else with both.
+        """The step with the first of `_candidates` that holds the load: no node touching, or the leading node of a side, or of both.
 
-        Both touch where teeth are wider than the spaces between them and elastic bearings let the centres move apart. Raises
-        ContactNotConverged where none of them holds the load.
+        Raises ContactNotConverged where none of them holds the load.
         """
         leaders = [int(nodes[np.argmin(problem.gap[nodes])]) for nodes in position.sides if len(nodes)]
-        sets = [[], *([leader] for leader in leaders), *([leaders] if len(leaders) == 2 else [])]
-        for iterations, touching in enumerate(sets, 1):
-            forces, coordinates = _solved(problem, touching)
-            if forces is not None and obeys(problem, leaders, touching, forces, coordinates):
-                status = np.zeros(len(problem.gap), dtype=np.int8)
-                status[touching] = SLIP_FORWARD
+        for iterations, touching in enumerate(self._candidates(leaders), 1):
+            unit = self._unit_forces(position.operator, problem, touching)
+            forces, coordinates = _solved(problem, touching, unit)
+            if forces is not None and _obeys(problem, leaders, touching, forces, coordinates):
                 displacement = problem.jacobian @ coordinates
-                return StepSolution(forces, coordinates, displacement, status, iterations, NEWTON)
-        raise no_equilibrium(why_none_holds(problem, leaders), len(problem.gap))
+                return StepSolution(forces, coordinates, displacement, _status(unit, len(problem.gap)), iterations, NEWTON)
+        raise _no_equilibrium(problem, leaders)
+
+    def _candidates(self, leaders: list[int]) -> list[list[int]]:
+        """Sets of nodes that may touch. Both sides do where teeth are wider than the spaces between them and bearings let the centres move."""
+        return [[], *([leader] for leader in leaders), *([leaders] if len(leaders) == 2 else [])]
+
+    def _unit_forces(self, operator: ContactOperator, problem: StepProblem, touching: list[int]) -> np.ndarray:
+        """Forces (m, t) per unit mesh force at each of the nodes `touching` (t)."""
+        unit = np.zeros((len(problem.gap), len(touching)))
+        unit[touching, np.arange(len(touching))] = 1.0
+        return unit
 
     def _pair(self, place: Place) -> PairNodes | None:
         offsets = node_offsets(self.pair, place.contact_rolls, self.grid)
@@ -97,39 +104,37 @@ def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:
     return np.unique(operator.node_pair[side & (operator.gap <= operator.gap[node] + SAME_GAP)])
 
 
-def _solved(problem: StepProblem, touching: list[int]) -> tuple[np.ndarray | None, np.ndarray]:
-    """Forces (n,) and coordinates (k,) with some nodes touching; forces None where the drivetrain cannot be solved so."""
-    k, forces = len(problem.load), np.zeros(len(problem.gap))
-    if not touching:
-        if len(problem.free_motion):
-            return None, np.zeros(k)
-        return forces, np.linalg.solve(problem.stiffness, problem.load)
-    rows = problem.jacobian[touching]
-    if len(touching) > 1 and not _independent(rows):
+def _solved(problem: StepProblem, touching: list[int], unit: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
+    """Forces (m,) and coordinates (k,) with some nodes touching; forces None where the drivetrain cannot be solved so.
+
+    `unit` (m, t): forces per unit mesh force at each of the nodes.
+    """
+    k, t = len(problem.load), len(touching)
+    rows, gap = problem.jacobian[touching], problem.gap[touching]
+    if not t:
+        held = not len(problem.free_motion)
+        return (np.zeros(len(unit)), np.linalg.solve(problem.stiffness, problem.load)) if held else (None, np.zeros(k))
+    if t > 1 and not _independent(rows):
         return None, np.zeros(k)
-    pressing, coordinates = tied(problem, rows, rows.T, problem.gap[touching])
-    if pressing is None:
-        return None, coordinates
-    forces[touching] = pressing
-    return forces, coordinates
-
-
-def tied(problem: StepProblem, rows: np.ndarray, pushes: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
-    """Forces (t,) and coordinates (k,) with `rows` (t, k) of the flanks closed to their `gap` (t,), where a unit force pushes the drivetrain
-    by `pushes` (k, t); forces None where that cannot be solved."""
-    k, t = len(problem.load), len(gap)
     # Forces are carried as lengths, by the largest stiffness, so that all entries of the matrix are of one size.
-    unit = np.abs(problem.stiffness).max(initial=0.0) or 1.0
+    scale = np.abs(problem.stiffness).max(initial=0.0) or 1.0
     matrix = np.zeros((k + t, k + t))
-    matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, unit * pushes, unit * rows
-    right = np.append(problem.load, unit * gap)
+    matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, scale * (problem.jacobian.T @ unit), scale * rows
+    right = np.append(problem.load, scale * gap)
     try:
         solution = np.linalg.solve(matrix, right)
         # Iterative refinement: where slow masses are hardly any stiffness, load over stiffness is a length beside which the gap is round-off.
         solution += np.linalg.solve(matrix, right - matrix @ solution)
     except np.linalg.LinAlgError:
         return None, np.zeros(k)
-    return unit * solution[k:], solution[:k]
+    return unit @ (scale * solution[k:]), solution[:k]
+
+
+def _status(unit: np.ndarray, nodes: int) -> np.ndarray:
+    """Sets (n,) of nodes under forces `unit` (m, t), friction's sign being that of the slip."""
+    pressed, sense = unit[:nodes].any(axis=1), unit[nodes:].sum(axis=1)
+    slips = np.where(sense > 0.0, SLIP_FORWARD, np.where(sense < 0.0, SLIP_BACKWARD, STICK)) if len(sense) else SLIP_FORWARD
+    return np.where(pressed, slips, OPEN).astype(np.int8)
 
 
 def _independent(rows: np.ndarray) -> bool:
@@ -137,7 +142,7 @@ def _independent(rows: np.ndarray) -> bool:
     return np.linalg.matrix_rank(rows, tol=1e-9) == len(rows)
 
 
-def obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces: np.ndarray, coordinates: np.ndarray) -> bool:
+def _obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces: np.ndarray, coordinates: np.ndarray) -> bool:
     """Whether nothing pulls and nothing penetrates."""
     if np.min(forces[touching], initial=0.0) < -problem.tolerance.force:
         return False
@@ -146,18 +151,15 @@ def obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces:
     return max(others, default=-np.inf) <= problem.tolerance.length
 
 
-def why_none_holds(problem: StepProblem, leaders: list[int]) -> str:
-    """Why no set of nodes holds the load."""
+def _no_equilibrium(problem: StepProblem, leaders: list[int]) -> ContactNotConverged:
+    """The error of a load that no set of nodes holds."""
+    words = problem.free_words or "the load moves the drivetrain freely"
+    reason = f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"
     play = float(problem.gap[leaders].sum())
     if len(leaders) == 2 and play < 0.0 and not _independent(problem.jacobian[leaders]):
-        return (
+        reason = (
             f"no equilibrium: rigid teeth are wedged between drive and coast flanks, by {-1e3 * play:.4g} um more than there is backlash: "
             "raise gears.centre_distance, lower the flank deviations, or make teeth or bearings elastic ([gears.material], [bearings])"
         )
-    words = problem.free_words or "the load moves the drivetrain freely"
-    return f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"
-
-
-def no_equilibrium(words: str, nodes: int) -> ContactNotConverged:
-    history, sets = np.zeros((1, 5)), np.full((1, nodes), OPEN, dtype=np.int8)
-    return NoStaticEquilibrium([("rigid flanks", "no solution", history, sets)], words)
+    history, sets = np.zeros((1, 5)), np.full((1, len(problem.gap)), OPEN, dtype=np.int8)
+    return NoStaticEquilibrium([("rigid flanks", "no solution", history, sets)], reason)

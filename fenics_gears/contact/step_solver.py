@@ -14,8 +14,10 @@ from fenics_gears.contact.newton import (
     CONVERGED,
     ONE_AT_A_TIME,
     OUTCOMES,
+    RESIDUAL_NAMES,
     SINGULAR,
     THROUGH_STICK,
+    measure,
     newton,
 )
 
@@ -48,6 +50,15 @@ class StepProblem:
     free_motion: np.ndarray
     tolerance: Tolerance
     free_words: str = ""
+
+    def residual(self, status: np.ndarray, forces: np.ndarray, coordinates: np.ndarray, displacement: np.ndarray) -> np.ndarray:
+        """By how much (5,) a solution with these sets violates the laws and equilibrium, as `newton.measure` has it."""
+        row = np.zeros(len(RESIDUAL_NAMES))
+        measure(
+            row, self.stiffness, self.load, self.compliance, self.jacobian, self.gap, self.slip_before, self.friction,
+            status, forces, coordinates, displacement,
+        )  # fmt: skip
+        return row
 
 
 @dataclass(frozen=True)

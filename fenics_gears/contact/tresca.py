@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from fenics_gears.contact.newton import CONVERGED, CYCLED, SINGULAR, measure
+from fenics_gears.contact.newton import CONVERGED, CYCLED, SINGULAR
 
 MOST_PROGRAMMES = 100
 # From this programme on only half of each change of the bounds is taken, so that bounds that alternate converge.
@@ -50,7 +50,8 @@ def tresca(problem, status: np.ndarray, polish: Callable):
         if frozen is None:
             outcome = SINGULAR
             break
-        history.append(_residual(problem, frozen))
+        displacement = problem.jacobian @ frozen.coordinates - problem.compliance @ frozen.forces
+        history.append(problem.residual(frozen.sets, frozen.forces, frozen.coordinates, displacement))
         sets.append(frozen.sets)
         key = frozen.sets.tobytes()
         if np.array_equal(frozen.sets, before) and key not in tried:
@@ -128,13 +129,3 @@ def _root(stiffness: np.ndarray) -> np.ndarray:
     values, vectors = np.linalg.eigh(stiffness)
     kept = values > 1e-14 * max(values[-1], 1.0)
     return vectors[:, kept] * np.sqrt(values[kept])
-
-
-def _residual(problem, frozen: Frozen) -> np.ndarray:
-    row = np.zeros(5)
-    displacement = problem.jacobian @ frozen.coordinates - problem.compliance @ frozen.forces
-    measure(
-        row, problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before, problem.friction,
-        frozen.sets, frozen.forces, frozen.coordinates, displacement,
-    )  # fmt: skip
-    return row

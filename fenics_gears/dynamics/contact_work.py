@@ -14,7 +14,7 @@ NONE, NO_ROWS = np.empty(0), np.empty((0, 0))
 
 @dataclass(frozen=True)
 class ContactWork:
-    """Work of the contact over one step, N mm: `rotation`: done by the prescribed rotation; `friction`: lost; `changes`: by the algorithm where contact changes."""
+    """Work of the contact over one step, N mm: `rotation` by the prescribed rotation, `friction` lost, `changes` by the time stepping."""
 
     rotation: float
     friction: float

@@ -257,12 +257,8 @@ class Marcher:
         status = np.zeros(operator.nodes, dtype=np.int8)
         known = carried >= 0
         status[known] = last.solution.status[carried[known]]
-        solution = self._solve(scheme, self._right_side(scheme, last.state, step), position, slip_before, status, step, last.solution)
+        solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
-
-    def _right_side(self, scheme, state: State, step: float) -> np.ndarray:
-        """Right-hand side (k,), N, of the step of `scheme` from `state` to `step`."""
-        return sum((load(step) for load in self.loads), scheme.load(state))
 
     def _locks(self, record: Record) -> bool:
         """Whether friction at a closed node cancels more of the load than its normal force holds."""
@@ -277,12 +273,12 @@ class Marcher:
         slip_before = NO_SLIP if operator.rigid_slip is None else STEPS_SLID_BEFORE_START * operator.rigid_slip
         rest = np.zeros(len(self.drivetrain.coordinates))
         status = cold_start(operator.gap, operator.node_pair)
-        state = State(rest, rest, rest)
-        solution = self._solve(self.static, self._right_side(self.static, state, step), position, slip_before, status, step)
+        solution = self._solve(self.static, State(rest, rest, rest), position, slip_before, status, step)
         return Record(step, State(solution.coordinates, rest, rest), position, solution)
 
-    def _solve(self, scheme, load, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
-        operator = position.operator
+    def _solve(self, scheme, state: State, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
+        """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there is one."""
+        operator, load = position.operator, sum((load(step) for load in self.loads), scheme.load(state))
         problem = StepProblem(
             scheme.stiffness, load, operator.compliance, operator.jacobian, operator.gap, slip_before,
             self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words,

@@ -3,7 +3,8 @@
 Steps stand at equal phases n = step / steps_per_mesh_cycle. With f' constant, n = (f^2 - f_0^2)/(2 f'): the square of the frequency
 is linear in the phase, and the time from one phase to another is 2 (n_1 - n_0)/(f_0 + f_1).
 
-The frame of the nominal motion turns with the gears. Where it accelerates, inertia forces -M X'' of the nominal motion X act in it: on arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing for the twist of a shaft.
+The frame of the nominal motion turns with the gears. Where it accelerates, inertia forces -M X'' of the nominal motion X act in it: on
+arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing for the twist of a shaft.
 Damping is that of the motion relative to the nominal one, as at a steady speed.
 """
 

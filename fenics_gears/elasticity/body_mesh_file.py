@@ -1,4 +1,4 @@
-"""The mesh of a gear body in a file of gmsh, read and written."""
+"""Reading and writing the mesh of a gear body as a gmsh file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fenics_gears.errors import ComputationError, SceneError
 LINE = 1
 CORNERS_BY_TYPE = {2: 3, 3: 4}  # gmsh's numbers of straight-sided triangles and quadrilaterals
 TYPE_BY_CORNERS = {corners: number for number, corners in CORNERS_BY_TYPE.items()}
-# Points of a plane mesh lie so near to one plane, in parts of the body's size.
+# How far the points of a plane mesh may lie off one plane, in parts of the body's size.
 PLANE = 1e-6
 
 
@@ -90,7 +90,7 @@ def _check_plane(points: np.ndarray, path) -> None:
 
 
 def _facing_one_way(points: np.ndarray, cells: np.ndarray, path) -> np.ndarray:
-    """The cells counter-clockwise, all of which faced the same way; raises SceneError for a mesh that folds over itself."""
+    """Cells turned counter-clockwise; raises SceneError where not all faced the same way, as the mesh then folds over itself."""
     clockwise = corner_areas(points, cells).sum(axis=1) < 0.0
     if 0 < clockwise.sum() < len(cells):
         fewer = np.flatnonzero(clockwise == (clockwise.sum() < 0.5 * len(cells)))

@@ -1,7 +1,7 @@
-"""Results kept on disk under the hash of all that they depend on; of more than a limit those go first that were not used for the longest time.
+"""Results kept on disk under the hash of all their inputs; beyond a limit of size the entries go first that were unused for longest.
 
-No library for it: an entry is one immutable file that appears and goes by a single call of the file system, which holds on file systems
-of clusters too, where databases as `diskcache` has one lose their locks.
+An entry is one immutable file, made and removed by a single call of the file system. That is safe on the file systems of clusters too,
+where the locks of a database, as in the library `diskcache`, do not hold.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"
 FORMAT = "fenics_gears cache 2"
 SIZE_VARIABLE, DEFAULT_SIZE = "FENICS_GEARS_CACHE_SIZE", "2 GB"
 BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
-# A file that is older than this and not complete has lost its writer.
+# An incomplete file older than this (s) was left by a run that was killed.
 LONGEST_WRITING = 24 * 3600.0
 
 
@@ -40,7 +40,7 @@ def content_key(inputs: dict) -> str:
 def user_cache() -> Cache:
     """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory; at most FENICS_GEARS_CACHE_SIZE of it.
 
-    Raises SceneError for a size that is none.
+    Raises SceneError for a size that cannot be read.
     """
     directory = os.environ.get(DIRECTORY_VARIABLE)
     if not directory:
@@ -73,7 +73,7 @@ class Entry:
 class Cache:
     """Named arrays by key, one HDF5 file each. It never raises: what cannot be read or kept is computed again.
 
-    limit: bytes of all entries together, without one when None. The entry that was stored last stays whatever its size.
+    limit: bytes of all entries together, None for no limit. The entry stored last stays, whatever its size.
     """
 
     directory: Path
@@ -107,7 +107,7 @@ class Cache:
         try:
             content = _file_content(key, arrays)
             Path(self.directory).mkdir(parents=True, exist_ok=True)
-            # A name of its own for each writer, so that two runs cannot write into one file.
+            # Each writer has a file name of its own, so that two runs never write into one file.
             with tempfile.NamedTemporaryFile(
                 prefix=f"{key}.", suffix=".part", dir=self.directory, delete=False
             ) as file:
@@ -123,17 +123,17 @@ class Cache:
             if aside is not None:
                 _remove(aside)
         except BaseException:
-            # Ctrl-C between the two names.
+            # Such as Ctrl-C before the file has its final name.
             if aside is not None:
                 _remove(aside)
             raise
 
     def entries(self) -> list[Entry]:
-        """The complete entries, those first that were not used for the longest time."""
+        """The complete entries, the longest unused first."""
         return sorted(_files(self.directory, "*.h5"), key=lambda entry: entry.used)
 
     def clear(self) -> list[Entry]:
-        """Remove all complete entries, and what killed runs left; returns the entries."""
+        """Remove all complete entries and what killed runs left; returns the removed entries."""
         found = self.entries()
         for entry in found:
             _remove(entry.path)
@@ -149,7 +149,7 @@ class Cache:
         for entry in found:
             if size <= self.limit:
                 return
-            # Who reads it has it open and reads on; another run may remove it at the same time.
+            # A run that has the file open reads on; another run may remove it at the same time.
             if entry.path != stored:
                 _remove(entry.path)
                 size -= entry.size
@@ -173,7 +173,7 @@ def _files(directory: Path, pattern: str) -> list[Entry]:
 
 
 def _mark_as_used(path: Path) -> None:
-    # Not by the time of access, which many file systems do not keep.
+    # The time of change, since many file systems do not keep that of access.
     try:
         os.utime(path)
     except OSError:

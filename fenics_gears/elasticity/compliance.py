@@ -14,8 +14,8 @@ from fenics_gears.errors import ComputationError
 class Reach:
     """Distances, in pitches, between teeth whose flanks interact.
 
-    same: the largest of flanks of one side. across: the least and the largest by which a tooth whose drive flank is meant stands
-    counter-clockwise of one whose coast flank is; None where coast flanks do nothing.
+    same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive flank and a coast flank,
+    positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not loaded.
     """
 
     same: int
@@ -38,11 +38,10 @@ class FlankCompliance:
         displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs are
         interleaved x0, y0, x1, y1, ...; components are those of each tooth's own canonical frame.
         blocks[0] is symmetric positive definite.
-    alike: all teeth are alike, see `whole_body` for others.
+    alike: all teeth are alike (`WholeBodyCompliance`: they differ).
     flanks: 1, or 2 where the coast flank is known too: its 2n dofs then follow the drive flank's 2n, in the tooth's frame
         mirrored at its centreline, in which the coast flank has the drive flank's place.
-    timings: what the computation cost: time_mesh, time_compile, time_condense (s), unknowns,
-        from_cache and the like.
+    timings: time_mesh, time_compile, time_condense (s), unknowns, from_cache and the like.
     """
 
     roll_angle: np.ndarray
@@ -76,7 +75,7 @@ class FlankCompliance:
         if not least <= offset <= largest:
             raise ComputationError(
                 f"flank compliance: tooth offset {offset} was not computed, known are "
-                f"{least} to {largest}; ask flank_compliance for more tooth_offsets"
+                f"{least} to {largest}; ask flank_compliance for a larger reach"
             )
 
     def rolls_of(self, tooth: int) -> np.ndarray:
@@ -93,13 +92,15 @@ class FlankCompliance:
         return self.block(responding - loaded)[rows, columns]
 
     def key(self, responding: int, loaded: int) -> int:
-        """What the compliance between two teeth is kept under: their distance."""
+        """Key under which the compliance between two teeth can be kept: their distance."""
         return responding - loaded
 
 
 @dataclass(frozen=True)
 class BothFlanksCompliance(FlankCompliance):
-    """Of drive and coast flanks, kept without what symmetry says twice: in the mirror a coast flank is a drive flank, and a tooth ahead one behind.
+    """Compliance of drive and coast flanks; by symmetry about the tooth's centreline half of the blocks give the others.
+
+    In the mirror a coast flank is a drive flank, and a tooth ahead is one behind.
 
     blocks: (offsets + 1, 2n, 2n): of the drive flanks alone; those of the coast flanks are their transposes. across: (k, 2n, 2n),
     each symmetric: across[m - first_across] is the displacement of the drive flank m pitches ahead of a loaded coast flank.
@@ -114,7 +115,7 @@ class BothFlanksCompliance(FlankCompliance):
         return np.block([[self.between(offset, 0, (side, other)) for other in (0, 1)] for side in (0, 1)])
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
-        """As of `FlankCompliance`, without putting together what is not asked for."""
+        """As `FlankCompliance.between`, without assembling the other blocks."""
         ahead = (responding - loaded) * (1 if sides[0] == 0 else -1)
         if sides[0] != sides[1]:
             self._check_known(ahead, self.first_across, self.first_across + len(self.across) - 1)

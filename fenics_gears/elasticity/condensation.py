@@ -41,17 +41,16 @@ def condense(
     element: Element,
     poissons_ratio: float,
     points: dict[str, np.ndarray],
-    comm=None,
     cells_of: dict[str, np.ndarray] | None = None,
 ) -> CondensedBody:
     """Schur complement of a body's stiffness onto groups of nodes, disjoint and given by coordinates (mm).
 
-    cells_of: for groups of which nodes may be in one place, as on the faces of a crack, the centre (k, 2) of a cell of each node.
+    cells_of: for groups with several nodes in one place, as on the faces of a crack, the centre (k, 2) of a cell of each node.
     """
     clock = perf_counter()
     compile_ahead(element)
     compiled = perf_counter()
-    space = displacement_space(mesh, element, comm)
+    space = displacement_space(mesh, element)
     matrix = stiffness_matrix(space, element, poissons_ratio)
     assembled = perf_counter()
     cells_of = cells_of or {}
@@ -77,6 +76,6 @@ def by_radius(points: np.ndarray) -> np.ndarray:
 
 
 def without(points: np.ndarray, excluded: np.ndarray) -> np.ndarray:
-    """Those of points (k, 2) that are none of the excluded (j, 2)."""
+    """Points (k, 2) without the excluded ones (j, 2)."""
     distance = np.linalg.norm(points[:, None] - excluded[None], axis=-1).min(axis=1)
     return points[distance > 1e-9 * np.abs(points).max()]

@@ -1,13 +1,14 @@
 """How the cuts of a ring of equal sectors move under forces on one of them, by joining runs of sectors: for gears with many teeth.
 
-A run of n sectors is twice as long as two of n/2 with the cut between them eliminated, so that the teeth that are not asked for cost
-the logarithm of their number, where the Fourier transform (`elasticity.ring`) takes one dense inverse for every other tooth.
+A run of n sectors is twice as long as two of n/2 with the cut between them eliminated, so that the cost grows with the logarithm of the
+number of teeth. The Fourier transform (`elasticity.ring`) takes one dense inverse for every other tooth.
+
+A run is its stiffness (2 c, 2 c) over its clockwise and its counter-clockwise cut, each cut's dofs (c) in its own sector's frame.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import log2
 
 import numpy as np
@@ -19,35 +20,24 @@ from fenics_gears.errors import ComputationError
 CutResponse = Callable[[int], np.ndarray]
 
 
-@dataclass(frozen=True)
-class Run:
-    """Stiffness of a run of sectors between its two cuts, all else eliminated, each cut's dofs (c,) in its own sector's frame.
-
-    lower, upper: (c, c), of the clockwise and the counter-clockwise cut alone. across: (c, c), force on the lower per motion of the upper.
-    """
-
-    lower: np.ndarray
-    upper: np.ndarray
-    across: np.ndarray
+def joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Two runs, the second counter-clockwise of the first, their common cut eliminated."""
+    cut = len(first) // 2
+    total = np.zeros((3 * cut, 3 * cut))
+    total[: 2 * cut, : 2 * cut] += first
+    total[cut:, cut:] += second
+    numbers = np.arange(3 * cut)
+    return eliminated(total, np.delete(numbers, slice(cut, 2 * cut)), numbers[cut : 2 * cut])
 
 
-def joined(first: Run, second: Run) -> Run:
-    """Two runs, the second counter-clockwise of the first, their common cut eliminated. Raises ComputationError where nothing holds it."""
-    size = len(first.lower)
-    try:
-        factor = cho_factor(first.upper + second.lower)
-    except np.linalg.LinAlgError as error:
-        raise ComputationError("ring of sectors: the stiffness of a cut is not positive definite; is the hub held?") from error
-    shared = cho_solve(factor, np.hstack([first.across.T, second.across]))
-    by_lower, by_upper = shared[:, :size], shared[:, size:]
-    return Run(
-        _symmetric(first.lower - first.across @ by_lower),
-        _symmetric(second.upper - second.across.T @ by_upper),
-        -first.across @ by_upper,
-    )
+def eliminated(stiffness: np.ndarray, kept: np.ndarray, free: np.ndarray) -> np.ndarray:
+    """Schur complement on the kept dofs, symmetrised. Raises ComputationError where nothing holds the free ones."""
+    coupling = stiffness[np.ix_(free, kept)]
+    result = stiffness[np.ix_(kept, kept)] - coupling.T @ _solved(stiffness[np.ix_(free, free)], coupling)
+    return 0.5 * (result + result.T)
 
 
-def run_of(link: Run, count: int) -> Run:
+def run_of(link: np.ndarray, count: int) -> np.ndarray:
     """`count` (at least one) equal sectors one after the other, by doubling."""
     if count == 1:
         return link
@@ -56,25 +46,19 @@ def run_of(link: Run, count: int) -> Run:
     return twice if count % 2 == 0 else joined(twice, link)
 
 
-def chain_response(link: Run, teeth: int, reach: int) -> CutResponse:
+def chain_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """Response of cuts up to `reach` pitches from the loaded one, in a ring of `teeth` sectors; reach < teeth.
 
     The cuts 0 ... reach are kept; the sectors between them are single, those the long way round one run.
     """
-    size, rest = len(link.lower), run_of(link, teeth - reach)
-    stiffness = np.zeros(((reach + 1) * size,) * 2)
-    at = [slice(cut * size, (cut + 1) * size) for cut in range(reach + 1)]
-    for cut in range(reach + 1):
-        stiffness[at[cut], at[cut]] = (link if cut < reach else rest).lower + (link if cut else rest).upper
-    for ends, run in [*(((cut, cut + 1), link) for cut in range(reach)), ((reach, 0), rest)]:
-        lower, upper = (at[end] for end in ends)
-        stiffness[lower, upper] += run.across
-        stiffness[upper, lower] += run.across.T
-    try:
-        columns = cho_solve(cho_factor(stiffness), np.eye(len(stiffness), size))
-    except np.linalg.LinAlgError as error:
-        raise ComputationError("ring of sectors: the stiffness of its cuts is not positive definite; is the hub held?") from error
-    return lambda offset: columns[at[offset]] if offset >= 0 else columns[at[-offset]].T
+    cut, rest = len(link) // 2, run_of(link, teeth - reach)
+    stiffness = np.zeros(((reach + 1) * cut,) * 2)
+    dofs = np.arange(len(stiffness)).reshape(reach + 1, cut)
+    for lower, upper, run in [*((each, each + 1, link) for each in range(reach)), (reach, 0, rest)]:
+        ends = np.concatenate([dofs[lower], dofs[upper]])
+        stiffness[np.ix_(ends, ends)] += run
+    columns = _solved(stiffness, np.eye(len(stiffness), cut))
+    return lambda offset: columns[dofs[offset]] if offset >= 0 else columns[dofs[-offset]].T
 
 
 def chain_is_quicker(teeth: int, reach: int) -> bool:
@@ -88,5 +72,8 @@ def chain_is_quicker(teeth: int, reach: int) -> bool:
     return reach < teeth and 2.0 * chain < fourier
 
 
-def _symmetric(matrix: np.ndarray) -> np.ndarray:
-    return 0.5 * (matrix + matrix.T)
+def _solved(stiffness: np.ndarray, loads: np.ndarray) -> np.ndarray:
+    try:
+        return cho_solve(cho_factor(stiffness), loads)
+    except np.linalg.LinAlgError as error:
+        raise ComputationError("joining sectors: the stiffness of a cut is not positive definite; is the hub held?") from error

@@ -1,4 +1,4 @@
-"""The only module that knows DOLFINx: what the program uses of it, alike on 0.5, 0.9 and 0.11."""
+"""The only module that imports DOLFINx: what the program uses of it, alike on 0.5, 0.9 and 0.11."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ _CELL_NAME = {3: "triangle", 4: "quadrilateral"}
 _HAS_FUNCTIONSPACE = hasattr(fem, "functionspace")
 
 
-def create_mesh(points, cells, comm=MPI.COMM_SELF):
-    """DOLFINx mesh of straight-sided cells.
+def create_mesh(points, cells):
+    """DOLFINx mesh of straight-sided cells, on this process alone.
 
     points: (n, 2), mm. cells: (m, 3) or (m, 4), corners counter-clockwise.
     """
@@ -56,7 +56,7 @@ def create_mesh(points, cells, comm=MPI.COMM_SELF):
     ordered = np.ascontiguousarray(cells[:, _CORNER_ORDER[corners]], dtype=np.int64)
     coordinates = np.ascontiguousarray(points, dtype=np.float64)
     return dolfinx.mesh.create_mesh(
-        comm, cells=ordered, x=coordinates, **{element_name: domain}
+        MPI.COMM_SELF, cells=ordered, x=coordinates, **{element_name: domain}
     )
 
 
@@ -99,7 +99,7 @@ def node_coordinates(space) -> np.ndarray:
 
 
 def constant(mesh, value: float):
-    """Number in a form that may change without compiling the form again."""
+    """Number in a form; it may change without compiling the form again."""
     return fem.Constant(mesh, PETSc.ScalarType(value))
 
 
@@ -117,7 +117,7 @@ def quiet_compiler():
 def with_compiled(build):
     """Call ``build()``, which compiles; where a compile was once killed halfway, remove what it left and call it again.
 
-    The form compiler takes the source file of a killed compile for one under way, waits 10 s and names the file.
+    The form compiler believes that a killed compile is still under way; it waits 10 s and names the source file in its error.
     """
     try:
         return build()

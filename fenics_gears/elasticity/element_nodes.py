@@ -1,4 +1,4 @@
-"""Nodes of a meshed body numbered from its mesh alone, whatever the finite element library calls them."""
+"""Nodes of a meshed body, numbered from its mesh alone and not as the finite element library numbers them."""
 
 from __future__ import annotations
 

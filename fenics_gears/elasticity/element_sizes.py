@@ -1,4 +1,4 @@
-"""How large the elements are, and where: fine at the flank, growing away from it."""
+"""Sizes of the elements over a sector: fine at the flank, growing away from it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+from fenics_gears.elasticity.elements import Element, element_named
+from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 
 # An edge across this angle (rad) cuts less than 0.05 % of its radius off the bore.
@@ -36,9 +38,9 @@ class ElementSizes:
     hub_angle: float = HUB_ANGLE
 
     def refined(self, factor: float) -> ElementSizes:
-        """All but the flank `factor` times as large, so that the meshes of several factors are one family, whose error falls with an order.
+        """All sizes but the flank's times `factor`: meshes of several factors are one family, whose error falls with an order.
 
-        Growth inwards stays within what elements bear, and the bore keeps its edges where the others are made larger.
+        Growth inwards is limited, so that elements do not become slivers; edges along the bore are never made larger.
         """
         return replace(
             self, fillet=factor * self.fillet, coast=factor * self.coast, body=factor * self.body,
@@ -49,6 +51,49 @@ class ElementSizes:
         """The sizes as multiples of a gear's module."""
         flank, fillet, coast, body = gear.in_modules(self.flank, self.fillet, self.coast, self.body)
         return replace(self, flank=flank, fillet=fillet, coast=coast, body=body)
+
+
+# By element order, in modules (the flank's size is always given). Against a mesh several times finer everywhere, the mean compliance
+# under 1 mm of uniform pressure at tip, middle and form circle is then within 0.05 % (P2, Q2) and 0.3 % (P1, Q1) with 0.06 mm on the flank.
+DEFAULT_SIZES = {
+    1: ElementSizes(flank=np.nan, fillet=0.01, coast=0.02, body=0.08, depth=4.0, growth=0.1),
+    2: ElementSizes(flank=np.nan, fillet=0.04, coast=0.08, body=0.3, depth=2.5, growth=0.35),
+}
+
+
+@dataclass(frozen=True)
+class Discretisation:
+    """How a gear's body is divided into finite elements.
+
+    element: a name of ELEMENTS. flank_element_size, body_element_size: mm, along the working flank and the largest in tooth and rim
+    (None: from the module). elastic_teeth: teeth this many pitches apart and further do not feel each other (1: each feels itself
+    alone); None: all do.
+    """
+
+    element: str
+    flank_element_size: float
+    body_element_size: float | None = None
+    elastic_teeth: int | None = None
+
+    def sizes(self, gear: Gear, both_flanks: bool = False) -> ElementSizes:
+        """Element sizes (mm) of a gear's sector mesh; both_flanks: the coast flank works too."""
+        sizes = element_sizes(gear, element_named(self.element), self.flank_element_size, self.body_element_size)
+        return replace(sizes, both_flanks=both_flanks)
+
+
+def element_sizes(gear: Gear, element: Element, flank: float, body: float | None = None) -> ElementSizes:
+    """Element sizes (mm) of a gear's sector mesh for a wanted size on the flank and, if not None, in the body.
+
+    The body's size scales all others but the flank's by the same factor. Raises SceneError for a
+    size that is not positive and finite.
+    """
+    for name, size in (("flank_element_size", flank), ("body_element_size", body)):
+        if size is not None and not (np.isfinite(size) and size > 0.0):
+            raise SceneError(f"{name} is {size} mm, must be positive and finite")
+    default = DEFAULT_SIZES[element.order]
+    fillet, coast, largest = (gear.module * size for size in (default.fillet, default.coast, default.body))
+    sizes = replace(default, flank=flank, fillet=fillet, coast=coast, body=largest)
+    return sizes if body is None else sizes.refined(body / largest)
 
 
 @dataclass(frozen=True)
@@ -63,7 +108,7 @@ class SizeSource:
 
 @dataclass(frozen=True)
 class SizeField:
-    """The smallest size that any source asks for, at most ``largest`` (mm)."""
+    """The smallest of the sizes of all sources, at most ``largest`` (mm)."""
 
     sources: tuple[SizeSource, ...]
     largest: float
@@ -79,7 +124,7 @@ class SizeField:
     def set_background(self, gmsh, points, tags, scale: float) -> None:
         """Make ``scale`` times this field the mesh size of the current gmsh model.
 
-        points: (n, 2) and tags: (n,) of the model's geometric points. Of the sources, those points count that are among them.
+        points: (n, 2) and tags: (n,) of the model's geometric points; other points of the sources are ignored.
         """
         lookup, fields = cKDTree(points), []
         for source in self.sources:
@@ -104,13 +149,17 @@ class SizeField:
         gmsh.model.mesh.field.setAsBackgroundMesh(smallest)
 
 
+def arc_lengths(curve: np.ndarray) -> np.ndarray:
+    """Lengths (m,) along a finely sampled curve (m, 2) from its first point."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+
+
 def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2) -> np.ndarray:
     """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand.
 
     A multiple of ``multiple`` divisions, at least ``fewest``, both ends included.
     """
-    steps = np.linalg.norm(np.diff(curve, axis=0), axis=1)
-    length = np.concatenate([[0.0], np.cumsum(steps)])
+    length, steps = arc_lengths(curve), np.linalg.norm(np.diff(curve, axis=0), axis=1)
     density = np.concatenate([[0.0], np.cumsum(steps * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])
     count = multiple * int(np.ceil(max(density[-1], fewest) / multiple - 1e-9))
     return np.interp(np.linspace(0.0, density[-1], count + 1), density, length) / length[-1]
@@ -118,5 +167,5 @@ def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2)
 
 def along(curve: np.ndarray, fractions: np.ndarray) -> np.ndarray:
     """Points (k, 2) of a finely sampled curve (m, 2) at fractions (k,) of its arc length."""
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+    length = arc_lengths(curve)
     return np.stack([np.interp(fractions * length[-1], length, curve[:, i]) for i in range(2)], axis=-1)

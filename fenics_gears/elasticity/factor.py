@@ -8,12 +8,12 @@ from scipy import sparse
 
 from fenics_gears.errors import ComputationError
 
-# Right-hand sides solved at once; more would take memory and no less time.
+# Right-hand sides solved at once; more take memory and save no time.
 COLUMNS_AT_ONCE = 64
 
 
 class Factor:
-    """Cholesky factor of a sparse symmetric positive definite matrix by MUMPS; `what` the matrix is of, for messages."""
+    """Cholesky factor of a sparse symmetric positive definite matrix by MUMPS; `what`: its name in messages."""
 
     def __init__(self, matrix: sparse.csr_matrix, what: str):
         matrix = matrix.tocsr()

@@ -8,13 +8,14 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
+from fenics_gears.elasticity.element_sizes import arc_lengths
 from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.sector_boundary import root_curve
 from fenics_gears.elasticity.sector_interior import SectorInterior
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
 
-# Points of one fillet; the one where the tangent stands at 30 degrees to the tooth's centreline comes besides.
+# Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline.
 POINTS = 24
 SECTION_ANGLE = np.radians(30.0)
 CURVE_SAMPLES = 2001
@@ -22,7 +23,7 @@ CURVE_SAMPLES = 2001
 
 @dataclass(frozen=True)
 class FilletCurve:
-    """Where stress is told along the drive side's fillet; the coast side's is its mirror image.
+    """The points of the drive side's fillet at which stress is evaluated; the coast side's are their mirror images.
 
     samples: (k, 2), the root finely sampled from the middle of the tooth space. length: (p,), along it. tangents: (p, 2).
     tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first POINTS go from the root circle to the form circle, the
@@ -40,8 +41,8 @@ def fillet_curve(gear: Gear) -> FilletCurve:
     """The points of a gear's fillets."""
     outline = tooth_outline(gear, CURVE_SAMPLES)
     samples = root_curve(outline)
-    along = _lengths(samples)
-    start = along[-1] - _lengths(outline.fillet)[-1]
+    along = arc_lengths(samples)
+    start = along[-1] - arc_lengths(outline.fillet)[-1]
     length = start + (along[-1] - start) * (np.arange(POINTS) + 0.5) / POINTS
     angles = _angles(outline, samples)
     inside = along >= start
@@ -69,7 +70,7 @@ def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStres
 
 
 def _root_nodes(curve: FilletCurve, interior: SectorInterior, side: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (k,) along the root on one side, those on the cut left out, and their lengths (k,) along the curve, ascending."""
+    """Nodes (k,) along the root on one side without those on the cut, and their lengths (k,) along the curve, ascending."""
     nodes, gear = interior.nodes, curve.outline.gear
     boundary = np.unique(nodes.boundary_sides)
     free = np.setdiff1d(boundary, np.concatenate([interior.lower, interior.upper, interior.hub]))
@@ -77,14 +78,15 @@ def _root_nodes(curve: FilletCurve, interior: SectorInterior, side: int) -> tupl
     free = free[(radius < gear.form_radius * (1.0 + 1e-9)) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
     points = nodes.points[free] if side == 0 else curve.outline.coast(nodes.points[free])
     distance, nearest = cKDTree(curve.samples).query(points)
-    # Of either side's nodes those of the other are far away; chords keep the middles of sides a hair off the curve.
+    # Nodes of the other side are far away; the middles of sides lie a little off the curve, on its chords.
     own = distance < 0.02 * gear.module
-    order = np.argsort(_lengths(curve.samples)[nearest[own]])
-    return free[own][order], _lengths(curve.samples)[nearest[own]][order]
+    lengths = arc_lengths(curve.samples)[nearest[own]]
+    order = np.argsort(lengths)
+    return free[own][order], lengths[order]
 
 
 def _interpolation(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Weights (p, k) of linear interpolation between ascending places (k,), constant beyond them; nan where nothing is wanted."""
+    """Weights (p, k) of linear interpolation between ascending places (k,), constant beyond them; `wanted` may hold nan."""
     ahead = np.clip(np.searchsorted(nodes, np.nan_to_num(wanted)), 1, len(nodes) - 1)
     part = np.clip((wanted - nodes[ahead - 1]) / (nodes[ahead] - nodes[ahead - 1]), 0.0, 1.0)
     weights = np.zeros((len(wanted), len(nodes)))
@@ -93,12 +95,8 @@ def _interpolation(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     return weights
 
 
-def _lengths(points: np.ndarray) -> np.ndarray:
-    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-
-
 def _tangents(points: np.ndarray) -> np.ndarray:
-    tangents = np.gradient(points, _lengths(points), axis=0)
+    tangents = np.gradient(points, arc_lengths(points), axis=0)
     return tangents / np.linalg.norm(tangents, axis=1)[:, None]
 
 

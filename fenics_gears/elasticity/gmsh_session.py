@@ -1,4 +1,4 @@
-"""gmsh started and ended without side effects on the program that uses it."""
+"""gmsh started and ended without side effects on the calling program."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def gmsh_model(name: str):
 
 
 def _is_running(gmsh) -> bool:
-    # gmsh 4.8 cannot be asked; it is then taken as not running.
+    # gmsh 4.8 has no such query; it counts as not running.
     return hasattr(gmsh, "isInitialized") and bool(gmsh.isInitialized())
 
 

@@ -11,7 +11,7 @@ from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
 from fenics_gears.elasticity.sector_boundary import SectorBoundary
 
 CENTRELINE_SAMPLES = 400
-# Parts of the half on the drive flank's side, and what their mirror images are.
+# Parts of the half on the drive flank's side and their mirror images.
 IMAGES = {"flank": "coast", "upper cut": "lower cut", "hub": "hub"}
 
 
@@ -20,12 +20,12 @@ def drive_half(
 ) -> BodyMesh:
     """Mesh of a sector's half with the drive flank, from the sector's boundary; its edge "centreline" is the line of symmetry.
 
-    fill: makes the mesh of a closed boundary whose points come first, or as its edges name them, with edges for the named parts.
+    fill: meshes the inside of a closed boundary by a size field; the mesh has edges for the named parts.
     """
     half = _half(boundary, field)
     mesh = fill(half, field, (*IMAGES, "centreline"))
     axis, shared = centreline_direction(mesh), mesh.edge_points("centreline")
-    # Round-off apart they are there already.
+    # They lie on the line but for round-off.
     points = mesh.points.copy()
     points[shared] = (points[shared] @ axis)[:, None] * axis
     return BodyMesh(points, mesh.cells, mesh.edges)

@@ -1,4 +1,4 @@
-"""A plane mesh as plain arrays, and what must hold of it before it is used."""
+"""A plane mesh as plain arrays, and the checks of its cells."""
 
 from __future__ import annotations
 

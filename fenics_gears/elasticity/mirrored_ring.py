@@ -1,7 +1,7 @@
 """A gear of symmetric tooth sectors, both of whose flanks are loaded: half a sector condensed, the other half by symmetry.
 
-Motions of a symmetric sector are sums of those that are their own mirror image and of those that are its negative. They do not feel one
-another, so that each has a stiffness of half the size: on the centreline the former do not move across it, the latter not along it.
+Every motion of a symmetric sector is the sum of a symmetric and an antisymmetric one. The two are uncoupled, and each has a stiffness
+of half the size: on the centreline the symmetric one does not move across it, the antisymmetric one not along it.
 With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s s + a^T S_a a`` where
 ``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half and ``(R_s - R_a) / 2`` across.
 """
@@ -9,18 +9,15 @@ With v the drive half's motion and v' the coast half's in the mirrored frame, th
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg.lapack import dpotrf, dpotri
 
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
-from fenics_gears.elasticity.cut_chain import Run
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import cut_response, turned_nodes
-from fenics_gears.errors import ComputationError
+from fenics_gears.elasticity.ring import cut_response, definite_inverse, sector_response, turned_nodes
 
 
-def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None) -> CondensedBody:
+def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> CondensedBody:
     """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" (both without hub nodes) and "hub"."""
     hub = mesh.edge_nodes("hub", element.order)
     points = {
@@ -29,7 +26,7 @@ def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float, comm
         "centreline": by_radius(without(mesh.edge_nodes("centreline", element.order), hub)),
         "hub": hub,
     }
-    return condense(mesh, element, poissons_ratio, points, comm)
+    return condense(mesh, element, poissons_ratio, points)
 
 
 def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach) -> tuple[np.ndarray, np.ndarray]:
@@ -44,20 +41,18 @@ def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, re
     )
     nodes = len(half.points["cut"])
     turn, mirror = turned_nodes(teeth, nodes), np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
-    joint = cut_response(Run(mirror @ cut @ mirror, turn.T @ cut @ turn, mirror @ cut_cross @ turn), teeth, reach.farthest + 1)
-    # Forces on either flank reach the lower and the upper cut, whose motions are those in the frame of the lower one.
+    link = np.block([[mirror @ cut @ mirror, mirror @ cut_cross @ turn], [turn.T @ cut_cross.T @ mirror, turn.T @ cut @ turn]])
+    joint = cut_response(link, teeth, reach.farthest + 1)
+    # From forces on either flank to the lower and the upper cut, both in the frame of a lower cut.
     drive, coast = np.hstack([to_cut_cross @ mirror, to_cut @ turn]), np.hstack([to_cut @ mirror, to_cut_cross @ turn])
-
-    def response(offset: int) -> np.ndarray:
-        return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
 
     first, last = reach.across
     blocks, across = (np.empty((count, *held.shape)) for count in (reach.same + 1, last - first + 1))
     for offset, block in enumerate(blocks):
-        np.matmul(drive @ response(offset), drive.T, out=block)
+        np.matmul(drive @ sector_response(joint, offset), drive.T, out=block)
     blocks[0] = _symmetric(blocks[0] + held)
     for offset, block in enumerate(across, first):
-        block[:] = _symmetric((drive @ response(offset)) @ coast.T)
+        block[:] = _symmetric((drive @ sector_response(joint, offset)) @ coast.T)
     if first <= 0 <= last:
         across[-first] += held_cross
     return blocks, across
@@ -76,20 +71,9 @@ def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
 
 def _flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut: the flank free."""
-    compliance, coupling = _inverse(stiffness[:flank, :flank]), stiffness[:flank, flank:]
+    compliance, coupling = definite_inverse(stiffness[:flank, :flank], "a flank"), stiffness[:flank, flank:]
     response = compliance @ coupling
     return compliance, response, stiffness[flank:, flank:] - coupling.T @ response
-
-
-def _inverse(stiffness: np.ndarray) -> np.ndarray:
-    """Of a symmetric positive definite matrix: by Cholesky, three eighths of a general one's operations."""
-    factor, failed = dpotrf(stiffness.T, lower=False)
-    if not failed:
-        upper, failed = dpotri(factor, lower=False, overwrite_c=True)
-    if failed:
-        raise ComputationError("ring of sectors: a flank's stiffness is not positive definite; is the hub held?")
-    np.copyto(upper, upper.T.copy(), where=np.tri(len(upper), k=-1, dtype=bool))
-    return upper
 
 
 def _symmetric(matrix: np.ndarray) -> np.ndarray:

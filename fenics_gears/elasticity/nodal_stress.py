@@ -1,7 +1,7 @@
-"""Stress at the nodes of a body from its displacement: of every element where it is most accurate, averaged where elements meet.
+"""Stress at the nodes of a body from its displacement: taken in each element where it is most accurate, averaged where elements meet.
 
-The stress of an element is taken at the points where its error is of one order less (Barlow, International Journal for Numerical
-Methods in Engineering 10, 1976): the middle of first-order cells, the 2 x 2 Gauss points of Q2; that of P2 is linear and taken at the nodes.
+The points of an element where the error of its stress is one order smaller (Barlow, International Journal for Numerical
+Methods in Engineering 10, 1976) are the middle of first-order cells and the 2 x 2 Gauss points of Q2; that of P2 is linear and taken at the nodes.
 """
 
 from __future__ import annotations

@@ -1,23 +1,22 @@
-"""From forces on a gear's flanks to the displacement and stress of its whole body.
+"""Displacement and stress of a gear's whole body from the forces on its flanks.
 
-The flank compliance holds what the teeth do at their flanks; what it left out is solved back. Loads inside a sector reach its cuts by one
-solve with the factored sector, the cuts of all sectors follow from the ring's cyclic system (`elasticity.ring`), and the inside of each
-sector from its two cuts by one more solve.
+Three solves: loads inside a sector are brought to its cuts by the factored sector; the ring's cyclic system (`elasticity.ring`) moves the
+cuts of all sectors; from its two cuts the inside of each sector follows by the factored sector again.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import Element, element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.nodal_stress import nodal_stress
-from fenics_gears.elasticity.ring import check_congruent, rotation
+from fenics_gears.elasticity.ring import cyclic, rotation, sector_cuts
 from fenics_gears.elasticity.sector_interior import SectorInterior, dofs_of
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
@@ -29,7 +28,7 @@ class RecoveredBody:
     """A gear's sectors under load, the hub held: sector s stands s pitches counter-clockwise of the first, each in its own tooth's frame.
 
     displacement: (teeth, n, 2), mm. stress: (teeth, n, 3), MPa: xx, yy, xy at the nodes, averaged over the elements that meet there,
-    those of the neighbouring sector at a cut included. hub_force: (3,), N per mm of face width and N: forces and couple of the hub on
+    those of the neighbouring sector at a cut included. hub_force: (3,), N per mm of face width and N: forces and torque of the hub on
     the body, in the frame of sector 0, about the gear's centre.
     """
 
@@ -44,11 +43,11 @@ class GearRecovery:
     gear, material: lengths in mm, MPa. mesh: the sector that its compliance was computed on, in modules. Use it in a `with`, or `close` it.
     """
 
-    def __init__(self, gear: Gear, material: Material, mesh: BodyMesh, element: Element, comm=None):
+    def __init__(self, gear: Gear, material: Material, mesh: BodyMesh, element: Element):
         self.gear, self.material, self.element = gear, material, element
-        self.interior = SectorInterior(mesh, element, material.poissons_ratio, comm)
+        self.interior = SectorInterior(mesh, element, material.poissons_ratio)
         self.nodal_stress = nodal_stress(self.interior.nodes, material.poissons_ratio)
-        self._same, self._ahead = self._cut_stiffness(mesh, comm)
+        self._same, self._ahead = self._cut_stiffness(mesh)
 
     def __enter__(self) -> GearRecovery:
         return self
@@ -131,14 +130,12 @@ class GearRecovery:
             harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
         return np.fft.irfft(harmonics, n=self.gear.teeth, axis=0)
 
-    def _cut_stiffness(self, mesh: BodyMesh, comm) -> tuple[np.ndarray, np.ndarray]:
+    def _cut_stiffness(self, mesh: BodyMesh) -> tuple[np.ndarray, np.ndarray]:
         points = self.interior.nodes.points
         groups = {name: points[getattr(self.interior, name)] for name in ("lower", "upper", "hub")}
-        sector = condense(mesh, self.element, self.material.poissons_ratio, groups, comm)
-        check_congruent(sector, self.gear.teeth)
-        turn = np.kron(np.eye(len(groups["upper"])), rotation(self.gear.angular_pitch))
-        same = sector.between("lower", "lower") + turn.T @ sector.between("upper", "upper") @ turn
-        return same, sector.between("lower", "upper") @ turn
+        sector = condense(mesh, self.element, self.material.poissons_ratio, groups)
+        cuts, turn = sector_cuts(sector, self.gear.teeth)
+        return cyclic(turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn)
 
     def _hub_force(self, unit: np.ndarray) -> np.ndarray:
         """Sum over the sectors of the hub's forces on them, (3,)."""
@@ -174,21 +171,10 @@ class GearRecovery:
         return hub[[np.argmin(np.abs(np.angle(np.exp(1j * (ends - angle)))))]]
 
 
-def gear_recovery(
-    gear: Gear,
-    material: Material,
-    *,
-    element: str,
-    flank_element_size: float,
-    body_element_size: float | None = None,
-    coast_flank: bool = False,
-    comm=None,
-) -> GearRecovery:
+def gear_recovery(gear: Gear, material: Material, discretisation: Discretisation, coast_flank: bool = False) -> GearRecovery:
     """A gear's recovery on the very mesh that `flank_compliance` has with the same settings."""
-    chosen = element_named(element)
-    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank)
-    mesh = sector_mesh(gear.of_module_one, sizes.in_modules_of(gear), chosen.quadrilateral)
-    return GearRecovery(gear, material, mesh, chosen, comm)
+    element, sizes = element_named(discretisation.element), discretisation.sizes(gear, both_flanks=coast_flank)
+    return GearRecovery(gear, material, sector_mesh(gear.of_module_one, sizes.in_modules_of(gear), element.quadrilateral), element)
 
 
 def turned_stress(stress: np.ndarray, angle: float) -> np.ndarray:

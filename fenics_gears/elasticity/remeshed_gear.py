@@ -1,8 +1,8 @@
-"""A gear meshed anew so that its flanks have nodes where they are wanted, condensed onto those nodes and the centre [7].
+"""A gear meshed anew so that its flanks have nodes at given places, condensed onto those nodes and the centre.
 
 Only the sectors of loaded teeth change from position to position. They are meshed and condensed one by one; all others are the
-same sector, condensed once. The cuts between sectors are congruent, and joining sectors is the assembly of the whole gear's
-mesh: the result equals that of meshing and condensing the whole gear each time, to round-off (a test does both).
+same sector, condensed once. The cuts between sectors are congruent, so that the result equals that of meshing and condensing the whole
+gear each time, to round-off (a test does both).
 """
 
 from __future__ import annotations
@@ -37,12 +37,11 @@ class LoadedTooth:
 
 
 class RemeshedGear:
-    """Stiffness of a gear on whatever flank nodes a position asks for; `timings` (s) adds up what it has cost."""
+    """Stiffness of a gear on the flank nodes of each position; `timings` (s): sums over all positions so far."""
 
-    def __init__(self, gear: Gear, material: Material, element: Element, sizes: ElementSizes, comm=None):
+    def __init__(self, gear: Gear, material: Material, element: Element, sizes: ElementSizes):
         self.gear, self.material, self.element, self.sizes = gear, material, element, sizes
         self.timings = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0, "sectors_meshed": 0}
-        self._comm = comm
         self._unloaded = self._sector(None, NO_NODES)
         self._runs: dict[int, Superelement] = {}
 
@@ -90,7 +89,7 @@ class RemeshedGear:
         clock = perf_counter()
         mesh = sector_mesh(self.gear, self.sizes, self.element.quadrilateral, rolls)
         meshed = perf_counter()
-        sector = condensed_sector(mesh, self.element, self.material.poissons_ratio, self._comm, points)
+        sector = condensed_sector(mesh, self.element, self.material.poissons_ratio, points)
         check_congruent(sector, self.gear.teeth)
         result = of_sector(sector)
         compiling = sector.timings["time_compile"]

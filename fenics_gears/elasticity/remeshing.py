@@ -1,4 +1,4 @@
-"""The stiffness of a gear at all positions of a mesh cycle, meshed anew at each, shared out between MPI ranks."""
+"""Stiffness of a gear at all positions of a mesh cycle, meshed anew at each; MPI ranks share the positions."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from time import perf_counter
 import numpy as np
 
 from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
@@ -21,7 +21,7 @@ ALGORITHM_VERSION = 2
 
 @dataclass(frozen=True)
 class RemeshedStiffness:
-    """A gear's stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, at each position; `timings`: what it cost (s)."""
+    """A gear's stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, at each position; `timings` (s)."""
 
     positions: list[np.ndarray]
     timings: dict
@@ -31,10 +31,7 @@ def remeshed_stiffness(
     gear: Gear,
     material: Material,
     positions: list,
-    *,
-    element: str,
-    flank_element_size: float,
-    body_element_size: float | None = None,
+    discretisation: Discretisation,
     cache: Cache | None = None,
     comm=None,
     report: Callable[[int, int], None] | None = None,
@@ -49,8 +46,8 @@ def remeshed_stiffness(
         "remeshed": ALGORITHM_VERSION,
         "gear": asdict(gear),
         "poissons_ratio": material.poissons_ratio,
-        "element": element,
-        "sizes": asdict(element_sizes(gear, element_named(element), flank_element_size, body_element_size)),
+        "element": discretisation.element,
+        "sizes": asdict(discretisation.sizes(gear)),
         "positions": [[[tooth.angle, tooth.rolls.tolist()] for tooth in teeth] for teeth in positions],
     })
     clock = perf_counter()
@@ -64,7 +61,7 @@ def remeshed_stiffness(
         timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
         return RemeshedStiffness(stiffness, timings)
     parts, timings = _shared(
-        lambda mine: _computed(gear, material, element, (flank_element_size, body_element_size), positions, mine, report),
+        lambda mine: _computed(gear, material, discretisation, positions, mine, report),
         len(positions),
         comm,
     )
@@ -73,13 +70,12 @@ def remeshed_stiffness(
     return RemeshedStiffness([parts[i] for i in sorted(parts)], {"from_cache": False, **timings})
 
 
-def _computed(gear, material, element, sizes, positions, mine, report) -> tuple[dict[int, np.ndarray], dict]:
+def _computed(gear, material, discretisation, positions, mine, report) -> tuple[dict[int, np.ndarray], dict]:
     """Positions `mine`, each meshed and condensed by this process."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.remeshed_gear import RemeshedGear
 
-    chosen = element_named(element)
-    body = RemeshedGear(gear, material, chosen, element_sizes(gear, chosen, *sizes))
+    body = RemeshedGear(gear, material, element_named(discretisation.element), discretisation.sizes(gear))
     found = {}
     for done, index in enumerate(mine, 1):
         found[index] = body.stiffness(positions[index])
@@ -89,14 +85,14 @@ def _computed(gear, material, element, sizes, positions, mine, report) -> tuple[
 
 
 def _shared(compute, count: int, comm) -> tuple[dict[int, np.ndarray], dict]:
-    """All ranks' positions on rank 0, none on the others, and the largest of their times; a failure on one is raised on all."""
+    """All ranks' positions on rank 0, none on the others, and the longest of their times; a failure on one is raised on all."""
     if comm is None:
         return compute(range(count))
     failure, mine, times = None, {}, {}
     try:
         mine, times = compute(range(comm.rank, count, comm.size))
     except Exception as error:
-        # Whatever it is, the other ranks wait to be told.
+        # Of any kind: the other ranks wait in allgather and would hang.
         failure = f"rank {comm.rank}: {error}" if isinstance(error, GearsError) else f"rank {comm.rank}: {type(error).__name__}: {error}"
     failures = [each for each in comm.allgather(failure) if each is not None]
     if failures:

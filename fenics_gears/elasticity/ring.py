@@ -2,26 +2,26 @@
 
 Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
 ``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
-exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. Of many teeth that are not asked for runs of
-sectors are joined instead (`elasticity.cut_chain`).
+exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with many teeth runs of sectors are
+joined instead, which is quicker (`elasticity.cut_chain`).
 """
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg.lapack import zpotrf, zpotri
+from scipy.linalg import block_diag, get_lapack_funcs
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
-from fenics_gears.elasticity.cut_chain import CutResponse, Run, chain_is_quicker, chain_response
+from fenics_gears.elasticity.cut_chain import CutResponse, chain_is_quicker, chain_response
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
 
 
 def condensed_sector(
-    mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None, flank: np.ndarray | None = None
+    mesh: BodyMesh, element: Element, poissons_ratio: float, flank: np.ndarray | None = None
 ) -> CondensedBody:
-    """Sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
+    """A sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
 
     flank: (k, 2), mm, nodes to keep of the flank or flanks; all of the drive flank's, by radius, when None.
     """
@@ -32,7 +32,7 @@ def condensed_sector(
         "upper": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
         "hub": hub,
     }
-    return condense(mesh, element, poissons_ratio, points, comm)
+    return condense(mesh, element, poissons_ratio, points)
 
 
 def check_congruent(sector: CondensedBody, teeth: int) -> None:
@@ -51,48 +51,57 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
     ``S_FF^-1 + X_k (D_k - B_k^H S_FF^-1 B_k)^-1 X_k^H`` with ``X_k = S_FF^-1 B_k`` (block inversion): one dense inverse of the flank,
     and for each harmonic one of the size of a cut. Back from harmonics to teeth, each power of e^{ik} is a shift by one tooth.
     """
-    check_congruent(sector, teeth)
-    lower, upper, cuts = _joined_blocks(sector, teeth)
+    cuts, turn = sector_cuts(sector, teeth)
+    coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
     flank_compliance = np.linalg.inv(sector.between("flank", "flank"))
-    to_lower, to_upper = flank_compliance @ lower, flank_compliance @ upper
+    to_cuts = flank_compliance @ coupling
     # One sector between its cuts, its flank free.
-    link = Run(cuts.lower - lower.T @ to_lower, cuts.upper - upper.T @ to_upper, cuts.across - lower.T @ to_upper)
+    link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts
     joint = cut_response(link, teeth, offsets + 1)
-    blocks = np.stack([
-        (to_lower @ joint(m) + to_upper @ joint(m + 1)) @ to_lower.T + (to_lower @ joint(m - 1) + to_upper @ joint(m)) @ to_upper.T
-        for m in range(offsets + 1)
-    ])
+    blocks = np.stack([to_cuts @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
     blocks[0] += flank_compliance
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
 
 
-def _joined_blocks(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, Run]:
-    """Couplings of the flank to either cut; the sector between its cuts, its flank held."""
-    turn = turned_nodes(teeth, len(sector.points["upper"]))
-    cuts = Run(
-        sector.between("lower", "lower"), turn.T @ sector.between("upper", "upper") @ turn, sector.between("lower", "upper") @ turn
-    )
-    return sector.between("flank", "lower"), sector.between("flank", "upper") @ turn, cuts
+def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray]:
+    """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c): the upper cut's are in the frame of the next sector.
+
+    Raises ComputationError for cuts that are not congruent.
+    """
+    check_congruent(sector, teeth)
+    lower, upper = sector.dofs("lower"), sector.dofs("upper")
+    return np.concatenate([lower, upper]), block_diag(np.eye(len(lower)), turned_nodes(teeth, len(upper) // 2))
 
 
-def cut_response(link: Run, teeth: int, reach: int) -> CutResponse:
+def sector_response(joint: CutResponse, offset: int) -> np.ndarray:
+    """Response (2 c, 2 c) of the cuts of the sector `offset` pitches ahead to forces on those of a sector; frames as of `sector_cuts`."""
+    return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
+
+
+def cyclic(link: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of a ring of sectors between their cuts (2 c, 2 c): stiffness (c, c) of a cut, and force on it per motion of the cut ahead."""
+    cut = len(link) // 2
+    return link[:cut, :cut] + link[cut:, cut:], link[:cut, cut:]
+
+
+def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= reach; `link`: one sector between its cuts."""
     return (chain_response if chain_is_quicker(teeth, reach) else fourier_response)(link, teeth, reach)
 
 
-def fourier_response(link: Run, teeth: int, reach: int) -> CutResponse:
+def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """The same by the discrete Fourier transform.
 
     The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian and positive definite; k and teeth - k
     are complex conjugates.
     """
     # D_k - B_k^H S_FF^-1 B_k of `ring_compliance`, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power 1.
-    same, ahead = link.lower + link.upper, link.across
+    same, ahead = cyclic(link)
     responses = np.zeros((reach + 1, *same.shape))
     for harmonic in range(teeth // 2 + 1):
         phase = np.exp(2j * np.pi * harmonic / teeth)
-        inverse = _hermitian_inverse(same + ahead * phase + ahead.T * np.conj(phase))
+        inverse = definite_inverse(same + ahead * phase + ahead.T * np.conj(phase), "a harmonic")
         own_conjugate = harmonic == 0 or 2 * harmonic == teeth
         weight = (1.0 if own_conjugate else 2.0) / teeth
         for offset in range(reach + 1):
@@ -101,14 +110,19 @@ def fourier_response(link: Run, teeth: int, reach: int) -> CutResponse:
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
 
 
-def _hermitian_inverse(matrix: np.ndarray) -> np.ndarray:
-    factor, failed = zpotrf(matrix, lower=False)
+def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:
+    """Inverse of a symmetric or Hermitian positive definite matrix, by Cholesky: three eighths of a general inverse's operations.
+
+    Raises ComputationError that says the stiffness of `what` is not positive definite.
+    """
+    factorised, inverted = get_lapack_funcs(("potrf", "potri"), (matrix,))
+    upper, failed = factorised(matrix, lower=False)
     if not failed:
-        upper, failed = zpotri(factor, lower=False)
+        upper, failed = inverted(upper, lower=False, overwrite_c=True)
     if failed:
-        raise ComputationError("ring of sectors: a harmonic's stiffness is not positive definite; is the hub held?")
-    strict = np.triu(upper, 1)
-    return strict + strict.conj().T + np.diag(upper.diagonal().real)
+        raise ComputationError(f"ring of sectors: the stiffness of {what} is not positive definite; is the hub held?")
+    np.copyto(upper, upper.conj().T.copy(), where=np.tri(len(upper), k=-1, dtype=bool))
+    return upper
 
 
 def centre_motion(points: np.ndarray, frame_angle: float = 0.0) -> np.ndarray:

@@ -1,18 +1,19 @@
 """Stress in a tooth's fillets per force on the flanks: a row for each fillet point, so that a time step's stress is one small product.
 
-The rows come by reciprocity (Betti): the load that stands for a fillet point's stress moves the flanks by what forces there do to that
-stress. One solve for each fillet point serves all flank nodes of all teeth.
+The rows come by reciprocity (Betti): under the load that is dual to the stress at a fillet point, the displacement of the flanks is that
+stress per unit force on them. One solve for each fillet point serves all flank nodes of all teeth.
 """
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
 from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, element_sizes
+from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
@@ -39,20 +40,11 @@ class RootStressRows:
 
 
 def root_stress_rows(
-    gear: Gear,
-    material: Material,
-    *,
-    element: str,
-    flank_element_size: float,
-    reach: int,
-    body_element_size: float | None = None,
-    coast_flank: bool = False,
-    cache: Cache | None = None,
-    comm=None,
+    gear: Gear, material: Material, discretisation: Discretisation, reach: int, coast_flank: bool = False, cache: Cache | None = None
 ) -> RootStressRows:
     """The rows of a gear, from the cache or by solving; settings as in `flank_compliance`. Stress does not depend on Young's modulus."""
-    chosen = element_named(element)
-    sizes = replace(element_sizes(gear, chosen, flank_element_size, body_element_size), both_flanks=coast_flank).in_modules_of(gear)
+    chosen = element_named(discretisation.element)
+    sizes = discretisation.sizes(gear, both_flanks=coast_flank).in_modules_of(gear)
     similar = gear.of_module_one
     key = content_key({
         "kind": "root stress",
@@ -65,14 +57,14 @@ def root_stress_rows(
     })
     arrays = cache.load(key) if cache is not None else None
     if arrays is None:
-        arrays = _computed(similar, material, chosen, sizes, reach, comm)
+        arrays = _computed(similar, material, chosen, sizes, reach)
         if cache is not None:
             cache.store(key, arrays)
     # A stress is a force over a length, which is in modules there.
     return RootStressRows(arrays["unit_rows"] / gear.module, arrays["tangent_angle"])
 
 
-def _computed(gear: Gear, material: Material, element, sizes, reach: int, comm) -> dict[str, np.ndarray]:
+def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dict[str, np.ndarray]:
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_rows
     from fenics_gears.elasticity.recovery import GearRecovery
@@ -80,7 +72,7 @@ def _computed(gear: Gear, material: Material, element, sizes, reach: int, comm) 
     from fenics_gears.elasticity.sector_mesh import sector_mesh
 
     mesh = sector_mesh(gear, sizes, element.quadrilateral)
-    with GearRecovery(gear, material, mesh, element, comm) as recovery:
+    with GearRecovery(gear, material, mesh, element) as recovery:
         curve = fillet_curve(gear)
         wanted = fillet_rows(curve, recovery.interior, recovery.nodal_stress)
         sides = ("flank", "coast") if sizes.both_flanks else ("flank",)

@@ -16,11 +16,9 @@ from fenics_gears.errors import ComputationError
 def schur_complement(matrix, dofs) -> np.ndarray:
     """Dense stiffness (k, k) on dofs (k,) with all other dofs in equilibrium without load; symmetrised.
 
-    matrix: symmetric PETSc matrix on one rank, positive definite on the other dofs.
-    Raises ComputationError when the factorisation fails or the matrix is distributed.
+    matrix: symmetric PETSc matrix of one process, positive definite on the other dofs.
+    Raises ComputationError when the factorisation fails.
     """
-    if matrix.comm.size != 1:
-        raise ComputationError("Schur complement: a body is condensed on one rank; pass a communicator of one rank")
     matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
     indices = PETSc.IS().createGeneral(np.asarray(dofs, dtype=PETSc.IntType), matrix.comm)
     preconditioner = PETSc.PC().create(matrix.comm)

@@ -22,14 +22,14 @@ class SectorInterior:
     Release the factor by `close`, or use it in a `with`.
     """
 
-    def __init__(self, mesh: BodyMesh, element: Element, poissons_ratio: float, comm=None):
+    def __init__(self, mesh: BodyMesh, element: Element, poissons_ratio: float):
         self.mesh, self.element, self.poissons_ratio = mesh, element, poissons_ratio
         self.nodes = element_nodes(mesh, element)
         self.hub = self._at(hub := mesh.edge_nodes("hub", element.order))
         self.lower, self.upper = (
             self._at(by_radius(without(mesh.edge_nodes(cut, element.order), hub))) for cut in ("lower cut", "upper cut")
         )
-        self.stiffness = self._assembled(comm)
+        self.stiffness = self._assembled()
         held = np.concatenate([self.lower, self.upper, self.hub])
         self.free = dofs_of(np.setdiff1d(np.arange(len(self.nodes.points)), held))
         self._factor = Factor(self.stiffness[self.free][:, self.free], "a tooth sector for its stresses")
@@ -70,9 +70,9 @@ class SectorInterior:
             raise ComputationError("recovery: a node of the sector's boundary is not among the nodes of its elements")
         return found
 
-    def _assembled(self, comm) -> sparse.csr_matrix:
+    def _assembled(self) -> sparse.csr_matrix:
         compile_ahead(self.element)
-        space = displacement_space(self.mesh, self.element, comm)
+        space = displacement_space(self.mesh, self.element)
         matrix = stiffness_matrix(space, self.element, self.poissons_ratio)
         starts, columns, values = matrix.getValuesCSR()
         assembled = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())

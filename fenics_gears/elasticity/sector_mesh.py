@@ -15,8 +15,8 @@ from fenics_gears.geometry.gear import Gear
 
 NAMED_PARTS = ("flank", "coast", "hub", "lower cut", "upper cut")
 TRIANGLE, QUADRILATERAL = 2, 3  # gmsh's numbers of cell types
-# gmsh fills outlines that differ in their last bit by other meshes, of which the compliance differs by up to 1 %. It is given outlines rounded to so
-# many decimals (modules): far coarser than round-off, far finer than any element.
+# Outlines that differ in their last bit get different meshes from gmsh, and their compliances differ by up to 1 %. Outlines are rounded to so many
+# decimals (modules): far coarser than round-off, far finer than any element.
 DECIMALS = 9
 
 
@@ -25,7 +25,7 @@ def sector_mesh(
 ) -> BodyMesh:
     """Mesh of one tooth sector, its two cuts congruent node for node.
 
-    With both flanks working it is symmetric about the tooth's centreline, so that neither flank is the better one.
+    With both flanks working it is symmetric about the tooth's centreline, so that both flanks are equally accurate.
     Flank vertices stand on the exact involute, even in arc length or at `flank_rolls` (rad, see sector_boundary).
     Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any version
     of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises ComputationError when gmsh fails,

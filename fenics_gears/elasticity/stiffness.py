@@ -45,10 +45,9 @@ def _cells(element: Element):
     return ufl.dx(metadata={"quadrature_degree": element.quadrature_degree})
 
 
-def displacement_space(mesh: BodyMesh, element: Element, comm=None):
-    """DOLFINx displacement space on a body; comm: communicator, COMM_SELF when None."""
-    comm = adapter.MPI.COMM_SELF if comm is None else comm
-    return adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells, comm), element.order)
+def displacement_space(mesh: BodyMesh, element: Element):
+    """DOLFINx displacement space on a body, on this process alone."""
+    return adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells), element.order)
 
 
 def compile_ahead(element: Element) -> None:

@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
 from fenics_gears.elasticity.condensation import CondensedBody
+from fenics_gears.elasticity.cut_chain import eliminated
 from fenics_gears.elasticity.ring import centre_motion, rotation
 from fenics_gears.errors import ComputationError
 
@@ -63,7 +63,7 @@ def joined(first: Superelement, second: Superelement) -> Superelement:
         rows = np.concatenate(places)
         total[np.ix_(rows, rows)] += part.stiffness
     kept = np.concatenate([lower, upper, flank_1, flank_2, centre])
-    return Superelement(_eliminated(total, kept, shared), first.cut)
+    return Superelement(eliminated(total, kept, shared), first.cut)
 
 
 def closed(whole: Superelement) -> np.ndarray:
@@ -73,7 +73,7 @@ def closed(whole: Superelement) -> np.ndarray:
     meet[:cut, :cut] = meet[cut:2 * cut, :cut] = np.eye(cut)
     meet[2 * cut:, cut:] = np.eye(size - 2 * cut)
     total = meet.T @ whole.stiffness @ meet
-    return _eliminated(total, np.arange(cut, len(total)), np.arange(cut))
+    return eliminated(total, np.arange(cut, len(total)), np.arange(cut))
 
 
 def run_of(sector: Superelement, count: int, pitch: float) -> Superelement:
@@ -88,14 +88,3 @@ def run_of(sector: Superelement, count: int, pitch: float) -> Superelement:
 def _ranges(counts: list[int]) -> list[np.ndarray]:
     ends = np.cumsum([0, *counts])
     return [np.arange(start, end) for start, end in zip(ends[:-1], ends[1:])]
-
-
-def _eliminated(stiffness: np.ndarray, kept: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """Schur complement on the kept dofs."""
-    try:
-        factor = cho_factor(stiffness[np.ix_(free, free)])
-    except np.linalg.LinAlgError as error:
-        raise ComputationError("joining sectors: the stiffness of a cut is not positive definite; is the hub held?") from error
-    coupling = stiffness[np.ix_(free, kept)]
-    result = stiffness[np.ix_(kept, kept)] - coupling.T @ cho_solve(factor, coupling)
-    return 0.5 * (result + result.T)

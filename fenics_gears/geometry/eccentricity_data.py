@@ -1,4 +1,4 @@
-"""What a scene says of the run-out of a gear pair."""
+"""Run-out of a gear pair as a scene gives it."""
 
 from __future__ import annotations
 

@@ -16,15 +16,14 @@ from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_toleranc
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 
-PITCH, SLOPE, FORM = range(3)  # each drawn by itself, so that giving one of them leaves the others as they are
+PITCH, SLOPE, FORM = range(3)  # each has random numbers of its own, so that giving one leaves the others as they are
 
 
 @dataclass(frozen=True)
 class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
-    ``index``: cumulative pitch deviation, how much later than it should a tooth arrives, on the reference circle; zero for the last
-    tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in the middle over that at
+    ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in the middle over that at
     both ends. ``active_profile``: roll angles (rad) of its start and its end.
     """
 
@@ -52,7 +51,7 @@ def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, star
     if errors.tolerance_class is not None:
         tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.module, errors.tolerance_class)
 
-    def dice(kind: int) -> np.ndarray:
+    def draws(kind: int) -> np.ndarray:
         return np.random.default_rng((errors.seed, number, kind)).uniform(-1.0, 1.0, gear.teeth)
 
     def values(given: tuple[float, ...] | None, drawn) -> np.ndarray:
@@ -60,27 +59,27 @@ def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, star
             return np.array(given, dtype=float)
         return np.zeros(gear.teeth) if tolerance is None else drawn(tolerance)
 
-    pitch = values(own.pitch, lambda limits: drawn_pitch(limits, dice(PITCH)))
+    pitch = values(own.pitch, lambda limits: drawn_pitch(limits, draws(PITCH)))
     return FlankDeviations(
-        # What rounding has left of the sum is shared out: the last tooth meets the first.
+        # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
         index=_closed(np.cumsum(pitch - pitch.mean())),
-        slope=values(own.profile_slope, lambda limits: limits.profile_slope * dice(SLOPE)),
-        form=values(own.profile_form, lambda limits: limits.profile_form * dice(FORM)),
+        slope=values(own.profile_slope, lambda limits: limits.profile_slope * draws(SLOPE)),
+        form=values(own.profile_form, lambda limits: limits.profile_form * draws(FORM)),
         waviness=own.waviness,
         active_profile=(start, gear.tip_roll_angle),
     )
 
 
-def drawn_pitch(limits: FlankTolerance, dice: np.ndarray) -> np.ndarray:
+def drawn_pitch(limits: FlankTolerance, draws: np.ndarray) -> np.ndarray:
     """Single pitch deviations (z,), mm, of a gear just within its class: the single or the cumulative one reaches its tolerance.
 
-    ``dice`` (z,): numbers between -1 and 1.
+    ``draws`` (z,): random numbers between -1 and 1.
     """
-    pitch = dice - dice.mean()
+    pitch = draws - draws.mean()
     cumulative = np.ptp(np.cumsum(pitch))
     return pitch * min(limits.single_pitch / np.abs(pitch).max(), limits.cumulative_pitch / cumulative)
 
 
 def _closed(index: np.ndarray) -> np.ndarray:
-    """The cumulative deviation with its last value, zero but for round-off, taken away."""
+    """The cumulative deviation less its last value, which is zero but for round-off."""
     return index - index[-1]

@@ -1,4 +1,4 @@
-"""What a scene says of the deviations of single teeth."""
+"""Deviations of single teeth as a scene gives them."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class Waviness:
 
 @dataclass(frozen=True)
 class GearErrors:
-    """What is given of one gear's errors, mm, a value for each tooth; None for what is not given.
+    """Errors of one gear, mm, a value for each tooth; None for what the scene does not give.
 
-    ``file``: the table that values are from; ``problem``: what is wrong with it, in words, empty where nothing is.
+    ``file``: the table that the values are from; ``problem``: what is wrong with it, in words, empty where nothing is.
     """
 
     pitch: tuple[float, ...] | None = None

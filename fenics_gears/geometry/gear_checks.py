@@ -1,4 +1,4 @@
-"""Gears that cannot be, named as what they are.
+"""Checks of a single gear: one that no rack can cut is refused.
 
 Every message says what is wrong, on which gear, the value, the limit, and the field of the scene to change.
 """
@@ -11,10 +11,10 @@ from typing import NoReturn
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.gear import Gear
 
+# Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
-"""Lengths (mm) below which a backlash, clearance or arc counts as exactly zero."""
+# Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
 LEAST_RIM = 0.2
-"""Thinnest rim between bore and root circle, in modules, that leaves room for a mesh."""
 
 
 def check_gear(gear: Gear, name: str) -> None:

@@ -1,4 +1,4 @@
-"""What a drawing says of a gear pair: dimensions, width and material, in N, mm and rad."""
+"""Dimensions, width and material of a gear pair, as on its drawing; in N, mm and rad."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Material:
 
 @dataclass(frozen=True)
 class GearData:
-    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` of its own, None for the pair's."""
+    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's."""
 
     teeth: int
     profile_shift: float
@@ -31,7 +31,7 @@ class GearData:
 class GearPairData:
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
-    `face_width`, mm, is that over which both gears meet, the smaller of their own; `material` that of gears without one of their own.
+    `face_width`, mm: over which both gears meet, the smaller of their own. `material`: of gears that have none of their own.
     """
 
     module: float
@@ -44,12 +44,12 @@ class GearPairData:
 
     @property
     def materials(self) -> tuple[Material, Material] | None:
-        """What pinion and wheel are made of; None where they are rigid."""
+        """Materials of pinion and wheel; None where they are rigid."""
         found = (self.material_of("pinion"), self.material_of("wheel"))
         return None if None in found else found
 
     def material_of(self, name: str) -> Material | None:
-        """What the "pinion" or the "wheel" is made of."""
+        """Material of the "pinion" or the "wheel"."""
         return getattr(self, name).material or self.material
 
     @property

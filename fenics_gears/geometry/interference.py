@@ -1,4 +1,4 @@
-"""Room between a tip corner and the fillet of the mating gear, away from the line of action."""
+"""Clearance between a tip corner and the fillet of the mating gear, away from the line of action."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     radius, angle = _tip_corner_path(gear, mate, centre_distance)
     fillet = fillet_point(gear, np.linspace(fillet_end(gear), 0.0, FILLET_POINTS))
     fillet_radius = np.hypot(fillet[:, 0], fillet[:, 1])
-    fillet_angle = _below(np.arctan2(fillet[:, 1], fillet[:, 0]))
+    # From straight down, as that of the path.
+    fillet_angle = np.arctan2(fillet[:, 1], fillet[:, 0]) + 0.5 * pi
     over_fillet = (angle >= fillet_angle[0]) & (angle <= fillet_angle[-1])
     if not over_fillet.any():
         return np.inf
@@ -47,8 +48,3 @@ def _tip_corner_path(gear: Gear, mate: Gear, centre_distance: float) -> tuple[np
     gear_rotation = mate.teeth / gear.teeth * (mate_angle[0] - mate_angle)
     angle = -involute_function(contact_roll) + (gear_angle[0] - gear_angle) - gear_rotation
     return np.hypot(across, along), angle
-
-
-def _below(polar_angle):
-    """Polar angles (rad) as measured from straight down."""
-    return polar_angle + 0.5 * pi

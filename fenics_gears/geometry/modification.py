@@ -1,4 +1,4 @@
-"""Departures from the involute that all teeth of a gear share."""
+"""Material removed from the involute by several effects, alike on all teeth of a gear."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Removals:
-    """Several effects that take material from one flank."""
+    """The removals of several effects from one flank."""
 
     parts: tuple
 

@@ -22,7 +22,7 @@ WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 class GearPair:
     """Two gears in mesh; lengths in mm, angles in rad. Built and checked by ``gear_pair``.
 
-    `face_width`: over which they meet; `own_face_widths`: of pinion and wheel where they are not as wide.
+    `face_width`: over which they meet; `own_face_widths`: of pinion and wheel, None where both have that width.
     """
 
     pinion: Gear
@@ -38,7 +38,7 @@ class GearPair:
 
     @property
     def rotation_ratio(self) -> float:
-        """Teeth of the pinion over teeth of the wheel: rotation of the wheel over that of the pinion, sign apart."""
+        """Teeth of the pinion over teeth of the wheel: rotation of the wheel over that of the pinion, without its sign."""
         return self.pinion.teeth / self.wheel.teeth
 
     @property
@@ -83,20 +83,20 @@ class GearPair:
 
     @property
     def fewest_pairs(self) -> int:
-        """Smallest number of tooth pairs that rigid gears have in contact: 1 up to a contact ratio of 2."""
+        """Smallest number of tooth pairs that rigid gears have in contact: 1 below a contact ratio of 2."""
         return floor(self.contact_ratio + WHOLE_CONTACT_RATIO_ROUNDING)
 
     @property
-    def end_of_fewest_pairs(self) -> float:
-        """Position (mm) of the pinion's HPSTC, the highest point of single tooth contact.
+    def hpstc(self) -> float:
+        """Position (mm) of the pinion's highest point of single tooth contact, the wheel's lowest.
 
-        With a contact ratio above 2 no tooth pair is ever alone; this is then the end of contact by the fewest pairs.
+        With a contact ratio above 2 no tooth pair is ever alone; this is then where contact by the fewest pairs ends.
         """
         return self.path_start + self.fewest_pairs * self.base_pitch
 
     @property
-    def start_of_fewest_pairs(self) -> float:
-        """Position (mm) of the wheel's HPSTC, which is the pinion's LPSTC, the lowest point of single tooth contact."""
+    def lpstc(self) -> float:
+        """Position (mm) of the pinion's lowest point of single tooth contact, the wheel's highest; see `hpstc`."""
         return self.path_end - self.fewest_pairs * self.base_pitch
 
     def pinion_roll_angle(self, position):
@@ -110,22 +110,22 @@ class GearPair:
     @property
     def pinion_hpstc_roll_angle(self) -> float:
         """Roll angle (rad) at the pinion's highest point of single tooth contact."""
-        return self.pinion_roll_angle(self.end_of_fewest_pairs)
+        return self.pinion_roll_angle(self.hpstc)
 
     @property
     def wheel_hpstc_roll_angle(self) -> float:
         """Roll angle (rad) at the wheel's highest point of single tooth contact."""
-        return self.wheel_roll_angle(self.start_of_fewest_pairs)
+        return self.wheel_roll_angle(self.lpstc)
 
     @property
     def pinion_lpstc_roll_angle(self) -> float:
         """Roll angle (rad) at the pinion's lowest point of single tooth contact."""
-        return self.pinion_roll_angle(self.start_of_fewest_pairs)
+        return self.pinion_roll_angle(self.lpstc)
 
     @property
     def wheel_lpstc_roll_angle(self) -> float:
         """Roll angle (rad) at the wheel's lowest point of single tooth contact."""
-        return self.wheel_roll_angle(self.end_of_fewest_pairs)
+        return self.wheel_roll_angle(self.hpstc)
 
     @property
     def pinion_sap_roll_angle(self) -> float:
@@ -136,16 +136,6 @@ class GearPair:
     def wheel_sap_roll_angle(self) -> float:
         """Roll angle (rad) of the wheel's lowest contact point, where the path of contact ends."""
         return self.wheel_roll_angle(self.path_end)
-
-    @property
-    def pinion_eap_roll_angle(self) -> float:
-        """Roll angle (rad) of the pinion's highest contact point, its tip."""
-        return self.pinion.tip_roll_angle
-
-    @property
-    def wheel_eap_roll_angle(self) -> float:
-        """Roll angle (rad) of the wheel's highest contact point, its tip."""
-        return self.wheel.tip_roll_angle
 
     @property
     def backlash(self) -> float:

@@ -1,4 +1,4 @@
-"""Pairs that cannot run, named as what they are.
+"""Checks of a gear pair: one that cannot run is refused.
 
 Every message says what is wrong, on which gear, the value, the limit, and the field of the scene to change.
 """
@@ -15,8 +15,8 @@ from fenics_gears.geometry.interference import fillet_clearance
 if TYPE_CHECKING:
     from fenics_gears.geometry.pair import GearPair
 
+# Tip thickness in modules below which design practice calls a tooth pointed.
 THIN_TIP = 0.2
-"""Tip thickness in modules below which design practice calls a tooth pointed."""
 
 
 def check_pair(pair: GearPair) -> None:
@@ -30,7 +30,7 @@ def check_pair(pair: GearPair) -> None:
 
 
 def design_warnings(pair: GearPair) -> list[str]:
-    """Sentences on what can be computed but is unusual design."""
+    """Warnings of unusual design that can be computed all the same."""
     found = []
     for name, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
         if gear.tip_thickness < THIN_TIP * gear.module:

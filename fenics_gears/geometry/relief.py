@@ -35,7 +35,7 @@ class ReliefCurve:
 
 @dataclass(frozen=True)
 class _Side:
-    """One end of a gear's flank: whose, in which section, at which roll angle (rad), and where relief usually starts (rad)."""
+    """One end of a gear's flank: the gear, its name, the section of the scene, roll angle (rad) of the end and where relief usually starts."""
 
     gear: Gear
     name: str
@@ -55,34 +55,36 @@ class _Side:
 
 
 def tip_reliefs(pair: GearPair, reliefs: TipRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
-    """Relief of pinion and wheel from HPSTC, unless said otherwise, to the tip; None for a gear that has none.
+    """Relief of pinion and wheel from HPSTC, unless the scene gives another start, to the tip; None for a gear that has none.
 
     Raises GeometryError as ``relief_curve`` does.
     """
-    pinion = _Side(pair.pinion, "pinion", "tip_relief", pair.pinion.tip_roll_angle, pair.pinion_hpstc_roll_angle)
-    wheel = _Side(pair.wheel, "wheel", "tip_relief", pair.wheel.tip_roll_angle, pair.wheel_hpstc_roll_angle)
-    return _curve(reliefs.pinion, pinion), _curve(reliefs.wheel, wheel)
+    usual_starts = pair.pinion_hpstc_roll_angle, pair.wheel_hpstc_roll_angle
+    return _curves(pair, reliefs, "tip_relief", (pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle), usual_starts)
 
 
 def root_reliefs(pair: GearPair, reliefs: RootRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
-    """Relief of pinion and wheel from LPSTC, unless said otherwise, to the form circle; None for a gear that has none.
+    """Relief of pinion and wheel from LPSTC, unless the scene gives another start, to the form circle; None for a gear that has none.
 
     Raises GeometryError as ``relief_curve`` does.
     """
-    pinion = _Side(pair.pinion, "pinion", "root_relief", pair.pinion.form_roll_angle, pair.pinion_lpstc_roll_angle)
-    wheel = _Side(pair.wheel, "wheel", "root_relief", pair.wheel.form_roll_angle, pair.wheel_lpstc_roll_angle)
-    return _curve(reliefs.pinion, pinion), _curve(reliefs.wheel, wheel)
+    usual_starts = pair.pinion_lpstc_roll_angle, pair.wheel_lpstc_roll_angle
+    return _curves(pair, reliefs, "root_relief", (pair.pinion.form_roll_angle, pair.wheel.form_roll_angle), usual_starts)
 
 
-def _curve(relief: Relief | None, side: _Side) -> ReliefCurve | None:
-    return None if relief is None else relief_curve(relief, side)
+def _curves(pair: GearPair, reliefs: TipRelief | RootRelief, section: str, ends, usual_starts):
+    sides = [_Side(getattr(pair, name), name, section, *angles) for name, *angles in zip(("pinion", "wheel"), ends, usual_starts)]
+    pinion, wheel = (
+        None if relief is None else relief_curve(relief, side) for relief, side in zip((reliefs.pinion, reliefs.wheel), sides)
+    )
+    return pinion, wheel
 
 
 def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:
     """Relief at one end of a gear's flank.
 
-    Raises GeometryError when it would start off the involute or at its own end, or when its depth is no length or more than the
-    tooth has.
+    Raises GeometryError when it would start off the involute or at its own end, or when its depth is negative or more than
+    half the tooth's thickness.
     """
     _check_depth(relief, side)
     start, gear = _start(relief, side), side.gear
@@ -126,7 +128,7 @@ def _start(relief: Relief, side: _Side) -> float:
 
 
 def _written_start(relief: Relief, start: float, side: _Side) -> str:
-    """Where a relief starts, as the scene has it."""
+    """Where a relief starts, in the terms of the scene."""
     end = "tip" if side.section == "tip_relief" else "form circle"
     for length, measured in ((relief.length_on_path, "on the path of contact"), (relief.length_on_flank, "along the flank")):
         if length is not None:
@@ -135,5 +137,5 @@ def _written_start(relief: Relief, start: float, side: _Side) -> str:
 
 
 def _changed(relief: Relief) -> str:
-    """The field that says where a relief starts."""
+    """The field of the scene that gives the start."""
     return "length_on_path" if relief.length_on_path is not None else "length_on_flank" if relief.length_on_flank is not None else "start"

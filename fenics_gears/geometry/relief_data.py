@@ -1,4 +1,4 @@
-"""What a scene says of tip and root relief."""
+"""Tip and root relief as a scene gives them."""
 
 from __future__ import annotations
 

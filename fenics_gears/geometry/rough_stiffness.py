@@ -1,4 +1,4 @@
-"""How stiff a tooth pair is, roughly: for natural frequencies, damping ratios and defaults of the accuracy."""
+"""A rough stiffness of a tooth pair, for natural frequencies, damping ratios and default accuracy settings."""
 
 from __future__ import annotations
 

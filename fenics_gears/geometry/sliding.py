@@ -1,4 +1,4 @@
-"""How the flanks slide over each other along the path of contact, by the rigid pair's nominal motion (ISO 21771, Niemann/Winter).
+"""Sliding of the flanks along the path of contact, from the rigid pair's nominal motion (ISO 21771, Niemann/Winter).
 
 At a distance xi (mm) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi, and their points move across the line of
 action with omega1 rho1 and omega2 rho2. Positions are arrays of any shape.
@@ -10,14 +10,13 @@ import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
-# Start of contact, begin of contact by the fewest pairs (LPSTC of the pinion), pitch point, end of contact by the fewest pairs (HPSTC),
-# end of contact: the letters of ISO 21771 where the pinion drives.
+# Start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact: the letters of ISO 21771 where the pinion drives.
 CONTACT_POINTS = ("A", "B", "C", "D", "E")
 
 
 def contact_points(pair: GearPair) -> np.ndarray:
     """Positions (5,), mm from T1, of the CONTACT_POINTS."""
-    return np.array([pair.path_start, pair.start_of_fewest_pairs, pair.pitch_point, pair.end_of_fewest_pairs, pair.path_end])
+    return np.array([pair.path_start, pair.lpstc, pair.pitch_point, pair.hpstc, pair.path_end])
 
 
 def sliding_per_rotation(pair: GearPair, position):

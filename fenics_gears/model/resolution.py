@@ -16,6 +16,7 @@ import numpy as np
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.model.drivetrain import mesh_stiffness
@@ -65,6 +66,11 @@ class Resolution:
     condensation: str
     body_element_size: float | None = None
     elastic_teeth: int | None = None
+
+    @property
+    def discretisation(self) -> Discretisation:
+        """How the gears' bodies are divided into finite elements."""
+        return Discretisation(self.element, self.flank_element_size, self.body_element_size, self.elastic_teeth)
 
 
 def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:

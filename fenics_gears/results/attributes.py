@@ -1,6 +1,6 @@
-"""The attributes of a result: what each is, and when it is there. A test holds the results of runs to this list.
+"""The attributes of a result: what each is, and when it is there. Tests compare the results of runs with this list.
 
-What may be in a result beside them: one attribute for each rung of the solver's ladder, by the prefix ``RUNG``, and one for each setting whose
+What may be in a result beside them: one attribute for each method of the solver, by the prefix ``RUNG``, and one for each setting whose
 error was estimated, by the prefix ``ESTIMATED``.
 """
 
@@ -112,9 +112,3 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("case_values", "", "the swept values, as JSON", IN_STUDIES),
     ResultAttribute("record_digest", "", "digest of what `study.nc` took from the case", IN_STUDIES),
 )
-
-
-def undeclared(attributes) -> set[str]:
-    """Names among a result's attributes that are not in the list."""
-    declared = {each.name for each in RESULT_ATTRIBUTES}
-    return {name for name in attributes if name not in declared and not name.startswith((RUNG, ESTIMATED))}

@@ -1,4 +1,4 @@
-"""Contact in the result: forces of the mesh, of every tooth pair and of every contact node, and what they ask of the shafts."""
+"""Contact in the result: forces of the mesh, of each tooth pair and of each contact node, and their reactions on the shafts."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ Values = dict[str, np.ndarray]
 
 
 def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of the whole mesh at consecutive records, on the drive flanks and on the coast flanks, and what all of them ask of either
-    gear's centre."""
+    """Forces of the whole mesh at consecutive records, on drive and on coast flanks, and their reactions on both gears' centres."""
     records, drive = nodes.records, nodes.drive
     reactions = np.array([layout.rows @ record.solution.forces for layout, record in zip(nodes.layouts, records)]).reshape(-1, 2, 3)
     values = {
@@ -57,8 +56,7 @@ def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of pairs of rigid flanks: that of the one pair that touches; not a number for pairs that touch together, whose shares
-    are not determined."""
+    """Forces of pairs of rigid flanks; not a number where several pairs touch together, for their shares are not determined."""
     from fenics_gears.contact.rigid_cycle import pairs_that_touch
 
     sides = {"pair_normal_force": DRIVE} | ({"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {})
@@ -75,7 +73,7 @@ def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def _sharing_pairs(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of pairs of rigid flanks whose shares are taken as even."""
+    """Forces of pairs of rigid flanks with friction, where pairs that touch together are given equal shares."""
     values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive), "pair_friction_force": nodes.by_slot(nodes.tangential * nodes.drive)}
     if scene.coast_flanks is not None:
         values["pair_coast_normal_force"] = nodes.by_slot(nodes.normal * ~nodes.drive)
@@ -100,7 +98,7 @@ def node_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def watched_contact(nodes: SideBySide) -> Values:
-    """What of consecutive records the run's warnings are made of: contact at the window's ends and on tips, rank of the compliance."""
+    """What the run's warnings need of consecutive records: contact at the window's ends and on tips, rank of the compliance."""
     operators = [record.position.operator for record in nodes.records]
     found = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),

@@ -1,4 +1,4 @@
-"""Everything of a result that is a curve over time, as one table for programs that read no NetCDF."""
+"""All curves over time of a result as one CSV table, for programs that do not read NetCDF."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-# More than any measurement has, and fewer than make a table unreadable.
+# Significant digits: more than a measurement has, and still readable.
 DIGITS = 12
 
 

@@ -110,7 +110,7 @@ def _contact_points(model: Model, result: xr.Dataset) -> dict[str, tuple]:
 
 
 def _undetermined_shares(result: xr.Dataset) -> list[str]:
-    """A sentence on rigid pairs that touch together."""
+    """A warning where several pairs of rigid flanks touch at once: their shares of the force are not determined."""
     steps = int(np.isnan(result["pair_normal_force"].values).any(axis=1).sum())
     if not steps:
         return []

@@ -1,4 +1,4 @@
-"""Energy in the result: what the drivetrain and the teeth hold, and the account of where it comes from and goes."""
+"""Energy in the result: what the drivetrain and the teeth store, and the work that supplies and takes it."""
 
 from __future__ import annotations
 
@@ -72,9 +72,9 @@ class Transmitted:
 
 
 def transmitted(result: xr.Dataset) -> Transmitted:
-    """Which side drives and what work it does, from the first to the last step of a result.
+    """The side that drives and the work it does, from the first to the last step of a result.
 
-    A wheel that drives takes work out of the pinion and negative work out of itself.
+    Where the wheel drives, the work of the pinion's side and of the wheel's side are negative.
     """
     at_pinion, at_wheel = (float(np.subtract(*result[name].values[[-1, 0]])) for name in ("work_input", "work_output"))
     if at_pinion + at_wheel < 0.0:

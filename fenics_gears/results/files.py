@@ -1,4 +1,4 @@
-"""A result on disk: NetCDF-4, written whole or not at all, and read back only as it was written."""
+"""A result as a NetCDF-4 file: written whole or not at all, and refused when read back damaged."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""The numbers that people ask a run for, as attributes of its result: of the settled whole mesh cycles, each with its unit and definition.
-
-They are read off the result's curves. What each is and where it comes from stands in `results.attributes`.
-"""
+"""The key numbers of a run, taken from the curves of its settled mesh cycles. `results.attributes` lists them with units and meaning."""
 
 from __future__ import annotations
 
@@ -18,7 +15,7 @@ from fenics_gears.scene.data import Scene
 
 MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
 HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
-# What a study takes of its cases' numbers, of those that they have.
+# The numbers that a study takes of each case, where it has them.
 STUDIED = (
     *HARMONIC_NAMES, "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
     "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "largest_root_stress_pinion",
@@ -27,7 +24,8 @@ STUDIED = (
 
 
 def key_numbers(counted: xr.Dataset, pair: GearPair, timed: bool = True) -> dict[str, float | str]:
-    """All numbers of the settled steps of a result; the attribute `friction_loss` is used if it is there. timed: the scene has a speed, so that there is power."""
+    """All numbers of the settled steps of a result; its attribute `friction_loss` is used if it is there. timed: the scene has a speed, without
+    which there is no power."""
     # The last step begins the next cycle.
     settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
     return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _root_stress(settled) | _power(counted, timed)

@@ -27,8 +27,8 @@ def stiffness_curves(nodes: SideBySide) -> Curves:
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curves:
     """The largest pressure of consecutive records, its tooth pair and its place, from their contact `fields`.
 
-    Pairs that press with the edge that ends a flank are left out of it, and have a largest pressure of their own: linear elasticity has no
-    limit there, and the number grows as contact nodes come closer.
+    Pairs that press with a tip's sharp edge are left out and have a largest pressure of their own: linear elasticity has infinite pressure
+    there, and the number grows as contact nodes come closer.
     """
     pressed_edge = nodes.of("on_tip").any(axis=0) & (nodes.normal > NO_FORCE)
     highest, rolls, at_edge = [], [], []

@@ -1,4 +1,4 @@
-"""The numbers that a pair is judged by, as plain functions of curves; `results.rated` takes them from a result.
+"""The numbers that a pair is judged by, as plain functions of curves; `results.key_numbers` applies them to a result.
 
 Curves (steps,) are those of whole mesh cycles of the settled motion, one value a step, the end left out that begins the next cycle.
 """

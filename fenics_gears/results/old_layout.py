@@ -1,4 +1,4 @@
-"""Results of before pairs were kept in slots, whose arrays went over all tooth pairs counted through the run: as results are now."""
+"""Results of earlier versions, whose arrays had a dimension `pair` for all tooth pairs of the run, converted to the present layout of slots."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ NODE_FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contac
 
 
 def upgraded(result: xr.Dataset) -> xr.Dataset:
-    """The result with slots in place of pairs; as it is where it has no dimension `pair`.
+    """The result with slots in place of pairs, unchanged where it has no dimension `pair`.
 
-    Only its last cycles are in it, contact fields of all of them; pairs are numbered from the first that is stored on.
+    An old result holds the last cycles only, all of them with contact fields. Its pairs are numbered from the first stored one.
     """
     if "pair" not in result.dims:
         return result
@@ -40,7 +40,7 @@ def upgraded(result: xr.Dataset) -> xr.Dataset:
 
 
 def _in_reach(result: xr.Dataset) -> np.ndarray:
-    """Whether each pair has contact nodes at each step (time, pair); of rigid flanks and springs, which store none, whether it carries."""
+    """Whether each pair has contact nodes at each step (time, pair); rigid flanks and springs store no nodes, there: whether the pair carries."""
     places = [result[name] for name in ("contact_roll_angle", "coast_contact_roll_angle") if name in result]
     if places:
         return np.any([np.isfinite(each.transpose("time", "pair", "contact_node").values).any(axis=2) for each in places], axis=0)
@@ -49,7 +49,7 @@ def _in_reach(result: xr.Dataset) -> np.ndarray:
 
 
 def _in_slots(variable: xr.DataArray, step: np.ndarray, pair: np.ndarray, held: np.ndarray, slots: int) -> xr.Variable:
-    """A variable by slot where it was by pair."""
+    """A variable of pairs as a variable of slots."""
     if "pair" not in variable.dims:
         return variable.variable
     rest = [name for name in variable.dims if name not in ("time", "pair")]

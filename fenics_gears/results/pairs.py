@@ -1,4 +1,4 @@
-"""Tooth pairs of a result, each with its own curve, from the slots in which a result keeps them; and the cycles that pictures show."""
+"""Curves of single tooth pairs from the slots in which a result keeps them, and the cycles that pictures show."""
 
 from __future__ import annotations
 

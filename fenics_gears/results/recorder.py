@@ -1,7 +1,7 @@
-"""What a march leaves of its steps, gathered while it goes: curves of all of them, contact fields of the last, and what the warnings need.
+"""Records a march while it goes: curves of all steps, contact fields of the last steps, and what the warnings need.
 
-A few steps are gone over at once; none is kept beyond that. Contact fields go round in their arrays, so that wherever the march ends
-those of its last steps are there.
+Steps are evaluated some at a time and then dropped. Contact fields are kept in ring buffers, so that those of the last steps are there
+wherever the march ends.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from fenics_gears.results.side_by_side import Layout, SideBySide
 if TYPE_CHECKING:
     from fenics_gears.results.root_stress_variables import RootStress
 
-# So many steps are gone over at once.
+# Steps that are evaluated at once.
 AT_ONCE = 128
 
 
 class Recorder:
-    """Takes each record of a march as it is made; `loads`: those that vary, the model's unless given; `stress`: of the fillets, if asked for.
+    """Takes each record of a march as it is made; `loads`: the varying ones, the model's unless given; `stress`: root stress, if asked for.
 
-    `steps`: how many are recorded. `watched`: by name (steps so far,), what the warnings are made of. `first_number`: of the pair that
+    `steps`: how many are recorded. `watched`: what the warnings need, by name (steps so far,). `first_number`: number of the pair that
     reaches the start of contact as the run begins.
     """
 
@@ -54,12 +54,12 @@ class Recorder:
         """The next step."""
         self._waiting.append(record)
         if len(self._waiting) == AT_ONCE:
-            self._go_over()
+            self._evaluate()
 
     def finish(self) -> None:
-        """After the last step: go over what waits, and bring the contact fields into the order of time."""
+        """After the last step: evaluate the remaining records, and put the contact fields into the order of time."""
         if self._waiting:
-            self._go_over()
+            self._evaluate()
         stored = self.size["contact_time"]
         for name, (dims, _) in stored_arrays(self.model.scene, self.size).items():
             if dims[0] == "contact_time":
@@ -70,11 +70,11 @@ class Recorder:
 
     @property
     def watched(self) -> dict[str, np.ndarray]:
-        """What the warnings are made of, of all steps."""
+        """What the warnings need, of all steps."""
         names = self._watched[0] if self._watched else ()
         return {name: np.concatenate([each[name] for each in self._watched]) for name in names}
 
-    def _go_over(self) -> None:
+    def _evaluate(self) -> None:
         records = self._waiting
         scene, cycle = self.model.scene, self.cycle
         nodes = SideBySide(cycle, records, self._layouts, self.slots, self.first_number)
@@ -101,7 +101,7 @@ class Recorder:
         for found in from_effects(scene, "watched", cycle, records):
             watched |= found
         self._keep(values, fields, len(records))
-        # Last of all: a march that is interrupted on the way here goes over these records again.
+        # Last of all: a march that is interrupted before this line evaluates these records again.
         self._watched.append(watched)
         self._waiting, self._last, self._worked, self.steps = [], records[-1], worked, self.steps + len(records)
 
@@ -132,7 +132,7 @@ class Recorder:
         return values
 
     def _energies(self, records: Sequence[Record]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
-        """Energies, and work since the first step of all; and the work at the last: the account goes on from the last record before."""
+        """Energies and the work since the first step; and the work at the last record, from which the next records go on."""
         model, before = self.model, [] if self._last is None else [self._last]
         together = [*before, *records]
         energies = energy_variables(model.scene, model.drivetrain, together)

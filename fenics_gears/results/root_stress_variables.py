@@ -1,4 +1,4 @@
-"""Root stress in the result: the stress along the surface of both fillets of every loaded tooth, over time."""
+"""Root stress in the result: stress along the surface of both fillets of each loaded tooth, over time."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class RootStress:
             for place, index in enumerate(teeth):
                 values[i, :, nodes.slot_of(i, index)] = stresses[:, place].reshape(2, 2, points)
         along = values[..., :-1].reshape(*values.shape[:3], -1)
-        return {"root_stress": along, "root_stress_maximum": _largest(along), "root_stress_at_30_degrees": values[..., -1]}
+        return {"root_stress": along, "root_stress_maximum": np.fmax.reduce(along, axis=-1), "root_stress_at_30_degrees": values[..., -1]}
 
     def labels(self) -> tuple[dict[str, str], dict[str, tuple]]:
         """Long names of the variables, and the coordinates of their fillet points."""
@@ -85,9 +85,3 @@ class RootStress:
                 {"units": "rad", "long_name": "angle between the fillet's tangent and the tooth's centreline"},
             ),
         }  # fmt: skip
-
-
-def _largest(values: np.ndarray) -> np.ndarray:
-    """Largest value over the last axis; not a number where there is none."""
-    known = np.isfinite(values[..., 0])
-    return np.where(known, np.max(values, axis=-1, where=np.isfinite(values), initial=-np.inf), np.nan)

@@ -1,7 +1,8 @@
-"""Which steps a run's numbers are of: all that were marched once the start has died down, in whole common periods."""
+"""The steps that a run's numbers are taken from: all after the vibration of the start has died down, in whole common periods."""
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass
 from math import ceil, exp, inf, isfinite, log, pi, sqrt
 from typing import TYPE_CHECKING
@@ -14,7 +15,7 @@ from fenics_gears.model.model import Model
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
 
-# What is left of the slowest vibration that the start has set off, in parts of what it was.
+# The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was.
 DIED_DOWN = 0.01
 
 
@@ -27,10 +28,10 @@ class Settled:
 
 
 def settled(model: Model, steps: int) -> Settled:
-    """The steps that count of so many, by the drivetrain's slowest vibration that contact excites; all of a quasi-static run.
+    """The settled ones of so many steps, by the drivetrain's slowest vibration that contact excites; all of a quasi-static run.
 
-    Whole common periods are taken where there is one, the last of them whether or not the start has died down, and where all cycles
-    are alike at least those whose contact fields are stored. Of a run that never repeats all counts if it does not die down.
+    They are whole common periods: at least the last one, and where all cycles are alike at least those with contact fields, even if the
+    start has not died down. A run that never repeats (a ramp) and does not die down counts as a whole.
     """
     a_cycle, period = model.resolution.steps_per_mesh_cycle, common_period(model.scene)
     rate, slowest = _slowest(model)
@@ -48,7 +49,7 @@ def settled(model: Model, steps: int) -> Settled:
 
 
 def of_settled(result: xr.Dataset) -> xr.Dataset:
-    """A result with those of its steps that its numbers are of; contact fields are as they were."""
+    """A result with its settled steps only; contact fields stay as they are."""
     begin = result.attrs.get("settled_from")
     return result if begin is None else result.isel(time=result["time"].values >= begin)
 
@@ -60,7 +61,7 @@ def _slowest(model: Model) -> tuple[float, Vibration | None]:
 
 
 def _rate(vibration: Vibration, model: Model) -> float:
-    """Rate (1/s) at which a vibration decays, by its damping and by the time stepping: backward Euler forgets what it does not follow."""
+    """Rate (1/s) at which a vibration decays, by its damping and by the numerical damping of backward Euler."""
     angular, ratio = 2.0 * pi * vibration.frequency, vibration.damping_ratio
     rate = angular * (ratio if ratio <= 1.0 else ratio - sqrt(ratio**2 - 1.0))
     if not model.time_scales.averages_acceleration:
@@ -73,11 +74,7 @@ def _step_at(model: Model, time: float, steps: int) -> float:
     if time <= 0.0 or not steps:
         return 0
     if time <= model.clock.time(steps):
-        low, high = 0, steps
-        while low < high:
-            middle = (low + high) // 2
-            low, high = (low, middle) if model.clock.time(middle) >= time else (middle + 1, high)
-        return low
+        return bisect_left(range(steps + 1), time, key=model.clock.time)
     return inf if not isfinite(time) else steps + ceil((time - model.clock.time(steps)) / model.time_step)
 
 

@@ -1,4 +1,4 @@
-"""Consecutive steps of a march with their contact nodes side by side, so that numpy goes over all of them at once."""
+"""The contact nodes of consecutive steps in one array, so that numpy treats them all at once."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from fenics_gears.dynamics.march import Record
 
 
 class Layout:
-    """What a position's contact nodes (n,) have that is the same whenever the gears stand there.
+    """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive flank; `at_end`:
-    whether it stands on an end of the window; `on_tip`: on the edge of the pinion's and of the wheel's tip; `rows` (6, n or 2 n): what a
-    unit of each force asks of both centres, force (x, y), N, and couple, N mm.
+    whether it stands on an end of the window; `on_tip`: on the edge of the pinion's and of the wheel's tip; `rows` (6, n or 2 n): reaction
+    of both centres to a unit of each force: force (x, y), N, and torque, N mm.
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
@@ -50,7 +50,7 @@ def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
 
 
 def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
-    """-G^T of all six coordinates of both centres, rotations as couples."""
+    """-G^T of all six coordinates of both centres, rotations as torques."""
     rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential)
     units = np.concatenate([[1.0, 1.0, radius] for radius in operator.base_radii])
     return -rows.T[:6] * units[:, None]

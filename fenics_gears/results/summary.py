@@ -1,4 +1,4 @@
-"""The few numbers of a run that are printed when it ends."""
+"""The summary that is printed when a run ends."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ STAGES = {
 
 
 def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]:
-    """Rows of label, value, unit: what came out, how the steps were solved, times, warnings; first of all those without which no number is right.
+    """Rows of label, value, unit: results, solver, times, warnings; warnings that make the numbers wrong stand first.
 
-    stages: names and seconds as the progress has said them; those of the result where there are none.
+    stages: names and seconds of the progress; those of the result where there are none.
     """
     said = dataset.attrs.get("warnings", "").splitlines()
     first = [warning for warning in said if NO_MEANING in warning or FEWER_THAN_THE_PERIOD in warning]
@@ -45,7 +45,7 @@ def _said(stages: Sequence[tuple[str, float]]) -> list[Row]:
 
 
 def result_rows(dataset) -> list[Row]:
-    """What came out, the most wanted first; a row is there where the run has its numbers."""
+    """The results, the most important first; rows without a number in this run are left out."""
     attributes = dataset.attrs
     parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _pressure, _root_stress)
     rows = [row for part in parts for row in part(attributes)]
@@ -151,7 +151,7 @@ def _root_stress(attributes) -> list[Row]:
 
 
 def _estimated_error(attributes) -> list[Row]:
-    """What a target asked for and what is estimated, with the settings and which of them limits it; nothing without a target."""
+    """The target, the estimated error, the setting that limits it and the chosen settings; nothing without a target."""
     if "target" not in attributes:
         return []
     parts = {name.removeprefix(ESTIMATED): error for name, error in attributes.items() if name.startswith(ESTIMATED)}
@@ -169,10 +169,10 @@ def _estimated_error(attributes) -> list[Row]:
 
 
 def _rungs(attributes) -> list[Row]:
-    """How often a step needed a rung of the fallback ladder beyond its route's own method; nothing where none did."""
+    """How many steps needed a fallback of their route's own method; nothing where none did."""
     own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else NEWTON
     used = {name.removeprefix(RUNG): int(count) for name, count in attributes.items() if name.startswith(RUNG)}
     used.pop(own, None)
     if not used:
         return []
-    return [("steps solved by the fallback ladder", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]
+    return [("steps solved by fallbacks", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]

@@ -1,4 +1,4 @@
-"""The cases of a study as rows: what was swept, what came out, which file holds it."""
+"""The cases of a study: swept values, results and file of each."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from fenics_gears.show.units import factor
 PRESENT, ABSENT = "present", "absent"
 # Sections whose name says nothing that their fields' names do not.
 PLAIN_SECTIONS = ("motion", "load", "gears", "accuracy", "output")
-# Times the largest of the other cases: beside such a value theirs are a line along the axis.
+# A value this many times the largest of the other cases would make them a line along the axis.
 FAR_OFF = 10.0
 LISTED_CASES = 12
 STATES = ("done", "warnings", "failed", "missing")
 
 
 @dataclass(frozen=True)
-class Field:
+class SweptField:
     """A swept field: its path in the scene, its unit, its value in each case (n,), numbers (not a number where it is absent) or words."""
 
     name: str
@@ -79,7 +79,7 @@ class Cases:
         return int(self.dataset["failed"].size)
 
     @cached_property
-    def fields(self) -> list[Field]:
+    def fields(self) -> list[SweptField]:
         """The swept fields, the last one turning fastest."""
         shape, found = self.dataset["failed"], []
         for name, coordinate in self.dataset.coords.items():
@@ -87,7 +87,7 @@ class Cases:
                 continue
             spread = coordinate.broadcast_like(shape).transpose(*shape.dims)
             unit = str(coordinate.attrs.get("units", ""))
-            found.append(Field(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit.replace("um", "µm"), spread.values.ravel()))
+            found.append(SweptField(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit.replace("um", "µm"), spread.values.ravel()))
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
         return sorted(found, key=lambda field: order.get(field.name, 0))
 
@@ -101,7 +101,7 @@ class Cases:
 
     @cached_property
     def states(self) -> list[str]:
-        """How each case stands."""
+        """The state of each case: one of `STATES`."""
         done, failed, warned = (
             np.isfinite(self.numbers("peak_to_peak_transmission_error")),
             self.dataset["failed"].values.ravel(),
@@ -114,9 +114,9 @@ class Cases:
 
     def far_off(self, values: np.ndarray) -> np.ndarray:
         """Which cases (n,) have a value that is many times all others' and belongs to a result without meaning."""
-        worthless = np.array([NO_MEANING in each for each in self.texts("warnings")]) & np.isfinite(values)
-        sound = np.isfinite(values) & ~worthless
-        return worthless & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max()) if sound.any() else np.zeros(self.count, dtype=bool)
+        without_meaning = np.array([NO_MEANING in each for each in self.texts("warnings")]) & np.isfinite(values)
+        sound = np.isfinite(values) & ~without_meaning
+        return without_meaning & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max()) if sound.any() else np.zeros(self.count, dtype=bool)
 
     def far_off_in_words(self, far_off: np.ndarray) -> str:
         """A note on cases that are not drawn; empty without any."""

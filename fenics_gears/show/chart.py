@@ -1,6 +1,6 @@
-"""What a chart shows: curves, bars, bands and a coloured field over two axes, with units, words and colours; how it is drawn is not said here.
+"""Charts as data: curves, bars, bands and a coloured field over two axes, with units, captions and colours.
 
-Two modules draw it: ``show.drawing`` by matplotlib, for files and paper, and ``show.report.interactive`` by plotly, to be zoomed.
+Two modules draw them: ``show.drawing`` by matplotlib, for files and paper, and ``show.report.interactive`` by plotly, for zooming.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from fenics_gears.show.panels import DARK, PALETTE, limits
 
 TIME, MESH_CYCLES = "time", "Time (mesh cycles since the start)"
 LINES, MARKERS, MARKED_LINES, BARS, BAND, WORDS = "lines", "markers", "lines+markers", "bars", "band", "words"
-# Width of a letter of a flag's words, in parts of the chart's width, on a page of usual width.
+# Width of a letter in a flag, in parts of the chart's width, on a page of usual width.
 LETTER = 0.0105
 
 
@@ -103,7 +103,7 @@ class Chart:
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """Ends of the second axis around what is shown; None where that is left to who draws."""
+        """Ends of the second axis around what is shown; None where the drawing module chooses them."""
         if self.y_range is not None or "y" in self.logarithmic or self.field is not None:
             return self.y_range
         shown = [self._shown(curve) for curve in self.curves]

@@ -1,4 +1,4 @@
-"""Charts drawn by matplotlib: one below the other as the picture of a run, or one alone as a still image of a page."""
+"""Draws charts by matplotlib: below each other as the picture of a run, or alone as a still image in a page."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ def _draw_flags(axes: Axes, chart: Chart) -> None:
 
 
 def heading(subject: str, title: str, *more: str) -> str:
-    """What is drawn and of what, in lines that fit a picture's width."""
+    """Subject and title in lines that fit a picture's width."""
     title = " ".join(title.split())
     first = textwrap.shorten(f"{subject}: {title}" if title else subject, LETTERS, placeholder=" …")
     return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])

@@ -1,4 +1,4 @@
-"""How much larger than life displacements may be drawn before teeth that do not touch are drawn into each other."""
+"""The largest scale at which displacements may be drawn without drawing teeth into each other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The picture of `gears effects`: what each effect costs and what it changes, a line for each subset of the scene's effects."""
+"""The picture of `gears effects`: cost and change of each effect, a line for each subset of the scene's effects."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run_scene import conditions
-from fenics_gears.studies.effect_lattice.measured import Report, Row
+from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
 from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_percent, own_remarks
 
@@ -21,7 +21,7 @@ LABEL = {"xytext": (5, 0), "textcoords": "offset points", "va": "center", "fonts
 
 
 @styled
-def effect_costs(report: Report) -> Figure:
+def effect_costs(report: EffectReport) -> Figure:
     """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds' least and most."""
     rows = report.rows
     # Less leaves no room between heading and footnotes.
@@ -65,7 +65,7 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
     axes.legend(loc="upper center", bbox_to_anchor=below, ncol=2, handlelength=1.2, columnspacing=1.0, fontsize=10.5)
 
 
-def _bars(axes: Axes, report: Report, places: np.ndarray, name: str, factor: float, title: str) -> None:
+def _bars(axes: Axes, report: EffectReport, places: np.ndarray, name: str, factor: float, title: str) -> None:
     """One number of every row, with its change, and the bare and the full scene's as lines to compare with."""
     rows = report.rows
     values = np.array([getattr(row, name) for row in rows]) * factor
@@ -94,7 +94,7 @@ def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
     axes.hlines(places, least, most, color=GREY, linewidth=1.6)
 
 
-def _heading(figure: Figure, report: Report) -> None:
+def _heading(figure: Figure, report: EffectReport) -> None:
     title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
     figure.suptitle(
         f"What the effects cost and change: {title}\n{conditions(report.scene)}",

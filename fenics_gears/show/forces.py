@@ -1,4 +1,4 @@
-"""Charts of the forces: of the mesh, of each tooth pair, and what they ask of the shafts."""
+"""Charts of the forces: of the mesh, of each tooth pair, and their reactions on the shafts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from fenics_gears.show.run import Run
 
 COAST_NOTE = "Coast flanks are drawn downwards."
 SHARES_UNKNOWN = "Where several rigid pairs touch at once their shares are not determined."
-# Of the largest value; the smallest span that an axis shows.
+# Smallest span that an axis shows, in parts of the largest value.
 LEAST_SHARE = 0.02
 
 

@@ -1,4 +1,4 @@
-"""Where in the picture of a pair the contact with the largest force is."""
+"""The place of the most loaded contact in the picture of a pair."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.stress_grid import upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
-MIRROR = np.array([-1.0, 1.0])
 FEWEST_NODES = 4
 
 
@@ -28,12 +27,6 @@ class LoadedContact:
 def stored_place(mesh: GearsInMesh, dataset: xr.Dataset) -> int:
     """Which of the steps with contact fields a recovered pair is at."""
     return int(np.argmin(np.abs(dataset["contact_mesh_phase"].values - mesh.mesh_phase)))
-
-
-def on_line(mesh: GearsInMesh, points: np.ndarray, coast: bool) -> np.ndarray:
-    """Points (..., 2), mm, given along and off the line of action, in the picture; the coast flanks' is its mirror at the line of centres."""
-    shown = upright(mesh)(points)
-    return shown * MIRROR if coast else shown
 
 
 def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | None:
@@ -56,4 +49,4 @@ def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | No
     points = np.column_stack([x, -height])
     spacing = float(np.median(np.linalg.norm(np.diff(points, axis=0), axis=1))) if len(points) > 1 else 0.0
     closed = max(np.count_nonzero(pressure > 0.0), FEWEST_NODES)
-    return LoadedContact(on_line(mesh, np.average(points, axis=0, weights=pressure), coast), 0.5 * spacing * closed)
+    return LoadedContact(upright(pair, np.average(points, axis=0, weights=pressure), coast), 0.5 * spacing * closed)

@@ -1,4 +1,4 @@
-"""Charts of how the gears move: transmission error, its course over the whole run, shafts, and what the scene lets vary."""
+"""Charts of motion: transmission error over a few and over all mesh cycles, shafts, and load and speed where they vary."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def error_by_cycle(run: Run) -> list[Chart]:
 
 
 def wheels_shaft(run: Run) -> list[Chart]:
-    """Displacement of the wheel's shaft: off the line of action where friction acts, else along it, for then it has no other."""
+    """Displacement of the wheel's shaft: off the line of action with friction; without, it moves only along it."""
     name, words = ("centre_y", "off") if "friction_force" in run.dataset else ("centre_x", "along")
     if name not in run.dataset:
         return []

@@ -1,4 +1,4 @@
-"""Charts of orders: transmission error and mesh force by what they come back with, and how the mesh orders change through a record."""
+"""Charts of orders: spectra of transmission error and mesh force by their source, and the mesh orders from cycle to cycle."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ERROR, FORCE, BETWEEN = "Transmission error", "Mesh force", "between mesh orders
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Lines over mesh orders, what each comes back with (n,), and words on the record they are of."""
+    """Lines over mesh orders, the source of each (n,), and a description of the record."""
 
     lines: OrderLines
     origins: np.ndarray
@@ -36,7 +36,7 @@ class Spectrum:
 
 
 def signals_of(run: Run) -> dict[str, tuple[np.ndarray, str]]:
-    """Values (time,) and unit of what is analysed."""
+    """Values (time,) and units of the analysed curves."""
     signals = {ERROR: error_values(run)}
     if "normal_force" in run.dataset and largest_normal_force(run.dataset):
         force = run.values("normal_force", "N")
@@ -51,7 +51,7 @@ def order_spectrum(run: Run) -> Chart | None:
     """Amplitudes of the transmission error over orders of the pinion's shaft; None for a record shorter than its turn."""
     if "transmission_error" not in run.dataset or run.scene is None:
         return None
-    # Where cycles are not alike all that count show their orders; where they are, no more than is shown.
+    # Where cycles differ, all settled ones are analysed; where they are alike, only those that are shown.
     run = run.settled if 1 < common_period(run.scene) < inf else replace(run, dataset=shown(run.dataset))
     values, unit = error_values(run)
     teeth = run.scene.gears.pinion.teeth, run.scene.gears.wheel.teeth
@@ -85,7 +85,7 @@ def _flags(lines: OrderLines, teeth: int, known: list[tuple[float, str]], bottom
 
 
 def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: float, narrow: float) -> list[Curve]:
-    """Bars in the colour of what each comes back with."""
+    """Bars in the colour of their source."""
     colours = {**COLOURS, BETWEEN: GREY}
     return [
         Curve(kind, lines.orders[seen & (kinds == kind)], lines.amplitudes[seen & (kinds == kind)], colour, width=wide if kind == MESH else narrow, mode=BARS)

@@ -1,4 +1,4 @@
-"""What all pictures share: palette, fonts, legends and the ends of axes."""
+"""What all pictures share: palette, fonts and the ends of axes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 import matplotlib
 import numpy as np
-from matplotlib.axes import Axes
 
 # Okabe and Ito's palette without its yellow, which is too pale for a line: told apart with any colour vision.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -53,9 +52,3 @@ def limits(values: np.ndarray, least: float) -> tuple[float, float]:
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     half = 0.5 * max(1.12 * (high - low), least)
     return 0.5 * (low + high) - half, 0.5 * (low + high) + half
-
-
-def legend(axes: Axes, columns: int, location: str = "lower right") -> None:
-    """Legend above the panel, where no curve can be."""
-    side = 1.0 if location.endswith("right") else 0.0
-    axes.legend(loc=location, bbox_to_anchor=(side, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4)

@@ -1,4 +1,4 @@
-"""The pictures of a run: charts put together from its dataset and saved under names that do not change."""
+"""The pictures of a run and of a study: charts of the dataset, saved under fixed names."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ PICTURES = dict(zip(PICTURE_FILES, SUBJECTS))
 
 
 def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
-    """Draw every picture that the result has something for, as PNG, and return the files.
+    """Draw all pictures for which the result has data, as PNG, and return the files.
 
     They appear in ``directory`` together, when all are drawn. Raises ComputationError where fewer than two steps are stored, a variable's
     units do not fit it, or the directory cannot be written.

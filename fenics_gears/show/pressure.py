@@ -13,7 +13,7 @@ from fenics_gears.show.units import factor
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
 EDGE_NOTE = " The pressure at a tip's edge does not converge with the mesh."
 SIDES = {"": "drive flanks", "coast_": "coast flanks"}
-# A tip that enters or leaves presses with its edge: a few cells far above all others, which would leave these one colour.
+# A tip that enters or leaves contact presses with its edge; these few cells would leave one colour for all others.
 COMMON_SHARE, CLIPPED = 98.0, 1.2  # per cent of the cells that the colours span; times that, from which they end there
 ROWS, MOST_COLUMNS = 260, 640
 # From light to dark in lightness, so that zero lies close to the paper and grey print keeps the order.

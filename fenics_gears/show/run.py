@@ -1,6 +1,6 @@
-"""A stored run as charts, pictures and the report see it: which of its cycles are shown, the curves of tooth pairs, the contact fields.
+"""A stored run for charts, pictures and the report: the cycles shown, curves of tooth pairs, contact fields.
 
-How the result's file arranges them (docs/result.md) is known here and nowhere else in ``show``.
+Only this module of ``show`` knows the layout of a result (docs/result.md).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from fenics_gears.show.units import factor, in_unit
 
 NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
 TOO_FEW = "Fewer than two steps are stored; a curve needs two."
-# More mesh cycles than this side by side are hairlines; longer records show their last ones, and all of them cycle by cycle.
+# Most mesh cycles side by side in a chart. Of longer records the last ones are shown, and all of them cycle by cycle.
 MOST_CYCLES = 4.0
 # Cycles whose least and largest values differ by less than this part of the largest span are alike.
 ALIKE = 0.01
@@ -77,7 +77,7 @@ class Run:
 
     @cached_property
     def settled(self) -> Run:
-        """The run without what its start has set off, as all its numbers are."""
+        """The settled part of the run, from which all its numbers are taken."""
         return replace(self, dataset=of_settled(self.dataset))
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What a picture takes from the scene that a result carries: its gear pair, and the operating conditions in one line."""
+"""The scene in a result: its gear pair, and its operating conditions in one line."""
 
 from __future__ import annotations
 

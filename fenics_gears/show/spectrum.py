@@ -1,4 +1,4 @@
-"""Orders of a record: what comes with the mesh, with a turn of either gear, and with waves on the flanks."""
+"""Orders of a record and their sources: the mesh, a turn of either gear, waves on the flanks."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def order_lines(error: np.ndarray, cycles: float, teeth: tuple[int, int]) -> Ord
 
 
 def origin(order: float, teeth: tuple[int, int]) -> str:
-    """What an order comes back with: the mesh, a turn of the pinion, of the wheel, of either, or only the hunting tooth."""
+    """The source of an order, by what it repeats with: the mesh, a turn of the pinion, of the wheel, of either, or the hunting tooth."""
     turns = order, order * teeth[1] / teeth[0]
     if _whole(order / teeth[0]):
         return MESH
@@ -64,7 +64,7 @@ def _whole(number: float) -> bool:
 
 
 def known_orders(scene: Scene) -> list[tuple[float, str]]:
-    """Orders that one cause is known for, with the words for it: run-out of either gear and the waves on its flanks."""
+    """Orders with a known cause, in words: run-out of either gear and waves on its flanks."""
     errors, run_out, found = scene.flank_errors, scene.eccentricity, []
     for name, turns in (("pinion", 1.0), ("wheel", scene.gears.pinion.teeth / scene.gears.wheel.teeth)):
         if run_out is not None and getattr(run_out, name) is not None:

@@ -1,4 +1,4 @@
-"""A turn through the stored mesh cycles as a moving picture: GIF everywhere, MP4 where ffmpeg is installed."""
+"""The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def check_suffix(path: Path) -> None:
         raise SceneError(f"{path}: there is no ffmpeg on PATH, which writes .mp4 files. Install it (Debian: ffmpeg), or name a .gif file.")
 
 
-def animate(runs: RunStresses, dataset: xr.Dataset, path: Path, scale: float | None, told: Callable[[int, int], None]) -> None:
-    """Write the moving picture; `told(done, all)` hears of every frame.
+def animate(runs: RunStresses, dataset: xr.Dataset, path: Path, scale: float | None, report: Callable[[int, int], None]) -> None:
+    """Write the moving picture; `report(done, all)` is called for every frame.
 
     Colours and scale are the same in all frames. The first and the last stored step are the same position in the mesh where whole cycles
     are stored, so that the last is left out and the turn has no seam.
@@ -49,9 +49,9 @@ def animate(runs: RunStresses, dataset: xr.Dataset, path: Path, scale: float | N
     del sampled
     frames = []
     for done, index in enumerate(steps):
-        told(done, len(steps))
+        report(done, len(steps))
         frames.append(_image(runs, dataset, index, scale, limit, beyond))
-    told(len(steps), len(steps))
+    report(len(steps), len(steps))
     (_write_gif if path.suffix == ".gif" else _write_mp4)(frames, path)
 
 

@@ -5,35 +5,30 @@ Pictures have the line of centres upright, the pinion above; files have the fram
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 
 # VTK's numbers of cell types, by corners.
 VTK_CELL = {3: 5, 4: 9}
 # Mesh cycles: whole ones may be written a little less.
 ROUNDING = 1e-9
+MIRROR = np.array([-1.0, 1.0])
 
 
-@dataclass(frozen=True)
-class Frame:
-    """From the frame of the line of action to the picture's: turned until the line of centres is upright."""
+def upright(pair: GearPair, points: np.ndarray, coast: bool = False) -> np.ndarray:
+    """Points or vectors (..., 2) in the frame of the line of action as the picture has them, with the line of centres upright.
 
-    angle: float
-
-    def __call__(self, points: np.ndarray) -> np.ndarray:
-        """Points or vectors (..., 2) as the picture has them."""
-        return np.asarray(points) @ rotation(self.angle).T
-
-
-def upright(mesh: GearsInMesh) -> Frame:
-    """The picture's frame of a pair."""
-    return Frame(-mesh.pair.operating_pressure_angle)
+    coast: on the line of action of the coast flanks, which is the mirror image at the line of centres.
+    """
+    shown = np.asarray(points) @ rotation(-pair.operating_pressure_angle).T
+    return shown * MIRROR if coast else shown
 
 
 def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
@@ -47,7 +42,7 @@ def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
     arm = body.points - body.centre
     arc = -0.5 * mesh.approach if mesh.coast else 0.5 * mesh.approach
     turned = arc / radius * np.column_stack([-arm[:, 1], arm[:, 0]])
-    return upright(mesh)(body.points + scale * (body.elastic + turned))
+    return upright(mesh.pair, body.points + scale * (body.elastic + turned))
 
 
 def largest_movement(mesh: GearsInMesh) -> float:
@@ -76,8 +71,8 @@ def outline(points: np.ndarray, sides: np.ndarray):
 def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> None:
     """Both gears' displacement (mm) and stress (MPa) as a .vtu file, in the frame of the line of action.
 
-    Its points are the same material points at every stored time; ``precision`` is that of what is written. Raises ComputationError where
-    neither pyvista nor meshio is there.
+    Its points are the same material points at every stored time; ``precision`` is that of what is written. Raises ComputationError
+    without pyvista.
     """
     points, cells, data = _merged(tuple(in_tooth_order(mesh, gear) for gear in (0, 1)))
     teeth = [np.repeat(np.arange(gear.teeth), len(body.points) // gear.teeth) for gear, body in zip((mesh.pair.pinion, mesh.pair.wheel), mesh.gears)]
@@ -87,9 +82,8 @@ def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> 
     points = np.column_stack([points, np.zeros(len(points))]).astype(precision)
     try:
         import pyvista
-    except ImportError:
-        _save_by_meshio(points, cells, data, path)
-        return
+    except ImportError as error:
+        raise ComputationError("a .vtu file needs pyvista, which is not installed") from error
     corners = cells.shape[1]
     flat = np.column_stack([np.full(len(cells), corners), cells]).ravel()
     grid = pyvista.UnstructuredGrid(flat, np.full(len(cells), VTK_CELL[corners], dtype=np.uint8), points)
@@ -112,14 +106,6 @@ def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
         return values.reshape(teeth, -1, values.shape[1])[sectors].reshape(values.shape)
 
     return replace(body, **{name: ordered(getattr(body, name)) for name in ("points", "elastic", "displacement", "stress")})
-
-
-def _save_by_meshio(points, cells, data, path: Path) -> None:
-    try:
-        import meshio
-    except ImportError as error:
-        raise ComputationError("a .vtu file needs pyvista or meshio, and neither is installed") from error
-    meshio.write(path, meshio.Mesh(points, [({3: "triangle", 4: "quad"}[cells.shape[1]], cells)], point_data=data))
 
 
 def _merged(gears: tuple[GearInSpace, ...]) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:

@@ -18,10 +18,10 @@ from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, on_line, stored_place
+from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run_scene import conditions, scene_of
-from fenics_gears.show.stress_grid import outline, shown_points, surface
+from fenics_gears.show.stress_grid import outline, shown_points, surface, upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
@@ -119,7 +119,7 @@ def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
     """The teeth along the path of contact of drive or coast flanks, their roots included."""
     pair = mesh.pair
     middle = 0.5 * (pair.path_start + pair.path_end)
-    centre = on_line(mesh, np.array([middle, -pair.pinion.base_radius]), coast)
+    centre = upright(pair, np.array([middle, -pair.pinion.base_radius]), coast)
     depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 4.0 * pair.pinion.module
     return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
 
@@ -197,7 +197,7 @@ def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
 
 def _line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) -> None:
     """The line between the base circles, its part that is the path of contact, and the pitch point."""
-    pair, frame = mesh.pair, partial(on_line, mesh, coast=coast)
+    pair, frame = mesh.pair, partial(upright, mesh.pair, coast=coast)
     height = -pair.pinion.base_radius
     ends = frame(np.array([[0.0, height], [pair.line_of_action_length, height]]))
     path = frame(np.array([[pair.path_start, height], [pair.path_end, height]]))

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.show import chart
-from fenics_gears.show.cases import Cases, Field
-from fenics_gears.show.chart import LINES, MARKED_LINES, Chart, Curve
+from fenics_gears.show.cases import Cases, SweptField
+from fenics_gears.show.chart import LINES, MARKED_LINES, Chart, Curve, Field
 from fenics_gears.show.panels import PALETTE
 
 # What one plot's legend holds; dashes tell apart what has the same colour.
@@ -25,13 +24,13 @@ def result_charts(cases: Cases) -> dict[str, Chart]:
 
 
 def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Chart:
-    """A chart without the cases beside which all others would be flat."""
+    """A chart of all cases but those without meaning whose values would flatten all others."""
     far_off = cases.far_off(values)
     return over_parameter(cases, np.where(far_off, np.nan, values), unit, name, cases.far_off_in_words(far_off))
 
 
 def effort_charts(cases: Cases) -> list[Chart]:
-    """What the cases took."""
+    """Wall time and Newton iterations of the cases."""
     of = {"wall_time": ("s", "Wall time of a case"), "newton_iterations": ("", "Newton iterations of a case")}
     return [
         over_parameter(cases, cases.numbers(name), unit, words)
@@ -66,13 +65,13 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
     return Chart(f"{name} over {axis.called}", curves, axis.title, y_title, note, HEIGHT, logarithmic=divided)
 
 
-def main_field(cases: Cases) -> Field:
+def main_field(cases: Cases) -> SweptField:
     """The swept field with most different numbers; with most different words where none has numbers."""
     numeric = [field for field in cases.fields if field.numeric]
     return max(numeric or cases.fields, key=lambda field: len({value for value in field.values.tolist() if value == value}))
 
 
-def logarithmic(field: Field) -> bool:
+def logarithmic(field: SweptField) -> bool:
     """Whether the field's values are spaced by a factor rather than by a step."""
     if not field.numeric:
         return False
@@ -87,7 +86,7 @@ def _zipped(cases: Cases) -> bool:
     return cases.dataset["failed"].dims == ("case",)
 
 
-def _lines(cases: Cases, axis: Field, others: list[Field]) -> list[tuple[str, np.ndarray]]:
+def _lines(cases: Cases, axis: SweptField, others: list[SweptField]) -> list[tuple[str, np.ndarray]]:
     """The places of the cases that lie on one line, with the words for it; along the axis in order."""
     groups: dict[str, list[int]] = {}
     for case in range(cases.count):
@@ -99,7 +98,7 @@ def _lines(cases: Cases, axis: Field, others: list[Field]) -> list[tuple[str, np
     ]
 
 
-def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str, note: str) -> Chart:
+def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, name: str, note: str) -> Chart:
     """The values in colour over two fields."""
     (x, column), (y, row) = (np.unique(field.values, return_inverse=True) for field in (axis, other))
     grid = np.full((len(y), len(x)), np.nan)
@@ -108,7 +107,7 @@ def _map(axis: Field, other: Field, values: np.ndarray, title: str, name: str, n
     for letter, field, places in (("x", axis, x), ("y", other, y)):
         divided += letter if logarithmic(field) else ""
         edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))
-    drawn = chart.Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), COLOURS)
+    drawn = Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), COLOURS)
     ends = [(float(each[0]), float(each[-1])) for each in edges]
     words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
     return Chart(f"{name} over {axis.called} and {other.called}", [], axis.title, other.title, words, 420, x_range=ends[0], y_range=ends[1], logarithmic=divided, field=drawn)

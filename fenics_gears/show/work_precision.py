@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run_scene import conditions
 from fenics_gears.studies.accuracy.measures import judged
-from fenics_gears.studies.accuracy.report import OWN, Report, WholeResult
+from fenics_gears.studies.accuracy.report import OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h")
@@ -20,7 +20,7 @@ LEAST_SHOWN = 1e-6
 
 
 @styled
-def work_precision(report: Report) -> Figure:
+def work_precision(report: AccuracyReport) -> Figure:
     """Left: whole settings with the front labelled, the scene's own, cheaper models. Right: each setting alone, the others fine."""
     figure = Figure(figsize=(15.0, 9.2), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.09, 1, 0.91))
@@ -31,7 +31,7 @@ def work_precision(report: Report) -> Figure:
     return figure
 
 
-def _whole(axes: Axes, report: Report) -> None:
+def _whole(axes: Axes, report: AccuracyReport) -> None:
     front = report.front
     others = [each for each in report.settings if each.name != OWN and each not in front]
     if others:
@@ -69,17 +69,17 @@ def _logarithmic(axes: Axes, results, floor: float) -> None:
     _percent_over_seconds(axes)
 
 
-def _alone(axes: Axes, report: Report) -> None:
+def _alone(axes: Axes, report: AccuracyReport) -> None:
     for place, result in enumerate(report.refinements):
         points = [(each.times.total, judged(each.errors)) for each in result.levels if judged(each.errors) > LEAST_SHOWN]
         if not points:
             continue
         order, expected = result.order("T_E"), result.refinement.expected
         aside = f" ({result.refinement.why})" if result.refinement.base else ""
-        told = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+        note = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
         style = "-" if expected is not None else ":"
         colour = PALETTE[place % len(PALETTE)]
-        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.refinement.name + told)
+        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.refinement.name + note)
     axes.set_xscale("log")
     axes.set_yscale("log")
     _percent_over_seconds(axes)
@@ -99,7 +99,7 @@ def _percent_over_seconds(axes: Axes) -> None:
     axes.tick_params(axis="x", which="minor", labelsize=9)
 
 
-def _heading(figure: Figure, report: Report) -> None:
+def _heading(figure: Figure, report: AccuracyReport) -> None:
     title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
     figure.suptitle(
         f"What accuracy costs in time: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False,

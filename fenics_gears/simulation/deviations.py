@@ -1,4 +1,4 @@
-"""What effects add to the gaps of a mesh cycle from step to step."""
+"""Effects that change the gaps of a mesh cycle from step to step, such as run-out and flank errors."""
 
 from __future__ import annotations
 

@@ -41,14 +41,14 @@ def quasi_static(scene: Scene) -> Scene:
 def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float | str]:
     """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps over those of the same scene without inertia.
 
-    In their place a reason where the quasi-static scene has no solution, so that they are not defined, or where cycles differ and a march
-    as long as the run's own is not asked for by root stress.
+    A reason stands in their place where the quasi-static scene has no solution, or where mesh cycles differ, so that a second march as long as
+    the run's own were needed, and root stress is not asked for.
     """
     model, cycle = recorder.model, recorder.cycle
     scene = quasi_static(model.scene)
     if common_period(scene) != 1 and recorder.stress is None:
         return {"dynamic_factor_unknown": DIFFERENT_CYCLES}
-    # Where cycles differ all of their period is gone through that was run, else one is as good as any.
+    # Where cycles differ the whole period is marched, as far as the run did; else one cycle is as good as any.
     period = min(common_period(scene), model.scene.motion.mesh_cycles)
     motion = replace(scene.motion, mesh_cycles=period, recorded_cycles=1)
     still = model_of(replace(scene, motion=motion, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=cycle.steps)))

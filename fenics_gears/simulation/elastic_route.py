@@ -46,17 +46,7 @@ def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) 
     # Imported here: rigid flanks have none.
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
-    resolution = model.resolution
-    return flank_compliance(
-        getattr(model.pair, name),
-        model.scene.gears.material_of(name),
-        element=resolution.element,
-        flank_element_size=resolution.flank_element_size,
-        reach=reach,
-        body_element_size=resolution.body_element_size,
-        elastic_teeth=resolution.elastic_teeth,
-        cache=cache,
-    )
+    return flank_compliance(getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, cache)
 
 
 def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:

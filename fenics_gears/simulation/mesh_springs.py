@@ -1,4 +1,4 @@
-"""Cheaper models of the mesh, marched by the same drivetrain: a stiffness table, and stiffness by ISO 6336-1 (`[accuracy] model`)."""
+"""Cheaper models of the mesh with the same drivetrain: a stiffness table, and stiffness by ISO 6336-1 (`[accuracy] model`)."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
 from fenics_gears.system.progress import Progress
 
-# A table has at most so many phases, and is linear between them.
+# Most phases of a table, which is linear between them.
 MOST_PHASES = 200
-# Where a scene has no load a table's loads are parts of that which bends a pair by this part of the module.
+# Without a load in the scene a table's loads are parts of the force that bends a pair by this part of the module.
 DEFLECTION_WITHOUT_LOAD = 1e-3
 
 

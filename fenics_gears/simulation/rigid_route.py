@@ -1,4 +1,4 @@
-"""Flanks that do not give way: the pair with the smallest gap carries all."""
+"""Rigid flanks: the pair with the smallest gap carries the whole load."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def rigid_route(model: Model, progress: Progress, cache: Cache | None, comm=None
 
 
 def rigid_cycle(model: Model) -> Cycle:
-    """The contact of one mesh cycle between flanks that do not give way."""
+    """The contact of one mesh cycle between rigid flanks."""
     if model.scene.friction is None:
         from fenics_gears.contact.rigid_cycle import RigidCycle as kind
     else:

@@ -1,4 +1,4 @@
-"""``[output] root_stress``: the rows of both gears that a march's stresses are taken by."""
+"""``[output] root_stress``: the matrices of both gears from flank forces to root stress, by which a march records it."""
 
 from __future__ import annotations
 
@@ -22,13 +22,10 @@ def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | N
 
 def gear_rows(model: Model, name: str, cache: Cache | None) -> RootStressRows:
     """Root stress rows of the "pinion" or the "wheel", on the mesh of its compliance."""
-    resolution = model.resolution
     return root_stress_rows(
         getattr(model.pair, name),
         model.scene.gears.material_of(name),
-        element=resolution.element,
-        flank_element_size=resolution.flank_element_size,
-        body_element_size=resolution.body_element_size,
+        model.resolution.discretisation,
         # Pairs are numbered by their drive flanks' teeth; the wheel's tooth of a coast pair stands one beside.
         reach=tooth_reach(model).farthest + 1,
         coast_flank=model.scene.coast_flanks is not None,

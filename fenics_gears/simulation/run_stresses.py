@@ -1,4 +1,4 @@
-"""Both gears of a run in mesh at a stored time: where every node stands, how it is displaced, and the stress there."""
+"""Both gears of a run at a stored time: place, displacement and stress of every node."""
 
 from __future__ import annotations
 
@@ -143,9 +143,7 @@ def recovery_of(model: Model, gear: int) -> GearRecovery:
     return gear_recovery(
         (model.pair.pinion, model.pair.wheel)[gear],
         model.scene.gears.materials[gear],
-        element=model.resolution.element,
-        flank_element_size=model.resolution.flank_element_size,
-        body_element_size=model.resolution.body_element_size,
+        model.resolution.discretisation,
         coast_flank=model.scene.coast_flanks is not None,
     )
 

@@ -46,7 +46,7 @@ def simulate(
 
 
 def _root_stress(model: Model, cycle, progress: Progress, cache: Cache):
-    """What root stresses are recorded by, where they are asked for; a scene less its elastic teeth, as costs of effects are measured by, has none."""
+    """What the recorder needs for root stresses where they are asked for; None for routes without stresses, such as rigid flanks."""
     if not (model.scene.output.root_stress and route_of(model).stresses):
         return None
     from fenics_gears.simulation.root_stress import root_stress
@@ -67,7 +67,7 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
 
 
 def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Progress) -> xr.Dataset:
-    """The result with its dynamic factors, of a complete run with inertia; they take a quasi-static run beside it."""
+    """The result with its dynamic factors, which need a second, quasi-static run; only for complete runs with inertia."""
     if recorder.model.scene.inertia is None or not result.attrs["complete"]:
         return result
     from fenics_gears.simulation import dynamic_factor
@@ -79,7 +79,7 @@ def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Prog
 
 
 def assist(scene: Scene, comm) -> None:
-    """What the other ranks of a job do while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
+    """The work of the other ranks of a job while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
     model = model_of(scene)
     route = route_of(model)
     if route.shared_by_ranks:

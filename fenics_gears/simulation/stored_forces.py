@@ -1,4 +1,4 @@
-"""Contact forces of a stored time, taken from a result and put on the flanks they act on."""
+"""Contact forces at a stored time, read from a result and applied to the flanks."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.results.pairs import contact_times
 
-# Offsets in a result and those of its scene are the same numbers, but for what they lose on a file.
+# Largest difference of roll angles (rad) between a result and its scene; a file may round them.
 SAME_OFFSETS = 1e-9
 
 

@@ -1,4 +1,4 @@
-"""One swept field and its values: a list as written, or a range spelt out."""
+"""A swept field and its values, given as a list or as a range."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MOST_VALUES = 100_000
 
 
 class AxisError(ValueError):
-    """What is wrong with a swept field's values; the message completes "the value ..." to a sentence."""
+    """A mistake in a swept field's values; the message continues the sentence "the value ..."."""
 
 
 @dataclass(frozen=True)
@@ -172,12 +172,12 @@ def _stepped(start: float, stop: float, step: float, spacing: str) -> np.ndarray
     steps = (stop - start) / step
     if steps > MOST_VALUES:
         raise AxisError(f"has {steps:.3g} values. Allowed: up to {MOST_VALUES}.")
-    # A stop that round-off alone puts beyond the last step is reached.
+    # The stop is reached even if round-off puts it beyond the last step.
     return start + step * np.arange(math.floor(steps * (1 + 1e-12) + 1e-9) + 1)
 
 
 def _written(numbers: np.ndarray, unit: str, table: Mapping[str, Any]) -> tuple[Any, ...]:
-    """The numbers as a person would write them, whole ones where start and stop are whole."""
+    """The numbers as TOML values, whole numbers where start and stop are whole."""
     if unit:
         return tuple(f"{number:.12g} {unit}" for number in numbers)
     whole = isinstance(table["start"], int) and isinstance(table["stop"], int) and np.all(numbers == np.round(numbers))

@@ -1,4 +1,4 @@
-"""The files of a study's cases: one NetCDF a case, or a text on why it failed; found again by what they hold."""
+"""The files of a study's cases: a NetCDF file for each, or a text on why it failed. A later run of the study finds them by their content."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.studies.record import Record, record_of
+from fenics_gears.studies.record import CaseRecord, record_of
 from fenics_gears.studies.study import Case, Study
 from fenics_gears.system.output import written_aside
 
@@ -23,7 +23,7 @@ LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"
 
 
-def save_case(run: xr.Dataset, case: Case, directory: Path) -> Record:
+def save_case(run: xr.Dataset, case: Case, directory: Path) -> CaseRecord:
     """Write the run of a case, aside first, and return its record; a note on an earlier failure goes."""
     record = record_of(run)
     attributes = {"case_key": case.key, "case_values": json.dumps(case.values), "record_digest": record.digest()}
@@ -43,7 +43,7 @@ def save_failure(case: Case, reason: str, details: str, directory: Path) -> None
         LOGGER.warning("%s: the note on its failure could not be written: %s", case, error)
 
 
-def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, Record]:
+def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, CaseRecord]:
     """Records, by the case's index, of the cases whose whole and undamaged runs are there.
 
     A file whose case has another index by now gets its new name.
@@ -60,7 +60,7 @@ def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, Record]:
     return found
 
 
-def _undamaged(path: Path, case: Case) -> Record | None:
+def _undamaged(path: Path, case: Case) -> CaseRecord | None:
     try:
         run = results.load(path)
         record = record_of(run)
@@ -76,7 +76,7 @@ def _undamaged(path: Path, case: Case) -> Record | None:
 
 @contextlib.contextmanager
 def sole_writer(directory: Path) -> Iterator[None]:
-    """The study's directory, for this process alone; what a killed study left half-written is removed.
+    """Lock the study's directory for this process, and remove half-written files of a study that was killed.
 
     Raises ComputationError where another study is writing there, or nothing can be written.
     """
@@ -100,9 +100,9 @@ def sole_writer(directory: Path) -> Iterator[None]:
 
 
 def base_changed(study: Study, directory: Path) -> bool:
-    """Whether the study was last run here on a base scene that said something else; notes the present one.
+    """Whether the study was last run here with another base scene; writes `study.json` with the present one.
 
-    `study.json` also tells which file holds which case.
+    That file also lists which file holds which case.
     """
     path = directory / "study.json"
     try:

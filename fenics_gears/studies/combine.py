@@ -1,4 +1,4 @@
-"""The records of all cases as one dataset over the swept fields."""
+"""The dataset of a study: the records of all cases over the swept fields."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
-from fenics_gears.studies.record import CURVES, Record
+from fenics_gears.studies.record import CURVES, CaseRecord
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.work import Failure
 from fenics_gears.system.output import written_aside
@@ -36,8 +36,8 @@ NUMBERS = {
 }
 
 
-def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int, Failure]) -> xr.Dataset:
-    """One dataset of a study's cases so far; NaN where a case has no result, or not that number.
+def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, Failure]) -> xr.Dataset:
+    """The dataset of the cases so far; NaN where a case has no result or lacks a number.
 
     The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed and
     `failure` says why; curves are there when every case has the same steps.
@@ -50,12 +50,12 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
         result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
     failed = np.array([int(i in failures) for i in _indices(study)])
     result["failed"] = (study.dimensions, failed.reshape(study.shape), {"units": "1", "long_name": "whether the case failed"})
-    worthless = np.array([int(i in records and NO_MEANING in records[i].warnings) for i in _indices(study)])
+    without_meaning = np.array([int(i in records and NO_MEANING in records[i].warnings) for i in _indices(study)])
     words = {"units": "1", "long_name": "whether the case's result has no meaning"}
-    result["meaningless"] = (study.dimensions, worthless.reshape(study.shape), words)
+    result["meaningless"] = (study.dimensions, without_meaning.reshape(study.shape), words)
     texts = {
         "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
-        "warnings": ("what the run says against itself", {i: record.warnings for i, record in records.items()}),
+        "warnings": ("warnings of the run", {i: record.warnings for i, record in records.items()}),
         "case_file": ("file of the case", {i: f"cases/{study.cases[i].name}.nc" for i in records}),
     }
     for name, (long_name, said) in texts.items():
@@ -77,8 +77,8 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
     )
 
 
-def _further(records: Mapping[int, Record]) -> dict[str, tuple[str, str]]:
-    """Units and long name of the numbers besides that some record has."""
+def _further(records: Mapping[int, CaseRecord]) -> dict[str, tuple[str, str]]:
+    """Units and long names of the further numbers that some record has."""
     known = {name for record in records.values() for name in record.numbers}
     return {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
 
@@ -110,7 +110,7 @@ def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
     return axis.name, (axis.name if study.combine == "product" else "case", values, attributes)
 
 
-def _curves(study: Study, records: Mapping[int, Record]) -> tuple[dict[str, tuple], str]:
+def _curves(study: Study, records: Mapping[int, CaseRecord]) -> tuple[dict[str, tuple], str]:
     """The curves that some case has, over the study's dimensions and the mesh phase; or why there are none."""
     if not records:
         return {}, "none: no case has a result"

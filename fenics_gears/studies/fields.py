@@ -1,4 +1,4 @@
-"""The sections and fields of a scene by their dotted paths, and changes to a parsed scene."""
+"""Sections and fields of a scene by their dotted paths, and changes of a parsed scene."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def is_section(path: Path) -> bool:
 
 
 def why_unknown(path: Path) -> str | None:
-    """What is wrong with a path that no scene has, with the nearest known one; None for a known path."""
+    """Why a path is unknown, with the nearest known one; None for a known path."""
     if path in known_paths():
         return None
     dotted = [".".join(each) for each in known_paths()]

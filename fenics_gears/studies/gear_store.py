@@ -1,4 +1,4 @@
-"""What the runs of one process share: the gears condensed last, and the contact operators of the last mesh cycle."""
+"""What runs of one process share in memory: the gears condensed last, and the contact operators of the last mesh cycle."""
 
 from __future__ import annotations
 
@@ -10,10 +10,8 @@ from fenics_gears.effects import EFFECTS
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
-from fenics_gears.model.resolution import EVERY_STEP
-from fenics_gears.scene.data import ISO_6336
 from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle, tooth_reach
-from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
 GEARS = ("pinion", "wheel")
@@ -21,11 +19,12 @@ NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
 class GearStore:
-    """Keeps the gears used last and, if wanted, the last mesh cycle; a frequency sweep builds its operators once.
+    """Keeps the gears used last and, with `cycles`, the last mesh cycle, so that a frequency sweep builds its operators once.
 
     Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact grid,
     steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and coefficient may differ.
-    Gears that are shared keep the times that they took, those of a mesh cycle that is took none. `most`: how many gears; all for None.
+    Shared gears keep the times that condensing them took; with a shared mesh cycle these times are zero. `most`: how many gears are kept,
+    None for all.
     """
 
     def __init__(self, most: int | None = 2, cycles: bool = True):
@@ -54,7 +53,7 @@ class GearStore:
         return self._gears[key]
 
     def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
-        if model.resolution.condensation == EVERY_STEP or not model.scene.resolves_contact:
+        if route_of(model) is not CONDENSED:
             return prepared(model, progress, cache)
         reach = tooth_reach(model)
         compliances = tuple(self.gear(model, name, reach, cache) for name in GEARS)
@@ -65,35 +64,20 @@ class GearStore:
 
 @functools.lru_cache(maxsize=1)
 def own_gear_store() -> GearStore:
-    """That of this process."""
+    """The store of this process."""
     return GearStore()
-
-
-def has_gears(model: Model) -> bool:
-    """Whether a scene's model needs the gears' elasticity."""
-    return model.scene.tooth_elasticity is not None and model.scene.accuracy.model != ISO_6336
 
 
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
-    resolution = model.resolution
-    sizes = resolution.flank_element_size, resolution.body_element_size
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(model.pair, name), model.scene.gears.material_of(name), resolution.element, sizes, reach, resolution.elastic_teeth, own
+    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, own
 
 
 def cycle_key(model: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on."""
     scene, resolution = model.scene, model.resolution
-    accuracy = (
-        resolution.condensation,
-        resolution.element,
-        resolution.flank_element_size,
-        resolution.body_element_size,
-        resolution.elastic_teeth,
-        resolution.contact_grid,
-        resolution.steps_per_mesh_cycle,
-    )
+    accuracy = resolution.condensation, resolution.discretisation, resolution.contact_grid, resolution.steps_per_mesh_cycle
     in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.elasticity))
-    mesh = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, mesh), tuple(model.drivetrain.indices), scene.friction is not None
+    springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs), tuple(model.drivetrain.indices), scene.friction is not None

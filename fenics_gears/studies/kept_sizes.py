@@ -1,4 +1,4 @@
-"""What of the gears a study leaves as it is while it sweeps a quantity with which a designer changes it: said, for nobody sees it in the curves."""
+"""Sizes of the gears that a study keeps while it sweeps a size that a designer would change them with. The curves do not show this, so it is said."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ OF_BOTH_GEARS = {"module": (TIP, ROOT), "pressure_angle": (), CENTRES: (SHIFT, T
 
 
 def kept_sizes(axes: Iterable[Axis]) -> list[str]:
-    """A sentence for each swept quantity of the gears, on diameters, profile shifts and centre distance that are the same in all cases."""
+    """A sentence for each swept size of the gears, on the diameters, profile shifts and the centre distance that stay the same in all cases."""
     swept = {axis.dotted for axis in axes}
     return [_sentence(name, kept) for name in sorted(swept) if (kept := [each for each in _bound_to(name) if each not in swept])]
 

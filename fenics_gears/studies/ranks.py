@@ -17,7 +17,7 @@ from fenics_gears.system.job import communicator
 SECONDS_BETWEEN_LOOKS = 0.05
 
 Task = Callable[..., Any]
-"""A function of the task and a callable to call now and then, which the workers are not given."""
+"""A function of a task and of a callable that it calls now and then; workers do not get the latter."""
 Finished = Callable[[int, Any], None]
 """Called by rank 0's main thread with a task's index and its outcome, or the exception that ended it."""
 

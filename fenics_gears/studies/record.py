@@ -1,4 +1,4 @@
-"""What a study's dataset takes from the run of one case."""
+"""The numbers and curves that a study's dataset takes from the run of a case."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.settled import of_settled
 
-# Curves over the last cycles; those that a run has are taken.
+# Curves of the last cycles, taken where a run has them.
 CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness")
 
 
 @dataclass(frozen=True)
-class Record:
+class CaseRecord:
     """Numbers and curves of one run.
 
-    `numbers`: by name, those of `STUDIED` that the run has among them; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase` (steps,): mesh cycles since the
-    first recorded step; `labels`: units and long name of each curve; `warnings`: what the run says against itself.
+    `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase`
+    (steps,): mesh cycles since the first recorded step; `labels`: units and long name of each curve; `warnings`: those of the run.
     """
 
     numbers: dict[str, float]
@@ -41,7 +41,7 @@ class Record:
         return digest.hexdigest()
 
 
-def record_of(run: xr.Dataset) -> Record:
+def record_of(run: xr.Dataset) -> CaseRecord:
     """The record of a complete run; the wall time is the attribute `wall_time`, s."""
     numbers = {
         "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
@@ -56,4 +56,4 @@ def record_of(run: xr.Dataset) -> Record:
     phase = last["mesh_phase"].values
     curves = {name: last[name].values for name in CURVES if name in run}
     labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
-    return Record(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))
+    return CaseRecord(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))

@@ -10,7 +10,7 @@ from pathlib import Path
 from fenics_gears.studies.case_files import base_changed, kept_records, sole_writer
 from fenics_gears.studies.combine import combined, save_study
 from fenics_gears.studies.ranks import Alone, Together, ranks
-from fenics_gears.studies.record import Record
+from fenics_gears.studies.record import CaseRecord
 from fenics_gears.studies.study import Case, Study
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.studies.work import CaseTask, Failure, condense, gear_tasks, in_order_of_sharing, run_case
@@ -23,12 +23,12 @@ LOGGER = logging.getLogger(__name__)
 
 @dataclass
 class Outcome:
-    """What a study has come to: results and failures by the case's index; `kept` results were there before."""
+    """Results and failures of a study so far, by the case's index; `kept`: how many results were there before."""
 
     study: Study
     file: Path | None = None
     kept: int = 0
-    records: dict[int, Record] = field(default_factory=dict)
+    records: dict[int, CaseRecord] = field(default_factory=dict)
     failures: dict[int, Failure] = field(default_factory=dict)
     interrupted: bool = False
 
@@ -68,7 +68,7 @@ def _run(study: Study, directory: Path, team: Alone | Together, progress: Progre
 
 
 def _opening(study: Study, kept: int, missing: int, changed: bool, size: int) -> str:
-    """One line on what is to be done."""
+    """One line on how many cases are there and to be computed."""
     of_it = f"{kept} kept, {missing} to be computed" if kept else f"{missing} to be computed"
     since = " The base scene has changed since the last time." if changed else ""
     return f"{study.title}: {len(study.cases)} cases, {of_it}" + (f", by {size} processes." if size > 1 else ".") + since
@@ -102,9 +102,9 @@ def _compute(missing: list[Case], directory: Path, team: Alone | Together, outco
         failed = len(outcome.failures)
         progress.update(len(outcome.records) - outcome.kept + failed, len(missing), f"{failed} failed" if failed else "")
 
-    def finished(index: int, result: Record | Failure | Exception) -> None:
+    def finished(index: int, result: CaseRecord | Failure | Exception) -> None:
         case = missing[index]
-        if isinstance(result, Record):
+        if isinstance(result, CaseRecord):
             outcome.records[case.index] = result
             return
         # An exception is one that the worker could not even report, such as an MPI error.

@@ -1,4 +1,4 @@
-"""The function that users call: a scene to its result, its settings chosen first where it names a target."""
+"""`simulate` as users call it: run a scene, and choose its settings first where it has a target."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def simulate(
 ) -> xr.Dataset:
     """Run a scene and return its result (docs/result.md).
 
-    With `[accuracy] target` settings are chosen first, by runs of their own, and the result tells its estimated error. Arguments, results and
+    With `[accuracy] target` settings are chosen first, by trial runs, and the result has its estimated error. Arguments, results and
     errors are those of `simulation.simulate.simulate`; with a target also TargetNotReached.
     """
     progress = progress or SilentProgress()

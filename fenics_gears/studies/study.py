@@ -16,8 +16,8 @@ from fenics_gears.studies.axis import Axis
 class Case:
     """One run of a study.
 
-    `index`: its place, the last swept field turning fastest; `values`: of the swept fields, in words; `key`: hash of all that its
-    result depends on.
+    `index`: its place, the last swept field changes fastest; `values`: of the swept fields, in words; `key`: hash of all that its result
+    depends on.
     """
 
     index: int
@@ -37,10 +37,10 @@ class Case:
 
 @dataclass(frozen=True)
 class Study:
-    """A validated study: every case's scene has been found right.
+    """A validated study: all its scenes are right.
 
     `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`); `text` and `scene_text`: the files it was
-    read from; `base_key`: hash of what the base scene says.
+    read from; `base_key`: the base scene's hash.
     """
 
     name: str
@@ -64,7 +64,7 @@ class Study:
 
 
 def scene_key(scene: Scene) -> str:
-    """Hash of all that a scene's result depends on: what it says, however it is written, and the program's version."""
+    """Hash of all that a scene's result depends on: its values, however they are written, and the program's version."""
     said: dict[str, Any] = asdict(scene)
     for words in ("title", "text", "name"):
         del said[words]

@@ -1,8 +1,9 @@
-"""From a study file to a `Study` whose every case has been validated."""
+"""Reads a study file into a `Study` and validates all its cases."""
 
 from __future__ import annotations
 
 import itertools
+import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -26,13 +27,13 @@ KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
 MOST_MISTAKES = 10
-# Names that the combined dataset has for itself.
+# Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
 
 
 @dataclass(frozen=True)
 class Changes:
-    """What a study file says, each field of a scene by its path."""
+    """The changes that a study file makes to the base scene, by the paths of its fields."""
 
     without: tuple[fields.Path, ...]
     fixed: dict[fields.Path, Any]
@@ -40,7 +41,7 @@ class Changes:
     combine: str
 
     def points(self) -> Iterator[tuple[Any, ...]]:
-        """The swept values of each case, the last axis turning fastest."""
+        """The swept values of each case; the last axis changes fastest."""
         values = [axis.values for axis in self.axes]
         return itertools.product(*values) if self.combine == "product" else zip(*values)
 
@@ -56,7 +57,7 @@ class Changes:
 
 
 class Mistakes:
-    """The mistakes of a study file so far, each said once."""
+    """The mistakes of a study file so far, each once."""
 
     def __init__(self, source: str, lines: Mapping[tuple[str, ...], int]):
         self._source, self._lines, self._said = source, lines, {}
@@ -82,7 +83,7 @@ def load_study(path: str | Path) -> Study:
     Raises SceneError, naming every mistake at once, before anything is computed.
     """
     path = Path(path)
-    text, tree = _parsed(path, "study")
+    text, tree = _parsed(path)
     if "gears" in tree and "sweep" not in tree:
         raise SceneError(f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written.")
     # A swept field has one name here, whether its dots are written bare or within quotes.
@@ -110,15 +111,15 @@ def load_study(path: str | Path) -> Study:
     )
 
 
-def _parsed(path: Path, kind: str) -> tuple[str, dict[str, Any]]:
-    """The text of a TOML file and what it says."""
+def _parsed(path: Path) -> tuple[str, dict[str, Any]]:
+    """The text of a study file, and the tree that it holds."""
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         neighbours = [each.name for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
         raise SceneError(f"{path}: there is no such file.{did_you_mean(path.name, neighbours)}") from None
     except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a {kind} is a TOML file") from None
+        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a study is a TOML file") from None
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
     try:
@@ -199,7 +200,7 @@ def _shown(value: Any) -> str:
 
 
 def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
-    """The axes, each called by the last part of its path where that is clear."""
+    """The axes, each named by the last part of its path where that is unique."""
     last = [path[-1] for path, _ in swept]
     return tuple(
         Axis(path, values, path[-1] if last.count(path[-1]) == 1 and path[-1] not in TAKEN else "_".join(path), unit_of(values))
@@ -228,9 +229,7 @@ def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> No
     if combine == "zip" and len(set(lengths.values())) > 1:
         listed = ", ".join(f"{name} has {length}" for name, length in lengths.items())
         mistakes.add(("combine",), '"zip"', f"needs as many values of each swept field: {listed}.")
-    cases = 1
-    for length in lengths.values():
-        cases *= length
+    cases = math.prod(lengths.values())
     if combine == "product" and cases > MOST_CASES:
         mistakes.add(("sweep",), "", f"makes {cases} cases. Allowed: up to {MOST_CASES}.")
 
@@ -248,7 +247,7 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
 
 
 def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[Case, ...]:
-    """Every case, validated; the same mistake of many cases is said once. `directory`: of the base scene."""
+    """All cases, validated; a mistake that many cases share is reported once. `directory`: of the base scene."""
     cases: list[Case] = []
     by_key: dict[str, Case] = {}
     wrong: dict[tuple, list[str]] = {}
@@ -284,7 +283,7 @@ def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Sc
 
 
 def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:
-    """A mistake of some cases' scenes as one of the study file: at the line that makes it, where one line does."""
+    """A mistake in the scenes of some cases as a mistake of the study file, at the line that causes it where there is one."""
     named = [("sweep", axis.path) for axis in changes.axes] + [("set", path) for path in changes.fixed]
     for table, path in named:
         length = min(len(path), len(field))

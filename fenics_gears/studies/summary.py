@@ -26,9 +26,9 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         warned = sum(bool(record.warnings) for record in records)
         if warned:
             rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))
-        worthless = sum(NO_MEANING in record.warnings for record in records)
-        if worthless:
-            rows.append(("cases without meaning", f"{worthless}, see the variable meaningless", ""))
+        without_meaning = sum(NO_MEANING in record.warnings for record in records)
+        if without_meaning:
+            rows.append(("cases without meaning", f"{without_meaning}, see the variable meaningless", ""))
     rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes)]
     return rows
 

@@ -1,4 +1,4 @@
-"""What one process of a study does with a task: condense a gear, run a case. Neither lets an error out."""
+"""The two tasks of a study's processes: condense a gear, run a case. A case that fails becomes a `Failure`."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import model_of
-from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.elastic_route import tooth_reach
+from fenics_gears.simulation.routes import route_of
 from fenics_gears.studies.case_files import save_case, save_failure
-from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, has_gears, own_gear_store
-from fenics_gears.studies.record import Record
+from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, own_gear_store
+from fenics_gears.studies.record import CaseRecord
 from fenics_gears.studies.simulate import simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.system.progress import SilentProgress
@@ -44,7 +44,7 @@ class CaseTask:
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a case has no result."""
+    """A case without a result, and why."""
 
     reason: str
 
@@ -55,8 +55,8 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
     tasks: dict[tuple, GearTask] = {}
     for case in cases:
         model = model_of(case.scene)
-        # A target's gears are known when its settings are chosen.
-        if case.scene.accuracy.target is not None or model.resolution.condensation == EVERY_STEP or not has_gears(model):
+        # With a target the gears' meshes are known only after settings are chosen.
+        if case.scene.accuracy.target is not None or not route_of(model).condensed_once:
             continue
         cycle = cycle_key(model)[:4]  # the reach follows from gears and accuracy
         if cycle not in reaches:
@@ -69,7 +69,7 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
 
 
 def in_order_of_sharing(cases: list[Case]) -> list[Case]:
-    """The cases with those next to each other that share their contact operators; otherwise as they are."""
+    """The cases in their order, but those that share contact operators next to each other."""
     groups: dict[tuple, list[Case]] = {}
     for case in cases:
         groups.setdefault(cycle_key(model_of(case.scene)), []).append(case)
@@ -77,11 +77,11 @@ def in_order_of_sharing(cases: list[Case]) -> list[Case]:
 
 
 def condense(task: GearTask, tick: Tick | None = None) -> None:
-    """Bring a gear's flank compliance into the cache, and into this process."""
+    """Condense a gear into the cache and into this process's store."""
     own_gear_store().gear(model_of(task.scene), task.name, task.reach, user_cache())
 
 
-def run_case(task: CaseTask, tick: Tick | None = None) -> Record | Failure:
+def run_case(task: CaseTask, tick: Tick | None = None) -> CaseRecord | Failure:
     """Run a case and write its file; a failure is written too. Raises KeyboardInterrupt where Ctrl-C ended it."""
     begun = time.perf_counter()
     try:

@@ -12,12 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from tests.benchmarks.accuracy_overview import TITLES, overview, overview_picture, overview_section
+from tests.benchmarks.accuracy_saved import saved_report
 from tests.benchmarks.marked_section import write_section
 
 from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.accuracy import table
-from fenics_gears.studies.accuracy.report import Report, measure
+from fenics_gears.studies.accuracy.report import AccuracyReport, measure
 from fenics_gears.system.progress import LineProgress
 
 ROOT = Path(__file__).parents[2]
@@ -39,7 +40,7 @@ def markers(name: str) -> tuple[str, str]:
     return f"<!-- accuracy, {name}: begin -->", f"<!-- accuracy, {name}: end -->"
 
 
-def section(name: str, report: Report) -> str:
+def section(name: str, report: AccuracyReport) -> str:
     """The sentence, the picture, both tables and the remarks."""
     own = [("|".join(["", *cells, ""])) for cells in ((_with_units(table.HEADINGS, table.UNITS)), *table.table_rows(report))]
     own.insert(1, "|---" * len(table.HEADINGS) + "|")
@@ -71,9 +72,11 @@ def main() -> None:
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on single settings run again for their times")
-    parser.add_argument("--write-again", action="store_true", help="picture and table of docs/performance.md from what is saved, without measuring")
+    parser.add_argument("--write-again", action="store_true", help="all pictures, and the table of docs/performance.md, from what is saved, without measuring")
     options = parser.parse_args()
-    for name in [] if options.write_again else options.names:
+    for name in options.names if options.write_again else ():
+        save_figure(work_precision(saved_report(all_scenes[name], PICTURES / f"accuracy_{name}.csv")), PICTURES / f"accuracy_{name}.png")
+    for name in () if options.write_again else options.names:
         progress = LineProgress()
         print(name, flush=True)
         report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_single=options.timing_seconds)

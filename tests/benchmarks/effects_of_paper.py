@@ -11,7 +11,7 @@ from pathlib import Path
 
 from fenics_gears.scene.read import load_scene
 from fenics_gears.studies.effect_lattice import table
-from fenics_gears.studies.effect_lattice.measured import Report, measure
+from fenics_gears.studies.effect_lattice.measured import EffectReport, measure
 from fenics_gears.studies.effect_lattice.subsets import ALL, BARE
 from fenics_gears.system.progress import LineProgress
 
@@ -20,7 +20,7 @@ SCENE, PAGE, PICTURE = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "pe
 BEGIN, END = "<!-- effects of the paper's scene: begin -->", "<!-- effects of the paper's scene: end -->"
 
 
-def section(report: Report) -> str:
+def section(report: EffectReport) -> str:
     """The table and the sentences below it."""
     headings = ("effects", "unknowns", "closed nodes (most)", "Newton a step", "time a step, us", "condensing, s", "T_EPP, um", "peak force, N")
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
@@ -30,7 +30,7 @@ def section(report: Report) -> str:
     return "\n".join([*lines, "", _ratio(report), measured])
 
 
-def _ratio(report: Report) -> str:
+def _ratio(report: EffectReport) -> str:
     """Bare against full scene, measured and expected."""
     bare, full, expected, ratios = report.row(BARE), report.row(ALL), report.expected, report.ratios
     words = (

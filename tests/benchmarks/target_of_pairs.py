@@ -29,7 +29,7 @@ from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, s
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
-from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import SilentProgress
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -13,6 +13,7 @@ from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.model import model_of
@@ -35,12 +36,9 @@ def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int) -> Mes
     grid, resolution = model.resolution.contact_grid, model.resolution
     reach = tooth_reach(model.pair, grid, steps, corner=corner)
     compliances = tuple(
-        flank_compliance(
-            gear, scene.gears.material, element=resolution.element, flank_element_size=resolution.flank_element_size,
-            reach=reach,
-        )
+        flank_compliance(gear, scene.gears.material, Discretisation(resolution.element, resolution.flank_element_size), reach)
         for gear in (model.pair.pinion, model.pair.wheel)
-    )  # fmt: skip
+    )
     return rigid_hub_cycle(Flanks(model.pair, compliances), grid, steps, corner)
 
 

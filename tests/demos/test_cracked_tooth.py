@@ -11,8 +11,8 @@ from demos.cracked_tooth.picture import draw
 from demos.cracked_tooth.turns import ALONE, SHOWN, table
 
 from fenics_gears import load_scene
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.model.model import model_of

@@ -81,7 +81,7 @@ def page(result: xr.Dataset | None = None) -> str:
             lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
     lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
     lines += ["## Attributes", "", *_attributes(), ""]
-    lines += [f"One attribute more for each rung of the solver's [ladder](model.md#the-ladder) that was used, the number of steps that it solved: `{RUNG}newton` and so on"]
+    lines += [f"One attribute more for each method of the solver that was used, Newton or one of its [fallbacks](model.md#fallbacks), the number of steps that it solved: `{RUNG}newton` and so on"]
     lines += [f"({', '.join(METHODS)}).", "", f"With `[accuracy] target`, one for the error of each knob: `{ESTIMATED}steps per mesh cycle` and so on."]
     return "\n".join(lines) + "\n"
 

@@ -9,7 +9,7 @@ from tests.docs import commands_page, result_page, scene_page, write
 from tests.docs.markdown import table
 
 from fenics_gears.inputs.fields import Allowed, Section, allowed_in, quantity
-from fenics_gears.results.attributes import RESULT_ATTRIBUTES, undeclared
+from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.schema import SceneText
 from fenics_gears.simulation.simulate import simulate
@@ -71,6 +71,12 @@ def test_a_field_that_may_be_left_out_says_what_is_taken_then():
     silent = create_model("Silent", __base__=Section, depth=(float, Field(None, json_schema_extra={"allowed": allowed})))
     with pytest.raises(scene_page.NoMeaning, match="otherwise="):
         scene_page.fields(silent, "tip_relief")
+
+
+def undeclared(attributes) -> set[str]:
+    """Names among a result's attributes that are not in the list."""
+    declared = {each.name for each in RESULT_ATTRIBUTES}
+    return {name for name in attributes if name not in declared and not name.startswith((RUNG, ESTIMATED))}
 
 
 def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_scene):

@@ -11,8 +11,8 @@ from tests.effects.examples import MESHES, text_of
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair

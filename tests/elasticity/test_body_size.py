@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.element_sizes import HUB_ANGLE
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, HUB_ANGLE, Discretisation, element_sizes
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES, element_sizes, flank_compliance
+from fenics_gears.elasticity.gear_compliance import flank_compliance
 
 FLANK = 0.3
 
@@ -15,9 +15,7 @@ def stretched(gear, steel, element, factor):
     """Mean displacement along x under a force along x that is spread over the whole flank, mm per N/mm."""
     order = element_named(element).order
     body = gear.module * DEFAULT_SIZES[order].body * factor
-    found = flank_compliance(
-        gear, steel, element=element, flank_element_size=FLANK, reach=Reach(0), body_element_size=body,
-    )  # fmt: skip
+    found = flank_compliance(gear, steel, Discretisation(element, FLANK, body), Reach(0))
     elements = (found.nodes - 1) // order
     shares = np.zeros(found.nodes)
     for first in range(elements):

@@ -8,8 +8,9 @@ import pytest
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius
+from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
+from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.half_sector import centreline_direction
 from fenics_gears.elasticity.mesh_data import corner_areas
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
@@ -23,12 +24,12 @@ BOTH = Reach(2, (-2, 2))
 @pytest.fixture(scope="module", params=ELEMENTS)
 def either(request, pinion, steel):
     """Both flanks, for every element."""
-    return flank_compliance(pinion, steel, element=request.param, flank_element_size=0.4, reach=BOTH)
+    return flank_compliance(pinion, steel, Discretisation(request.param, 0.4), BOTH)
 
 
 @pytest.fixture(scope="module")
 def both(pinion, steel):
-    return flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, reach=BOTH)
+    return flank_compliance(pinion, steel, Discretisation("P2", 0.4), BOTH)
 
 
 def split(both, offset):
@@ -59,7 +60,7 @@ def test_half_a_sector_does_for_the_whole(either, pinion, steel, request, offset
 
 def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
     """Exact identity: the same numbers in a smaller range; an offset outside of it is refused."""
-    fewer = flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, reach=Reach(1, (-2, 1)))
+    fewer = flank_compliance(pinion, steel, Discretisation("P2", 0.4), Reach(1, (-2, 1)))
     assert np.array_equal(fewer.between(1, 0), both.between(1, 0))
     assert np.array_equal(fewer.between(0, 2, (0, 1)), both.between(0, 2, (0, 1)))
     assert np.array_equal(fewer.between(2, 0, (1, 0)), both.between(2, 0, (1, 0)))
@@ -71,8 +72,7 @@ def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
 
 def test_cache_gives_both_flanks_back(pinion, steel, both, tmp_path):
     """Exact identity: what is kept without its lower triangles comes back bit for bit."""
-    options = {"element": "P2", "flank_element_size": 0.4, "reach": BOTH, "cache": Cache(tmp_path)}
-    computed, kept = (flank_compliance(pinion, steel, **options) for _ in range(2))
+    computed, kept = (flank_compliance(pinion, steel, Discretisation("P2", 0.4), BOTH, Cache(tmp_path)) for _ in range(2))
     assert kept.timings["from_cache"] and not computed.timings["from_cache"]
     for offset in (0, 1, -2):
         assert np.array_equal(computed.block(offset), kept.block(offset))
@@ -80,7 +80,7 @@ def test_cache_gives_both_flanks_back(pinion, steel, both, tmp_path):
 
 def test_drive_flank_is_as_without_the_coast_flank(both, pinion, steel):
     """Knowing more of the body changes nothing of it, but for the finer mesh along the coast flank."""
-    alone = flank_compliance(pinion, steel, element="P2", flank_element_size=0.4, reach=Reach(2))
+    alone = flank_compliance(pinion, steel, Discretisation("P2", 0.4), Reach(2))
     assert np.array_equal(alone.roll_angle, both.roll_angle)
     for offset in range(3):
         assert difference(split(both, offset)[0], alone.blocks[offset]) < 5e-3

@@ -14,21 +14,22 @@ from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
+from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance, rotation
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.geometry.involute import arc_length, canonical_normal
 
-COARSE = {"flank_element_size": 0.5, "reach": Reach(1)}
+COARSE, REACH = Discretisation("P2", 0.5), Reach(1)
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_loaded_flank_is_symmetric_positive_definite(name, pinion, steel):
     """Exact identity: the compliance of a held elastic body; nodes run from the form circle to the tip."""
-    compliance = flank_compliance(pinion, steel, element=name, **COARSE)
+    compliance = flank_compliance(pinion, steel, replace(COARSE, element=name), REACH)
     block = compliance.blocks[0]
     np.testing.assert_array_equal(block, block.T)
     assert np.linalg.eigvalsh(block)[0] > 0
@@ -41,8 +42,8 @@ def test_loaded_flank_is_symmetric_positive_definite(name, pinion, steel):
 
 def test_compliance_is_inverse_to_youngs_modulus(pinion, steel):
     """Exact identity: with Poisson's ratio fixed, twice the modulus is half the displacement, bit for bit."""
-    soft = flank_compliance(pinion, steel, **COARSE)
-    stiff = flank_compliance(pinion, replace(steel, youngs_modulus=2.0 * steel.youngs_modulus), **COARSE)
+    soft = flank_compliance(pinion, steel, COARSE, REACH)
+    stiff = flank_compliance(pinion, replace(steel, youngs_modulus=2.0 * steel.youngs_modulus), COARSE, REACH)
     np.testing.assert_array_equal(soft.blocks, 2.0 * stiff.blocks)
 
 
@@ -87,9 +88,9 @@ def mean_compliance(gear, element, sizes, centre):
 def test_cached_compliance_is_the_same(pinion, steel, tmp_path, monkeypatch):
     """Exact identity; and the second call computes nothing."""
     cache = Cache(tmp_path)
-    first = flank_compliance(pinion, steel, cache=cache, **COARSE)
+    first = flank_compliance(pinion, steel, COARSE, REACH, cache)
     monkeypatch.setattr(gear_compliance, "_computed", None)
-    second = flank_compliance(pinion, steel, cache=cache, **COARSE)
+    second = flank_compliance(pinion, steel, COARSE, REACH, cache)
     np.testing.assert_array_equal(first.blocks, second.blocks)
     np.testing.assert_array_equal(first.roll_angle, second.roll_angle)
     assert not first.timings["from_cache"] and second.timings["from_cache"]
@@ -99,48 +100,48 @@ def test_cached_compliance_is_the_same(pinion, steel, tmp_path, monkeypatch):
 def test_damaged_cache_entry_is_computed_again(pinion, steel, tmp_path):
     """Hard case 27: never a wrong number; the entry is whole again afterwards."""
     cache = Cache(tmp_path)
-    first = flank_compliance(pinion, steel, cache=cache, **COARSE)
+    first = flank_compliance(pinion, steel, COARSE, REACH, cache)
     (entry,) = tmp_path.iterdir()
     entry.write_bytes(entry.read_bytes()[:-1000])
-    again = flank_compliance(pinion, steel, cache=cache, **COARSE)
+    again = flank_compliance(pinion, steel, COARSE, REACH, cache)
     np.testing.assert_array_equal(first.blocks, again.blocks)
     assert not again.timings["from_cache"]
-    assert flank_compliance(pinion, steel, cache=cache, **COARSE).timings["from_cache"]
+    assert flank_compliance(pinion, steel, COARSE, REACH, cache).timings["from_cache"]
 
 
 @pytest.mark.parametrize(
-    "change",
+    ("kind", "change"),
     [
-        {"element": "P1"},
-        {"flank_element_size": 0.51},
-        {"body_element_size": 1.2},
-        {"reach": Reach(2)},
-        {"gear": {"bore_radius": 15.1}},
-        {"material": {"poissons_ratio": 0.29}},
+        ("discretisation", {"element": "P1"}),
+        ("discretisation", {"flank_element_size": 0.51}),
+        ("discretisation", {"body_element_size": 1.2}),
+        ("reach", {"same": 2}),
+        ("gear", {"bore_radius": 15.1}),
+        ("material", {"poissons_ratio": 0.29}),
     ],
 )
-def test_every_input_has_its_own_cache_entry(change, pinion, steel, tmp_path):
+def test_every_input_has_its_own_cache_entry(kind, change, pinion, steel, tmp_path):
     """Whatever changes the numbers changes the key."""
     cache = Cache(tmp_path)
-    flank_compliance(pinion, steel, cache=cache, **COARSE)
-    options = {**COARSE, **{name: value for name, value in change.items() if name not in ("gear", "material")}}
-    gear, material = replace(pinion, **change.get("gear", {})), replace(steel, **change.get("material", {}))
-    assert not flank_compliance(gear, material, cache=cache, **options).timings["from_cache"]
+    flank_compliance(pinion, steel, COARSE, REACH, cache)
+    inputs = {"gear": pinion, "material": steel, "discretisation": COARSE, "reach": REACH}
+    inputs[kind] = replace(inputs[kind], **change)
+    assert not flank_compliance(**inputs, cache=cache).timings["from_cache"]
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"element": "Q3"}, "element 'Q3'"),
-        ({"flank_element_size": 0.0}, "flank_element_size is 0.0 mm"),
-        ({"body_element_size": float("nan")}, "body_element_size"),
+        ({"discretisation": replace(COARSE, element="Q3")}, "element 'Q3'"),
+        ({"discretisation": replace(COARSE, flank_element_size=0.0)}, "flank_element_size is 0.0 mm"),
+        ({"discretisation": replace(COARSE, body_element_size=float("nan"))}, "body_element_size"),
         ({"reach": Reach(16)}, "between 0 and 15"),
     ],
 )
 def test_impossible_inputs_are_refused(change, message, pinion, steel):
     """Each names the field, the value and what is allowed."""
     with pytest.raises(SceneError, match=message):
-        flank_compliance(pinion, steel, **{**COARSE, **change})
+        flank_compliance(pinion, steel, **{"discretisation": COARSE, "reach": REACH, **change})
 
 
 def test_body_mesh_from_a_gmsh_file(pinion, steel, coarse_sector, tmp_path):

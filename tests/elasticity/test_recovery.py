@@ -12,7 +12,7 @@ from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears.contact.flank_forces import unmirrored
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
@@ -36,9 +36,9 @@ def forces_on(recovery, flanks: int = 1) -> dict[int, np.ndarray]:
 @pytest.mark.parametrize("flanks", [1, 2], ids=["drive flank", "both flanks"])
 def test_flanks_move_as_their_compliance_says(name, flanks):
     """Exact identity: u_f = A f on the loaded teeth, their neighbours ahead and behind; the compliance is condensed another way."""
-    settings = {"element": name, "flank_element_size": SIZE}
-    compliance = flank_compliance(PINION, STEEL, reach=Reach(2, (-2, 2) if flanks == 2 else None), **settings)
-    with gear_recovery(PINION, STEEL, coast_flank=flanks == 2, **settings) as recovery:
+    discretisation = Discretisation(name, SIZE)
+    compliance = flank_compliance(PINION, STEEL, discretisation, Reach(2, (-2, 2) if flanks == 2 else None))
+    with gear_recovery(PINION, STEEL, discretisation, coast_flank=flanks == 2) as recovery:
         forces = forces_on(recovery, flanks)
         moved = recovery.recovered(forces).displacement
         sides = ("flank", "coast")[:flanks]
@@ -57,7 +57,7 @@ def test_flanks_move_as_their_compliance_says(name, flanks):
 
 def test_a_gear_that_nothing_touches_is_at_rest():
     """Exact identity: no forces, no displacement and no stress; the teeth have parted at such a step."""
-    with gear_recovery(PINION, STEEL, element="P1", flank_element_size=SIZE) as recovery:
+    with gear_recovery(PINION, STEEL, Discretisation("P1", SIZE)) as recovery:
         body, nodes = recovery.recovered({}), len(recovery.points)
     assert body.displacement.shape == (PINION.teeth, nodes, 2) and body.stress.shape == (PINION.teeth, nodes, 3)
     assert not body.displacement.any() and not body.stress.any() and not body.hub_force.any()
@@ -66,7 +66,7 @@ def test_a_gear_that_nothing_touches_is_at_rest():
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_every_node_of_the_gear_is_in_equilibrium(name):
     """Exact identity: K u = f with the stiffness of the whole gear meshed as one body, at all nodes but the held hub's."""
-    with gear_recovery(PINION, STEEL, element=name, flank_element_size=SIZE) as recovery:
+    with gear_recovery(PINION, STEEL, Discretisation(name, SIZE)) as recovery:
         forces = forces_on(recovery)
         body, loads = recovery.recovered(forces), recovery.flank_loads(forces)
         mesh, points, hub = recovery.interior.mesh, recovery.interior.nodes.points, recovery.interior.hub
@@ -91,7 +91,7 @@ def test_every_node_of_the_gear_is_in_equilibrium(name):
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_the_hub_takes_the_sum_of_all_forces(name):
     """Exact identity: balance of forces and of couples about the gear's centre."""
-    with gear_recovery(PINION, STEEL, element=name, flank_element_size=SIZE) as recovery:
+    with gear_recovery(PINION, STEEL, Discretisation(name, SIZE)) as recovery:
         forces = forces_on(recovery)
         taken = recovery.recovered(forces).hub_force
         points = recovery.points[recovery.interior.flank_nodes("flank")]
@@ -112,7 +112,7 @@ def test_stress_of_a_linear_displacement_is_exact():
     xx = factor * ((1.0 - nu) * strain[0, 0] + nu * strain[1, 1])
     yy = factor * ((1.0 - nu) * strain[1, 1] + nu * strain[0, 0])
     for name in ELEMENTS:
-        with gear_recovery(PINION, STEEL, element=name, flank_element_size=SIZE) as recovery:
+        with gear_recovery(PINION, STEEL, Discretisation(name, SIZE)) as recovery:
             points = recovery.interior.nodes.points
             operator = recovery.nodal_stress
             found = operator.rows(np.arange(len(points))) @ (points @ gradient.T).ravel()
@@ -129,7 +129,7 @@ def test_stress_turns_as_a_tensor():
 
 def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut():
     """Exact identity: averages on a cut count the elements on both of its sides, so that both sectors tell the same tensor."""
-    with gear_recovery(PINION, STEEL, element="P2", flank_element_size=SIZE) as recovery:
+    with gear_recovery(PINION, STEEL, Discretisation("P2", SIZE)) as recovery:
         body = recovery.recovered(forces_on(recovery))
         lower, upper = recovery.interior.lower, recovery.interior.upper
     for tooth in range(PINION.teeth):

@@ -8,9 +8,9 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
-from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
+from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth, RemeshedGear
 from fenics_gears.elasticity.ring import centre_motion, rotation
@@ -100,7 +100,7 @@ def distance_to_the_fast_route(element, name, size):
     rolls = flank_roll_angles(PINION, size)[6:15]
     stiffness = RemeshedGear(PINION, STEEL, element, sizes).stiffness((LoadedTooth(0.0, rolls),))
     compliance = np.linalg.inv(stiffness[:-3, :-3])
-    fast = flank_compliance(PINION, STEEL, element=name, flank_element_size=size, reach=Reach(0)).blocks[0]
+    fast = flank_compliance(PINION, STEEL, Discretisation(name, size), Reach(0)).blocks[0]
     rows = 2 * 6 * element.order + np.arange(len(compliance))
     return relative(compliance - fast[np.ix_(rows, rows)], compliance)
 

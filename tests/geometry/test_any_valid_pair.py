@@ -18,12 +18,12 @@ def test_points_of_the_path_of_contact_are_in_order(pair):
     """Authority: meaning of the characteristic points: T1, start, single contact, end, T2; roll angles within either flank."""
     rounding = 1e-6
     assert -rounding <= pair.path_start < pair.path_end <= pair.line_of_action_length + rounding
-    assert pair.start_of_fewest_pairs <= pair.end_of_fewest_pairs + 1e-8 * pair.base_pitch
+    assert pair.lpstc <= pair.hpstc + 1e-8 * pair.base_pitch
     assert pair.fewest_pairs <= pair.contact_ratio + 1e-8 < pair.fewest_pairs + 1.0 + 1e-7
-    along = [pair.path_start, pair.start_of_fewest_pairs, pair.end_of_fewest_pairs, pair.path_end]
+    along = [pair.path_start, pair.lpstc, pair.hpstc, pair.path_end]
     named = (
-        [pair.pinion_sap_roll_angle, pair.pinion_lpstc_roll_angle, pair.pinion_hpstc_roll_angle, pair.pinion_eap_roll_angle],
-        [pair.wheel_eap_roll_angle, pair.wheel_hpstc_roll_angle, pair.wheel_lpstc_roll_angle, pair.wheel_sap_roll_angle],
+        [pair.pinion_sap_roll_angle, pair.pinion_lpstc_roll_angle, pair.pinion_hpstc_roll_angle, pair.pinion.tip_roll_angle],
+        [pair.wheel.tip_roll_angle, pair.wheel_hpstc_roll_angle, pair.wheel_lpstc_roll_angle, pair.wheel_sap_roll_angle],
     )
     assert named[0] == pytest.approx(pair.pinion_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
     assert named[1] == pytest.approx(pair.wheel_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)

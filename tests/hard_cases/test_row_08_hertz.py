@@ -18,6 +18,7 @@ from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
@@ -45,7 +46,7 @@ def errors(paper_scene):
     def of(element, ratio, node_spacing=NODE_SPACING):
         size = half_width(nominal, pair.pitch_point) / ratio
         gears = (
-            flank_compliance(gear, material, element=element, flank_element_size=size, reach=Reach(0))
+            flank_compliance(gear, material, Discretisation(element, size), Reach(0))
             for gear in (pair.pinion, pair.wheel)
         )
         flanks, found = Flanks(pair, tuple(gears)), []

@@ -14,6 +14,7 @@ from fenics_gears.contact.operator import CompliancePairing, contact_operator
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.model import model_of
@@ -33,7 +34,7 @@ def elastic(pair, scene, element="P1", coast_flank=False):
     """Flank compliances of both gears by finite elements."""
     return tuple(
         flank_compliance(
-            gear, scene.gears.material, element=element, flank_element_size=scene.accuracy.flank_element_size, reach=Reach(5, (-5, 5) if coast_flank else None),
+            gear, scene.gears.material, Discretisation(element, scene.accuracy.flank_element_size), Reach(5, (-5, 5) if coast_flank else None),
         )
         for gear in (pair.pinion, pair.wheel)
     )  # fmt: skip

@@ -9,8 +9,8 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.coarse_sector import PINION
 from tests.manufactured import l2_error
 
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import canonical_normal

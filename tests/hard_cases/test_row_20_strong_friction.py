@@ -87,14 +87,14 @@ def test_locking_begins_where_the_arms_say(dynamic, coarse, paper_pair, measured
     assert "self-locking" in above
 
 
-def test_the_summary_counts_the_ladder(coarse, measured):
-    """Message: the summary has a line on the ladder, with the result's own counts; none where Newton alone was used."""
+def test_the_summary_counts_the_fallbacks(coarse, measured):
+    """Message: the summary has a line on fallbacks, with the result's own counts; none where Newton alone was used."""
     scene = with_friction(quasi_static(coarse), 2.0, ("shafts", "bearings"))
     result = simulate(scene)
     counts = rungs_of(result)
-    (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by the fallback ladder"]
+    (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by fallbacks"]
     measured("summary at mu = 2", line, "the counts of the result")
     assert sum(counts.values()) == result.attrs["steps"] and len(counts) > 1
     assert line == ", ".join(f"{count} by {rung}" for rung, count in counts.items() if rung != "newton")
     plain = summary_rows(simulate(with_friction(quasi_static(coarse), 0.3)))
-    assert not [label for label, _, _ in plain if "ladder" in label]
+    assert not [label for label, _, _ in plain if "fallback" in label]

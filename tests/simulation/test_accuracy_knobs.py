@@ -7,7 +7,7 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
 from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATIONS
-from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import GearData, Motion

@@ -13,10 +13,9 @@ from fenics_gears import results
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, Discretisation, ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.fillet_points import POINTS, fillet_curve, fillet_rows
-from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.sector_mesh import sector_mesh
@@ -137,11 +136,11 @@ def highest_single_contact(gear) -> float:
 
 def stresses_of_a_narrow_load(gear, roll: float, element: str = "P2") -> np.ndarray:
     """Stress (50,), MPa, in the fillets under 1 N/mm over a tenth of a module of the flank around a roll angle (rad)."""
-    settings = {"element": element, "flank_element_size": 0.04 * gear.module}
-    with gear_recovery(gear, STEEL, **settings) as recovery:
+    discretisation = Discretisation(element, 0.04 * gear.module)
+    with gear_recovery(gear, STEEL, discretisation) as recovery:
         middle, half = arc_length(gear.base_radius, roll), 0.05 * gear.module
         forces = pressed(recovery, lambda arc: np.where(np.abs(arc - middle) < half, 1.0 + np.cos(np.pi * (arc - middle) / half), 0.0) / (2.0 * half))
-    rows = root_stress_rows(gear, STEEL, reach=0, **settings)
+    rows = root_stress_rows(gear, STEEL, discretisation, reach=0)
     # The mesh resolves so narrow a load but in the mean.
     return rows.rows[0] @ forces / np.linalg.norm(forces.reshape(-1, 2).sum(axis=0))
 
@@ -195,9 +194,9 @@ def test_stress_converges_with_the_fillet_mesh(name, within):
 def test_rows_are_kept_and_similar_gears_share_them(tmp_path):
     """Exact identity: stress goes with line force over module; the cache has one entry for all modules, which gives the same numbers."""
     cache = Cache(tmp_path)
-    settings = {"element": "P1", "reach": 1, "cache": cache}
-    first = root_stress_rows(standard_gear(20, module=2.0), STEEL, flank_element_size=0.1, **settings)
-    again = root_stress_rows(standard_gear(20, module=4.0), STEEL, flank_element_size=0.2, **settings)
+    settings = {"reach": 1, "cache": cache}
+    first = root_stress_rows(standard_gear(20, module=2.0), STEEL, Discretisation("P1", 0.1), **settings)
+    again = root_stress_rows(standard_gear(20, module=4.0), STEEL, Discretisation("P1", 0.2), **settings)
     assert len(list(tmp_path.iterdir())) == 1
     np.testing.assert_array_equal(first.rows, 2.0 * again.rows)
 

@@ -159,7 +159,7 @@ def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, m
     coarse = {"flank elements": 0.7, "contact nodes": 0.7, "body elements": 4.0, "steps": 4}
     monkeypatch.setattr(refinement, "REMESHED_FINE", coarse)
     assert [each.name for each in refinement.refinements(scene)][-1] == "condensation"
-    study = reports.Study(scene, reports.SilentProgress(), True, 1)
+    study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)
     study.refinements = (refinement.condensation(scene),)
     (result,) = study.refine()
     anew, once = result.levels
@@ -218,7 +218,7 @@ def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypat
         return run_sharing(scene, gears)
 
     monkeypatch.setattr(reports, "run_sharing", fails)
-    study = reports.Study(scene, reports.SilentProgress(), True, 1)
+    study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)
     study.refinements = tuple(each for each in study.refinements if each.name == "interpolation")
     (result,) = study.refine()
     assert [each.level.label for each in result.levels] == ["averaged"]

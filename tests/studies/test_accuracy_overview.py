@@ -1,8 +1,11 @@
 """The README's picture and table of what accuracy costs, from the numbers that are saved."""
 
 import pytest
-from tests.benchmarks.accuracy_of_paper import PICTURES, scenes
+from tests.benchmarks.accuracy_of_paper import PAGE, PICTURES, scenes
 from tests.benchmarks.accuracy_overview import TITLES, Overview, Point, overview, overview_picture, table_lines
+from tests.benchmarks.accuracy_saved import saved_report
+
+from fenics_gears.studies.accuracy.table import in_one_sentence
 
 OWN = Point("the scene's own", 0.03, 0.5, True, "steps per mesh cycle", False)
 FINE = Point("P2 0.1 mm, 9 nodes, 40 steps, body x4", 0.004, 2.0, True, "flank element size", False)
@@ -36,3 +39,14 @@ def test_the_picture_has_a_panel_for_each_scene():
     """Authority: issue 6; quasi-static and at 200 Hz, with friction and without."""
     figure = overview_picture({name: made_up(1e-3) for name in TITLES})
     assert [axes.get_title(loc="left") for axes in figure.axes] == list(TITLES.values())
+
+
+@pytest.mark.parametrize("name", TITLES)
+def test_a_saved_report_says_what_the_page_says(name):
+    """Identity: the page's sentence, the errors charged and the front, which were written with the CSV, follow from it again."""
+    file = PICTURES / f"accuracy_{name}.csv"
+    report = saved_report(scenes()[name], file)
+    assert f"**{in_one_sentence(report)}**" in PAGE.read_text(encoding="utf-8")
+    saved = overview(file)
+    assert {each.name: each.charged for each in (*report.settings, *report.models)} == pytest.approx({each.name: each.error for each in saved.points})
+    assert [each.name for each in report.front] == [each.name for each in saved.front]

@@ -100,7 +100,7 @@ def test_operations_are_those_of_a_dense_solve_and_a_product():
 
 
 def test_the_expected_ratio_finds_the_constants_that_times_were_made_with():
-    """Authority: manufactured times; own times and rate are found again, and the ratio that follows is exact."""
+    """Authority: manufactured times; the ratio that follows from their own times and rate is exact."""
     own, inertia, friction, rate = 30e-6, 15e-6, 8e-6, 4e8
     seconds = lambda each: own + inertia * each.inertia + friction * each.friction + each.operations / rate  # noqa: E731
     bare, full = work(1, 29, 6.7, 1.5, False, False), work(7, 58, 6.7, 1.5, True, True)
@@ -108,7 +108,6 @@ def test_the_expected_ratio_finds_the_constants_that_times_were_made_with():
     others += [work(5, 58, 6.7, 1.6, True, True), work(7, 29, 6.7, 1.4, True, False), work(7, 58, 6.7, 1.6, False, True)]
     expected = expected_ratio(bare, full, [(each, seconds(each)) for each in others])
     assert expected.fitted == pytest.approx(seconds(full) / seconds(bare), rel=1e-9)
-    assert expected.rate == pytest.approx(rate, rel=1e-9)
     assert expected.arithmetic == pytest.approx(full.operations / bare.operations)
 
 

@@ -40,7 +40,7 @@ def test_both_of_two_ranks_compute(folder):
     program = (
         "import os, time\n"
         "from pathlib import Path\n"
-        "from fenics_gears import environment; environment.prepare()\n"
+        "from fenics_gears.system import environment; environment.prepare()\n"
         "from fenics_gears.studies.ranks import ranks\n"
         "def rank(task, tick=None):\n"
         "    own = os.environ['OMPI_COMM_WORLD_RANK']\n"

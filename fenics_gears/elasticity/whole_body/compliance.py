@@ -1,4 +1,4 @@
-"""The flank compliance of a gear whose teeth are not all alike."""
+"""Flank compliance of a gear whose teeth are not all alike."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the mesh of a whole gear to its flank compliance: each tooth's part condensed by PETSc, the parts joined exactly.
+"""Flank compliance of a gear meshed as a whole: each tooth's part is condensed by PETSc, the parts are joined exactly.
 
 With F the flank dofs of part t and I the interface dofs of all parts, block inversion gives the compliance between flanks as
 ``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, where ``X_t = S_FF^-1 S_FI`` of part t and ``J = sum_t (S_II - S_IF S_FF^-1 S_FI)``
@@ -14,7 +14,7 @@ import numpy as np
 from scipy import sparse
 
 from fenics_gears.elasticity.cache import Cache, content_key
-from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.condensation import by_radius, condense
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.factor import Factor
 from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
@@ -33,19 +33,11 @@ WHOLE_BODY_VERSION = 2
 
 
 def whole_body_compliance(
-    mesh: BodyMesh,
-    gear: Gear,
-    material: Material,
-    *,
-    element: str = "P2",
-    tooth_offsets: int,
-    cache: Cache | None = None,
-    comm=None,
+    mesh: BodyMesh, gear: Gear, material: Material, *, element: str = "P2", tooth_offsets: int, cache: Cache | None = None
 ) -> WholeBodyCompliance:
     """Flank compliance of every tooth of a meshed gear (`whole_body.outline`), from the cache or computed.
 
-    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. comm: communicator of one rank, COMM_SELF when None.
-    Raises ComputationError when a stage fails.
+    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a stage fails.
     """
     chosen, clock = element_named(element), perf_counter()
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)
@@ -54,7 +46,7 @@ def whole_body_compliance(
         key = _key(mesh, gear, material, chosen, tooth_offsets)
         arrays = cache.load(key)
     if arrays is None:
-        arrays, timings = _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets, comm)
+        arrays, timings = _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets)
         if cache is not None:
             cache.store(key, arrays)
     counts = {name: int(arrays[name]) for name in ("unknowns", "condensed_unknowns")}
@@ -75,7 +67,7 @@ def whole_body_compliance(
 def _key(mesh: BodyMesh, gear: Gear, material: Material, element: Element, tooth_offsets: int) -> str:
     import hashlib
 
-    # The mesh by its points' and cells' own bytes: written out as numbers it would have megabytes.
+    # By the bytes of points and cells: as text the mesh would take megabytes.
     content = hashlib.sha256()
     for array in (mesh.points, mesh.cells.astype(np.int64)):
         content.update(np.ascontiguousarray(array).tobytes())
@@ -93,9 +85,9 @@ def _block_name(tooth: int, ahead: int) -> str:
     return f"block_{tooth}_{ahead}"
 
 
-def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int, comm):
+def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int):
     body = divided_body(mesh, gear, element)
-    condensed = [_condensed(part, body, element, poissons_ratio, comm) for part in body.parts]
+    condensed = [_condensed(part, body, element, poissons_ratio) for part in body.parts]
     own, to_interface = zip(*(_surface_of(each) for each in condensed))
     joined = _Interface(body, condensed, to_interface)
     try:
@@ -103,8 +95,7 @@ def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Elemen
     finally:
         joined.close()
     for tooth in range(gear.teeth):
-        corners = mesh.points[mesh.edge_points(f"flank {tooth}")]
-        corners = corners[np.argsort(np.linalg.norm(corners, axis=1))]
+        corners = by_radius(mesh.points[mesh.edge_points(f"flank {tooth}")])
         arrays[f"roll_angle_{tooth}"] = node_roll_angles(gear, corners, element.order)
     arrays["unknowns"] = np.array(2 * len(body.nodes.points))
     arrays["condensed_unknowns"] = np.array(2 * (len(body.interface) + sum(len(part.flank) for part in body.parts)))
@@ -112,9 +103,9 @@ def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Elemen
     return arrays, {"from_cache": False, "time_mesh": 0.0, "time_compile": compiling}
 
 
-def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float, comm):
+def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float):
     groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "faces", "interface", "hub")}
-    return condense(part.mesh, element, poissons_ratio, groups, comm, cells_of={"faces": part.face_cells})
+    return condense(part.mesh, element, poissons_ratio, groups, cells_of={"faces": part.face_cells})
 
 
 def _surface(part) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The gear body in a mesh file that a scene names, read and understood once."""
+"""The gear body in a mesh file of a scene, read and checked once."""
 
 from __future__ import annotations
 

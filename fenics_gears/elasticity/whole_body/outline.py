@@ -1,8 +1,8 @@
-"""What the boundary of a meshed gear is made of: bore, tips and drive flanks, told by where they lie.
+"""Bore, tips and drive flanks on the boundary of a meshed gear, found by their position: the mesh needs no names.
 
-A mesh need name nothing. It may stand at any angle about the gear's centre, which is the origin; it is turned so that the tooth whose
-drive flank stands nearest to the body frame of a tooth (`geometry.involute`: the tooth points downwards) is tooth 0. Drive flanks are
-the counter-clockwise sides of the teeth.
+The gear's centre is the origin; the mesh may stand at any angle about it. It is turned so that the tooth whose drive flank stands nearest
+to the body frame of a tooth (`geometry.involute`: the tooth points downwards) is tooth 0. Drive flanks are the counter-clockwise sides
+of the teeth.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, involute_function
 from fenics_gears.geometry.outline import centreline_angle
 
-# Points of bore, tips and flanks lie so near to where the gear data have them, in modules; gaps are those of true involutes.
+# How far points of bore, tips and flanks may lie off the gear data, in modules; gaps are computed from true involutes.
 OUTLINE_TOLERANCE = 2e-3
-# A flank's first element may begin so far above the form circle, in parts of its length; the displacement is continued below it.
+# How far above the form circle a flank's first element may begin, in parts of its length; below it the displacement is continued.
 UNCOVERED = 0.5
-# Boundary points this near to an involute, in modules, are told of where they were meant to be on it.
+# Boundary points this near to an involute, in modules, were meant to lie on it: messages give their distance.
 NEARLY = 0.1
-# Factors by which a mesh is too small or too large, and the unit it then is likely to be in.
+# Factors by which a mesh is too small or too large, and the unit that it probably is in.
 UNITS = {1e-3: "metres", 1.0 / 25.4: "inches", 1e3: "micrometres"}
 
 
@@ -191,7 +191,7 @@ def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarra
 
 
 def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str) -> None:
-    """Raise SceneError where the other flanks do not stand where they should: drive flanks alone do not tell how thick teeth are."""
+    """Raise SceneError where the coast flanks are out of place: the drive flanks alone do not give the thickness of the teeth."""
     radius = np.linalg.norm(points, axis=1)
     between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_radius - tolerance)]
     axis = 2.0 * centreline_angle(gear)
@@ -215,7 +215,7 @@ def _deviation(worst: float, tolerance: float) -> str:
 
 
 def _chain(points: np.ndarray, known: set, candidates: np.ndarray, gear: Gear, tolerance: float) -> tuple[np.ndarray, str]:
-    """Sides of one flank from points that lie on its involute, and what is wrong with them, nothing where all is well."""
+    """Sides of one flank from points that lie on its involute, and what is wrong with them, empty where nothing is."""
     radius = np.linalg.norm(points[candidates], axis=1)
     order = np.argsort(radius)
     candidates, radius = candidates[order], radius[order]

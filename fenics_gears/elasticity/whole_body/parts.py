@@ -1,6 +1,6 @@
 """A meshed gear divided into its teeth: cells by the tooth sector they lie in, so that each part is condensed by itself.
 
-Any division gives the same answer; by teeth it gives small parts that meet in short lines of nodes.
+Any division gives the same result; by teeth the parts are small and meet in short lines of nodes.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def _centres_of(nodes: ElementNodes, chosen: np.ndarray) -> np.ndarray:
 def part_of_cells(mesh: BodyMesh, gear: Gear) -> np.ndarray:
     """Number of the part (cells,): that of the tooth; all cells on one face of a crack together, and those on a flank with its tooth.
 
-    The two faces of a crack have nodes in the same places. A node of theirs that two parts shared could not be told from its twin.
+    The two faces of a crack have nodes in the same places. If two parts shared such a node, it could not be distinguished from its twin.
     """
     centre = mesh.points[mesh.cells].mean(axis=1)
     ahead = np.arctan2(centre[:, 1], centre[:, 0]) - centreline_angle(gear)

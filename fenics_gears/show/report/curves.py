@@ -52,7 +52,7 @@ def spectra(run: Run) -> Section:
     heading = "Spectra by mesh order"
     run = run.settled
     if not run.has_curves or run.cycles < 1.0 - 1e-9:
-        short = "Less than one mesh cycle is stored; its harmonics are not to be told from one another."
+        short = "Less than one mesh cycle is stored; its harmonics cannot be separated."
         return Section("spectra", heading, [Words(short, warns=not run.complete)])
     signals = signals_of(run)
     found = {name: spectrum(run, values) for name, (values, _) in signals.items()}

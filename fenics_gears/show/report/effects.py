@@ -1,4 +1,4 @@
-"""The effects of a run, on and off, and what each costs and changes where `gears effects` has measured it."""
+"""The effects of a run, on and off, with the cost and change of each where `gears effects` has measured it."""
 
 from __future__ import annotations
 

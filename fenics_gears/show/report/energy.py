@@ -1,4 +1,4 @@
-"""The energy account: what the pair holds, what comes in, what goes where, and what is left unexplained."""
+"""The energy account: energy stored, work put in, work done and lost, and the unexplained rest."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The numbers of the run in tables: what it is judged by, and the points of the path of contact."""
+"""The numbers of the run in tables: key numbers, and the points of the path of contact."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a report comes from: versions, the file, the scene's text."""
+"""The origin of a report: versions, the file, the scene's text."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from pathlib import Path
 
 import fenics_gears
 from fenics_gears.show.report.page import Facts, Listing, Section, Words
-from fenics_gears.studies.effect_lattice.machine import versions
+from fenics_gears.studies.machine import versions
 
-# What draws and writes a report, besides what computes.
+# Packages that compute and that draw and write a report.
 PAGE_PACKAGES = ("numpy", "fenics-dolfinx", "petsc4py", "plotly", "matplotlib", "pyvista", "jinja2")
 
 

@@ -1,4 +1,4 @@
-"""What is read first: the numbers that a pair is judged by, the summary, the warnings."""
+"""The head of the report: key numbers, summary, warnings."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from fenics_gears.show.units import factor
 
 
 def summary(run: Run) -> Section:
-    """The numbers of the run, the largest first and the rest below."""
+    """The key numbers as tiles, the others below."""
     if not run.steps:
         return Section("summary", "Summary", [Words("No step is stored: the run ended before its recorded mesh cycles began.", warns=True)])
     return Section("summary", "Summary", [Tiles(list(_tiles(run))), Facts(_rows(run))])
 
 
 def warnings(run: Run) -> Section:
-    """What the run says against itself."""
+    """The warnings of the run."""
     said = str(run.dataset.attrs.get("warnings", "")).splitlines()
     blocks = [Words(_sentence(each), warns=True) for each in said]
     return Section("warnings", "Warnings", blocks or [Words("None: the run stayed within what the model assumes.")])
@@ -98,7 +98,7 @@ def _rows(run: Run) -> list[tuple[str, object, str]]:
         rows.append(
             ("mesh frequency", f"{first:g} to {ramp.end_frequency:g} Hz" if ramp else f"{first:g} Hz, the pinion at {speed:.5g} rpm", "")
         )
-    rows.append(("stored", f"mesh cycles {phase[0]:g} to {phase[-1]:g}, {times[0]:.6g} s to {times[-1]:.6g} s, {run.steps:,} steps", ""))
+    rows.append(("run", f"mesh cycles {phase[0]:g} to {phase[-1]:g}, {times[0]:.6g} s to {times[-1]:.6g} s, {run.steps:,} steps", ""))
     if "contact_loss_count" in attributes:
         count = attributes["contact_loss_count"]
         rows.append(

@@ -1,4 +1,4 @@
-"""What a report's page consists of: sections of words, tables, charts and pictures. How it looks is the template's business."""
+"""The parts of a report's page: sections of words, tables, charts and pictures. The template decides how they look."""
 
 from __future__ import annotations
 

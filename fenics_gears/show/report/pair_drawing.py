@@ -12,11 +12,11 @@ from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.show.chart import MARKERS, Chart, Curve
 from fenics_gears.show.panels import DARK, GREY, PALETTE
+from fenics_gears.show.stress_grid import upright
 from fenics_gears.simulation.run_stresses import standing
 
 FILLET_POINTS, INVOLUTE_POINTS, CIRCLE_POINTS = 9, 14, 181
 FILLS = ("#DCE9F3", "#F3E6DA")
-MIRROR = np.array([-1.0, 1.0])
 
 
 def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
@@ -47,7 +47,7 @@ def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -
     tooth = _tooth((pair.pinion, pair.wheel)[gear])
     # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
     points = np.vstack([centre + tooth @ rotation(angle).T for angle in np.sort(angles)[::-1]])
-    return _upright(pair, np.vstack([points, points[:1]]), coast)
+    return upright(pair, np.vstack([points, points[:1]]), coast)
 
 
 def _tooth(gear: Gear) -> np.ndarray:
@@ -64,11 +64,6 @@ def _tooth(gear: Gear) -> np.ndarray:
 def _arc(radius: float, start: float, end: float, points: int = 4) -> np.ndarray:
     angles = np.linspace(start, end, points)
     return radius * np.column_stack([np.cos(angles), np.sin(angles)])
-
-
-def _upright(pair: GearPair, points: np.ndarray, coast: bool) -> np.ndarray:
-    upright = points @ rotation(-pair.operating_pressure_angle).T
-    return upright * MIRROR if coast else upright
 
 
 def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) -> list[Curve]:
@@ -106,7 +101,7 @@ def _circle(radius: float) -> np.ndarray:
 
 def _on_line(pair: GearPair, positions: list[float], coast: bool = False) -> np.ndarray:
     """Points (n, 2) of the picture at positions (mm from T1) on the line of action of drive or coast flanks."""
-    return _upright(pair, np.column_stack([positions, np.full(len(positions), -pair.pinion.base_radius)]), coast)
+    return upright(pair, np.column_stack([positions, np.full(len(positions), -pair.pinion.base_radius)]), coast)
 
 
 def _points(pair: GearPair, coast: bool) -> dict[str, float]:
@@ -117,7 +112,7 @@ def _points(pair: GearPair, coast: bool) -> dict[str, float]:
     alone = pair.fewest_pairs == 1
     ends = ("end of contact", "start of contact") if coast else ("start of contact", "end of contact")
     names = (ends[0], "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", ends[1])
-    places = (pair.path_start, pair.start_of_fewest_pairs, pair.pitch_point, pair.end_of_fewest_pairs, pair.path_end)
+    places = (pair.path_start, pair.lpstc, pair.pitch_point, pair.hpstc, pair.path_end)
     return {name: place for name, place in zip(names, places) if name}
 
 

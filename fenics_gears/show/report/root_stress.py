@@ -40,7 +40,7 @@ def _factors(run: Run) -> list[Block]:
 def _over_time(run: Run) -> list[Chart]:
     largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "slot")
     values, gears = in_unit(largest, "MPa"), [str(gear) for gear in run.dataset["gear"].values]
-    envelope = [(gear, _largest(values[:, place]), PALETTE[place]) for place, gear in enumerate(gears)]
+    envelope = [(gear, np.fmax.reduce(values[:, place], axis=1), PALETTE[place]) for place, gear in enumerate(gears)]
     together = np.concatenate([each for _, each, _ in envelope])
     plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
     for gear in gears:
@@ -53,7 +53,7 @@ def _over_time(run: Run) -> list[Chart]:
     section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "slot")
     at_section = in_unit(section, "MPa")
     curves = [
-        (f"{gear}, {side} side", _largest(at_section[:, i, j]), PALETTE[2 * i + j])
+        (f"{gear}, {side} side", np.fmax.reduce(at_section[:, i, j], axis=1), PALETTE[2 * i + j])
         for i, gear in enumerate(gears) for j, side in enumerate(run.dataset["fillet"].values.tolist())
         if np.isfinite(at_section[:, i, j]).any()
     ]  # fmt: skip
@@ -61,12 +61,6 @@ def _over_time(run: Run) -> list[Chart]:
         note = "The largest of the loaded teeth, where the fillet's tangent stands at 30° to the tooth's centreline; tension positive."
         plots.append(over_time(run, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least(together), note=note))
     return plots
-
-
-def _largest(values: np.ndarray) -> np.ndarray:
-    """Largest over the pairs (time, pair), not a number where no pair has one."""
-    known = np.isfinite(values).any(axis=1)
-    return np.where(known, np.where(np.isfinite(values), values, -np.inf).max(axis=1), np.nan)
 
 
 def _along_fillets(run: Run) -> list[Chart]:

@@ -40,8 +40,8 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
 def _alarm(run: Run) -> str:
     """What must be known before any number: that steps are missing, that the numbers have no meaning."""
     said = str(run.dataset.attrs.get("warnings", "")).splitlines()
-    worthless = [f"NO MEANING: {each}." for each in said if NO_MEANING in each]
-    return " ".join([*_incomplete(run), *worthless])
+    without_meaning = [f"NO MEANING: {each}." for each in said if NO_MEANING in each]
+    return " ".join([*_incomplete(run), *without_meaning])
 
 
 def _incomplete(run: Run) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fenics_gears.errors import GearsError
 from fenics_gears.model.description import describe
+from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.summary import solver_rows, stage_rows
 from fenics_gears.show.chart import over_time
 from fenics_gears.show.panels import PALETTE
@@ -12,21 +13,20 @@ from fenics_gears.show.run import Run
 
 # What `gears check` says of a scene that is not said elsewhere on the page.
 DESCRIBED = ("Model", "Accuracy", "Natural frequencies")
-RUNG = "steps_by_rung: "
 
 
 def solver(run: Run) -> Section:
     """Settings and statistics."""
     blocks: list[Block] = [_described(run)]
     attributes = run.dataset.attrs
-    rungs = [(name.removeprefix(RUNG), int(count)) for name, count in attributes.items() if name.startswith(RUNG)]
+    methods = [(name.removeprefix(RUNG), int(count)) for name, count in attributes.items() if name.startswith(RUNG)]
     of_run = {"steps": "steps of the whole run", "newton_iterations_total": "Newton iterations of the whole run"}
     rows = solver_rows(run.dataset) + [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
     statistics: list[Block] = [Facts(rows, "Newton iterations"), Facts(stage_rows(run.dataset), "Wall time by stage")]
-    if rungs:
-        every = sum(count for _, count in rungs)
-        cells = [(name, f"{count:,}", f"{100.0 * count / every:.4g}") for name, count in rungs]
-        statistics.append(Table(("Rung of the solver", "Steps", "Share (%)"), cells, "Steps by rung"))
+    if methods:
+        every = sum(count for _, count in methods)
+        cells = [(name, f"{count:,}", f"{100.0 * count / every:.4g}") for name, count in methods]
+        statistics.append(Table(("Method", "Steps", "Share (%)"), cells, "Steps by the method that solved them"))
     blocks.append(Beside(statistics))
     if run.has_curves:
         counts = {"newton_iterations": ("Newton iterations of each step", "Iterations"), "closed_nodes": ("Closed contact nodes", "Nodes")}
@@ -42,5 +42,5 @@ def _described(run: Run) -> Block:
     try:
         sections = () if run.scene is None else describe(run.scene)
     except GearsError as error:
-        return Words(f"Model and accuracy cannot be told without what the scene was run with: {str(error).splitlines()[0]}")
+        return Words(f"Model and accuracy cannot be described without the files that the scene was run with: {str(error).splitlines()[0]}")
     return Beside([Facts(rows, heading) for heading, rows in sections if heading.startswith(DESCRIBED)])

@@ -1,1 +1,1 @@
-"""What accuracy costs in time: each setting's error with the others fine, whole settings, cheaper models beside them; and the orders and limits that targets are chosen by, too."""
+"""What accuracy costs in time (`gears accuracy`): the error of each setting alone, of whole settings and of cheaper models; and the fits of errors that `[accuracy] target` uses, too."""

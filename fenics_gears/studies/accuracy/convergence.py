@@ -1,8 +1,8 @@
-"""Orders, limits and errors of sequences of runs whose sizes fall: what `gears accuracy` reports and what a target is chosen by.
+"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy` and for `[accuracy] target`.
 
-Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: what is left beyond the finest run is the last change
-over r^p - 1, with r the ratio of sizes and p the order, and counts 1.25 times. Where no order shows, three times the last change counts: 1.25 times
-the 2.4 that are left with h^0.5 where sizes halve.
+Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest run is the last change
+over r^p - 1, with r the ratio of sizes and p the order, times a safety factor of 1.25. Without an observed order it is three times the last
+change: 1.25 times the 2.4 that h^0.5 leaves where sizes halve.
 """
 
 from __future__ import annotations
@@ -19,26 +19,25 @@ SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
 NO_ORDER = float(np.log2(1.0 + 1.0 / LEFT_WITHOUT_ORDER))
 LEAST_ORDER, MOST_ORDER = 0.1, 10.0
-# An order is only extrapolated with where it is neither so low that the limit lies far off nor above what is expected by more than this.
+# An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected order than this.
 LEAST_TRUSTED, MOST_ABOVE_EXPECTED = 0.5, 1.0
-# How far below the expected order an observed one may lie and still be the expected one.
+# An observed order is taken as the expected one up to this far below it.
 LIKE_EXPECTED = 0.5
 ROUND_OFF = 1e-10
-# Differences of curves that point the same way are extrapolated with; kinks between steps move, so that their differences fall with
-# an order though they point anywhere. Those that turn back have none.
+# Cosine of the angle between the last two changes: above the first the limit is extrapolated; kinks that move between steps give changes in
+# any direction whose length still falls with an order; below the second, where changes turn back, there is no order.
 LEAST_COSINE, TURNED_BACK = 0.5, -0.5
-# Errors are extrapolated to sizes finer by this factor at most, where the order is trusted.
+# Where the order is trusted, errors are extrapolated to sizes up to this factor finer.
 EXTRAPOLATED = 2.0
-# Below this an error is none; keeps logarithms finite.
+# Smallest error, so that logarithms stay finite.
 NO_ERROR = 1e-9
 
 
 @dataclass(frozen=True)
 class Limit:
-    """Where a sequence goes: `value` as its terms; `order` observed, None where there is none; `uncertainty` in L2 of the value.
+    """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm of its error.
 
-    `least_error`: where the limit is the last term, which then seems free of error, what its error is by its order, or the last
-    difference without one.
+    `least_error`: error of the last term where that is taken as the limit: by its order, or the last difference without one.
     """
 
     value: np.ndarray
@@ -48,7 +47,7 @@ class Limit:
 
 
 def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> float | None:
-    """Order p of u(h) = u(0) + C h^p through the three last of a sequence, by their distances in L2; None where no p fits.
+    """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2; None where no p fits.
 
     `sizes` fall and need not halve. None where differences are round-off, do not fall, or turn back.
     """
@@ -70,13 +69,13 @@ def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> floa
 
 
 def cosine(one: np.ndarray, other: np.ndarray) -> float:
-    """Of the angle between two arrays; 0 where one of them is zero."""
+    """Cosine of the angle between two arrays; 0 where one of them is zero."""
     length = float(np.linalg.norm(one) * np.linalg.norm(other))
     return float(np.vdot(one, other)) / length if length else 0.0
 
 
 def part_left(sizes: Sequence[float], order: float) -> float:
-    """What is left beyond the finest size, in parts of the last change: 1/(r^p - 1)."""
+    """Error of the finest size in parts of the last change: 1/(r^p - 1)."""
     return 1.0 / ((sizes[-2] / sizes[-1]) ** order - 1.0)
 
 
@@ -100,7 +99,7 @@ def last_of(values: Sequence[np.ndarray]) -> Limit:
 
 
 def together(base: np.ndarray, limits: Sequence[Limit]) -> Limit:
-    """All settings at their limits at once: what each gains over `base`, added; their uncertainties add too, for none knows the others' signs."""
+    """All settings at their limits at once: `base` and the change that each makes to it; uncertainties add, for their signs are unknown."""
     value = base + sum((limit.value - base for limit in limits), np.zeros_like(base))
     return Limit(value, None, sum(limit.uncertainty for limit in limits))
 
@@ -112,9 +111,9 @@ def largest_part(parts: Mapping[str, float]) -> str:
 
 @dataclass(frozen=True)
 class MeasureFit:
-    """Errors of one measure at the sizes that ran, relative; `order` observed (None for none), `used`: the one extrapolated with.
+    """Relative errors of one measure at the sizes that ran; `order`: observed, None without one; `used`: the order of the extrapolation.
 
-    `direction`: what the finest run still changed, as the measure's array, of length 1 (or 0 where it changed nothing).
+    `direction`: the last change, an array of the measure scaled to length 1 (zero without a change).
     """
 
     errors: np.ndarray
@@ -126,10 +125,10 @@ class MeasureFit:
 
 @dataclass(frozen=True)
 class ErrorCurve:
-    """Errors at any size up to the coarsest that ran, on the safe side; `sizes` fall; `factor`: what a check found them to be wrong by.
+    """Error of a setting at any size up to the coarsest that ran, on the safe side; `sizes` fall; `factor`: correction found by a check.
 
-    Between sizes the errors measured are used, beyond the finest the order, the lower of observed and expected one; where no order shows, half
-    an order, and nothing finer than the finest is promised.
+    Errors are interpolated between the sizes that ran. Beyond the finest they fall with the lower of observed and expected order; without
+    an observed order with half an order, and no size finer than the finest is used.
     """
 
     name: str
@@ -165,18 +164,17 @@ class ErrorCurve:
 
 
 def error_curve(name: str, sizes: Sequence[float], answers: Sequence[Answer], expected: float) -> ErrorCurve:
-    """The curve through three runs or more, from coarse to fine. A height (T_EPP) without an order of its own is taken to have the curve's."""
+    """The errors of three runs or more, from coarse to fine. T_EPP without an order of its own is given that of the T_E curve."""
     curve = _fit([each[CURVE] for each in answers], sizes, expected)
     height = _fit([each[SPAN] for each in answers], sizes, expected, instead=curve.used)
     return ErrorCurve(name, np.asarray(sizes, dtype=float), {CURVE: curve, SPAN: height}, expected)
 
 
 def total_error(curves: Sequence[ErrorCurve], sizes: Sequence[float | np.ndarray]) -> np.ndarray:
-    """Error of all settings together, the larger of the judged measures; sizes, one a curve, are broadcast.
+    """Error of all settings together, the larger of the judged measures; sizes, one for each curve, are broadcast.
 
-    Errors are added as the curves that they are: by the angle between them, but where they point against each other they are taken to be
-    at right angles, for another load or speed undoes what cancels here. Where one shows no order, its direction tells nothing and it
-    is taken to point along with all others.
+    Errors add as vectors, by the angle between their curves. Opposite errors are taken to be at right angles, for at another load or speed
+    they need not cancel. The direction of an error without an order is unknown: it is taken to point along with all others.
     """
     return np.max([_together(curves, sizes, measure) for measure in JUDGED], axis=0)
 
@@ -193,9 +191,9 @@ def _together(curves: Sequence[ErrorCurve], sizes, measure: str) -> np.ndarray:
 
 
 def _fit(values: list[np.ndarray], sizes: Sequence[float], expected: float, instead: float = NO_ORDER) -> MeasureFit:
-    """Distances from the finest run and what that run itself still lacks; errors never fall towards coarser sizes.
+    """Errors: distance from the finest run together with that run's own error; they never fall towards coarser sizes.
 
-    `instead`: the order used where none shows, or a lower one.
+    `instead`: the order used where none is observed, or a lower one.
     """
     scale = float(np.linalg.norm(values[-1])) or 1.0
     order = observed_order(values, sizes)
@@ -209,6 +207,6 @@ def _fit(values: list[np.ndarray], sizes: Sequence[float], expected: float, inst
 
 
 def _beyond(way: np.ndarray, last: np.ndarray, left: float) -> float:
-    """Length of the way to the finest run and from there on: straight on where the last change went the same way, else across."""
+    """Distance to the finest run and on to the limit: straight on where the last change points the same way, else at a right angle."""
     length = float(np.linalg.norm(way))
     return length + left if cosine(way, last) >= LEAST_COSINE else float(np.hypot(length, left))

@@ -1,6 +1,6 @@
-"""What a run is judged by, as arrays that any two runs of a scene have alike, and the relative distance of two runs.
+"""The measures by which two runs of a scene are compared, as arrays of the same shape in all runs, and their relative distance.
 
-`energy defect` is an error by itself; it is given in parts of the drive's work.
+The `energy defect` is an error in itself, given in parts of the drive's work.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import xarray as xr
 CURVE, SPAN, STIFFNESS, PRESSURE, PEAK = "T_E", "T_EPP", "mesh stiffness", "pressure", "peak pressure"
 ROOT, DEFECT = "root stress", "energy defect"
 MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, ROOT, DEFECT)
-# A setting is judged by these two together: a curve may have the right height and the wrong shape.
+# Settings are judged by both of these: a curve may have the right height and the wrong shape.
 JUDGED = (CURVE, SPAN)
 CURVE_POINTS, PRESSURE_PHASES, PRESSURE_POINTS = 640, 20, 401
 PAIRS_BACK, PAIRS = 6, 9
@@ -20,9 +20,9 @@ Answer = dict[str, np.ndarray]
 
 
 def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> Answer:
-    """Every measure of a run that it has, each an array; `window` (mm): length over which pressures are compared.
+    """All measures of a run; `window` (mm): length over which pressures are compared.
 
-    root_stress: MPa, peak at a material point (`root_point`), which a run does not carry; None where it is not known.
+    root_stress: MPa, peak at a material point (`root_point`), which is not in a result; None where it is not known.
     """
     found = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:
@@ -36,7 +36,7 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
 
 
 def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
-    """The two measures that settings are judged by; `every`: one step in so many counts, as in a run of longer steps."""
+    """The two measures that settings are judged by; `every`: take every n-th step only, as in a run of longer steps."""
     height = run.attrs["peak_to_peak_transmission_error"] if every == 1 else np.ptp(run["transmission_error"].values[::every])
     return {CURVE: _curve(run, every), SPAN: np.array([height * run.attrs["base_radius_wheel"]])}
 
@@ -60,7 +60,7 @@ def distance(one: Answer, other: Answer, name: str) -> float:
 
 
 def distances(one: Answer, other: Answer) -> dict[str, float]:
-    """Of all measures."""
+    """The distances of all measures."""
     return {name: distance(one, other, name) for name in MEASURES}
 
 

@@ -1,4 +1,4 @@
-"""The settings of `[accuracy]`, each refined alone from level to level, and the order that its error is expected to fall with."""
+"""The settings of `[accuracy]`, each refined alone from level to level, and the expected order of its error."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ QUICK = {
     "flank elements": (0.7, 1.4, 2.8), "contact nodes": (0.7, 1.4, 2.8), "body elements": (4.0, 2.0, 1.0),
     "contact length": (0.5, 1.0), "steps": (10, 20, 40),
 }  # fmt: skip
-# Where a setting stands while another is refined: one halving before its finest level; steps, whose cost is memory, three.
+# Values of the settings while another one is refined: one halving before the finest level; steps, which cost memory, three.
 FINE = {"flank elements": 4.0, "contact nodes": 4.0, "body elements": 0.5, "contact length": 1.0, "steps": 80}
 QUICK_FINE = {"flank elements": 1.4, "contact nodes": 1.4, "body elements": 1.0, "contact length": 1.0, "steps": 20}
-# Gears meshed anew at every step cost a hundred times as much: both ways of condensing are compared in a setting that is less fine.
+# Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a coarser setting.
 REMESHED_FINE = {"flank elements": 2.0, "contact nodes": 2.0, "body elements": 1.0, "steps": 20}
 CHOICES = {"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)}
 QUICK_CHOICES = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
@@ -62,7 +62,7 @@ class Refinement:
 
 
 def checked_model(scene: Scene) -> Model:
-    """The model of a scene whose accuracy can be looked into. Raises SceneError for others."""
+    """The model of a scene whose accuracy can be measured. Raises SceneError for others."""
     model = model_of(scene)
     if not scene.resolves_contact:
         raise SceneError("gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out accuracy.model")
@@ -76,7 +76,7 @@ def checked_model(scene: Scene) -> Model:
 
 
 def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
-    """By the setting, the order that its error falls with, and why."""
+    """For each setting the expected order of its error, and why."""
     return {
         FLANK: (2.0, "straight sides on a curved flank: h^2, whatever the element's order"),
         NODES: _order_of_nodes(scene),
@@ -125,10 +125,10 @@ def condensation(scene: Scene) -> Refinement:
 
 
 def _order_of_nodes(scene: Scene) -> tuple[float, str]:
-    """Hat functions and exact averages of the gap leave h^2, but for the edge of a tip.
+    """Hat functions with exact averages of the gap give h^2, except at the edge of a tip, where they give h.
 
-    A pair that comes or goes touches with it alone, and the gap opens in proportion to the distance from it: its average over the half of a
-    hat of width h that is left there is too wide by a third of h times that slope. Relieved tips do not touch.
+    A pair that enters or leaves contact touches with the tip's edge alone. The gap grows in proportion to the distance from it, and its average
+    over the half hat of width h at the edge is too large by a third of h times that slope. Relieved tips do not touch.
     """
     if scene.tip_relief is not None:
         return 2.0, "hat functions, exact averages of the gap: h^2"
@@ -150,7 +150,7 @@ def _levels(base: Setting, field: str, values, unit: float) -> tuple[Level, ...]
 
 
 def _label(field: str, value, unit: float) -> str:
-    """A value for people; `unit`: the half-width that it is also told in."""
+    """A value in words; `unit`: the half-width in mm, in which sizes are given, too."""
     if field in ("flank", "spacing"):
         return f"{value:.3g} mm = {value / unit:.2g} half-widths"
     words = {"length": f"{value:.3g} mm" if field == "length" else "", "body": f"default x {value}", "steps": f"{value}"}

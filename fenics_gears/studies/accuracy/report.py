@@ -19,11 +19,11 @@ from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement, 
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting
-from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS, QUICK_ROUNDS = 5, 1
-# What repeating single settings for their times may take, s, unless the user gives more; their answers need one run.
+# Most seconds for repeating the runs of single settings to time them, unless the user gives another limit.
 SECONDS_ON_SINGLE = 60.0
 MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
 OWN = "the scene's own"
@@ -31,7 +31,7 @@ OWN = "the scene's own"
 
 @dataclass(frozen=True)
 class LevelResult:
-    """A level that was run: relative errors by measure against its setting's limit, and times."""
+    """A level that was run: relative errors by measure, from the limit of its setting, and times."""
 
     level: Level
     errors: dict[str, float]
@@ -40,22 +40,22 @@ class LevelResult:
 
 @dataclass(frozen=True)
 class RefinementResult:
-    """A setting refined alone: its levels that ran, and by measure its limit, with the order observed."""
+    """A setting refined alone: the levels that ran, and the limit and observed order of each measure."""
 
     refinement: Refinement
     levels: tuple[LevelResult, ...]
     limits: dict[str, Limit]
 
     def order(self, measure: str) -> float | None:
-        """Observed in a measure; None where there is none."""
+        """Observed order of a measure; None without one."""
         return self.limits[measure].order if measure in self.limits else None
 
 
 @dataclass(frozen=True)
 class WholeResult:
-    """A whole setting or a cheaper model: direct errors against the reference, errors by setting, what it is charged, and times.
+    """A whole setting or a cheaper model: errors from the reference, the parts of its settings, and times.
 
-    `parts` is empty for a cheaper model, whose error no setting makes smaller.
+    `parts` is empty for a cheaper model, whose error does not depend on settings.
     """
 
     name: str
@@ -66,15 +66,15 @@ class WholeResult:
 
     @property
     def charged(self) -> float:
-        """The error that it is charged."""
+        """The error that it is charged; see `whole.charged_error`."""
         return whole.charged_error(judged(self.errors), self.parts)
 
 
 @dataclass(frozen=True)
-class Report:
-    """All that was measured; `uncertainty`: of the reference, relative, by measure; `failures`: what did not run, and why.
+class AccuracyReport:
+    """All that was measured; `uncertainty`: relative, of the reference, by measure; `failures`: what did not run, and why.
 
-    rounds: how often whole settings were timed, and single ones as far as `seconds_on_single` went.
+    rounds: how often whole settings were timed; single settings as often while `seconds_on_single` lasted.
     """
 
     scene: Scene
@@ -102,30 +102,30 @@ class Report:
 
     @property
     def floor(self) -> float:
-        """Below this an error cannot be told from the reference's own."""
+        """The reference's own uncertainty; smaller errors cannot be judged."""
         return judged(self.uncertainty)
 
 
 def measure(
     scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None, seconds_on_single: float = SECONDS_ON_SINGLE
-) -> Report:
+) -> AccuracyReport:
     """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones; `seconds_on_single`: for
     repeating single settings for their times.
 
     Raises SceneError, GeometryError, ComputationError.
     """
-    study = Study(scene, progress or SilentProgress(), quick, rounds or (QUICK_ROUNDS if quick else ROUNDS), seconds_on_single)
+    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or (QUICK_ROUNDS if quick else ROUNDS), seconds_on_single)
     results = study.refine()
     reference, uncertainty = study.reference(results)
     settings, models = study.whole_runs(results, reference)
-    return Report(
+    return AccuracyReport(
         scene, half_width(scene), study.base, results, settings, models, uncertainty, tuple(study.failures), machine(),
         study.rounds, seconds_on_single,
     )  # fmt: skip
 
 
-class Study:
-    """One scene's study while it runs: what was answered by which setting, and what failed."""
+class AccuracyStudy:
+    """The measurement of one scene: the answers and times of each setting so far, and what failed."""
 
     def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int, seconds_on_single: float = SECONDS_ON_SINGLE):
         checked_model(scene)
@@ -133,14 +133,14 @@ class Study:
         self.scene, self.progress, self.rounds = replace(scene, output=Output()), progress, rounds
         self.seconds_on_single = seconds_on_single
         self.base, self.refinements = fine(scene, quick), refinements(scene, quick)
-        # Over which pressures are compared, mm.
+        # Length over which pressures are compared, mm.
         self.window = max(level.setting.length for each in self.refinements for level in each.levels)
         self.failures: list[tuple[str, str]] = []
         self._known: dict[Setting, tuple[Answer, Times]] = {}
         self._gears = shared_gears()
 
     def refine(self) -> tuple[RefinementResult, ...]:
-        """Every level run with the other settings fine."""
+        """Run every level with the other settings fine."""
         self.progress.stage("compile")
         compile_kernels(self.scene.friction is not None)
         self.progress.stage("single settings")
@@ -155,7 +155,7 @@ class Study:
         return tuple(result for result in results if result.levels)
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
-        """All settings at their limits, and how uncertain that is, relative, by measure."""
+        """The reference, all settings at their limits, and its relative uncertainty by measure."""
         base, value, uncertainty = self._known[self.base][0], {}, {}
         for name in base:
             limit = together(base[name], [each.limits[name] for each in results])
@@ -164,7 +164,7 @@ class Study:
         return value, uncertainty
 
     def whole_runs(self, results: tuple[RefinementResult, ...], reference: Answer) -> tuple[tuple[WholeResult, ...], tuple[WholeResult, ...]]:
-        """Whole settings and cheaper models in turns, and what they are charged."""
+        """Run and time whole settings and cheaper models."""
         ran = [each.refinement for each in results]
         errors = {
             (each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels
@@ -185,7 +185,7 @@ class Study:
         return tuple(each for each in found if each.setting), tuple(each for each in found if not each.setting)
 
     def _run(self, setting: Setting, name: str) -> bool:
-        """A setting's answers and time, run once in however many refinements it stands; whether it ran."""
+        """Run a setting unless it has run before; whether it could be run."""
         if setting in self._known:
             return True
         try:
@@ -199,12 +199,12 @@ class Study:
         return True
 
     def _answer(self, run: xr.Dataset, scene: Scene, cycle: Cycle) -> Answer:
-        """All measures; the root stress of what has flanks in contact and one mesh to be recovered on, and outside of all times."""
+        """All measures; root stress only where contact is resolved on one mesh. Its time is not counted."""
         recovered = scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP
         return answer(run, self.window, peak_root_stress(run, scene, cycle) if recovered else None)
 
     def _time_single_settings(self) -> None:
-        """More rounds for their times, the quickest first, as far as there is time for all rounds of them."""
+        """Repeat single settings to time them, the quickest first, as many as can be repeated in all rounds within the time limit."""
         seconds = {setting: times.total for setting, (_, times) in self._known.items()}
         repeated = within(seconds, self.seconds_on_single / max(self.rounds - 1, 1))
         if self.rounds > 1:
@@ -217,7 +217,7 @@ class Study:
                 self._known[setting] = answers, times.and_also(run_sharing(setting.of(self.scene), gears)[0])
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
-        """Every scene once a round, so that whatever else the machine does meets all of them."""
+        """Run every scene once a round, so that other load of the machine affects all of them alike."""
         self.progress.stage("whole settings")
         answers, times, left = {}, {}, dict(scenes)
         for turn in range(self.rounds):
@@ -235,8 +235,8 @@ class Study:
         return answers, times
 
     def _result(self, refinement: Refinement) -> RefinementResult:
-        """Errors of the levels against their own limit, in the fine setting of all others; choices are measured from the setting in which
-        they are made, for none of them is the limit of the others."""
+        """Errors of the levels from the limit of their setting, the others fine; a choice is compared with the base setting, for no choice is
+        the limit of the others."""
         base = self._known[self.base][0]
         ran = [(level, *self._known[level.setting]) for level in refinement.levels if level.setting in self._known]
         regular = [(level, found) for level, found, _ in ran if not level.own or refinement.name == LENGTH]
@@ -260,7 +260,7 @@ def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:
 
 
 def _error(found: Answer, limits: dict[str, Limit], name: str) -> float:
-    """Relative distance from a limit; not less than is known where the limit is the finest level itself."""
+    """Relative distance from a limit; at least `least_error`, where the limit is the finest level itself."""
     if name not in limits or name not in found:
         return float("nan")
     limit = limits[name]
@@ -277,7 +277,7 @@ def _limit(refinement: Refinement, ran: list, base: Answer, name: str) -> Limit:
 
 
 def _accuracy_of(scene: Scene, name: str) -> Accuracy:
-    """The scene's own accuracy for a cheaper model; those without flanks in contact have steps alone."""
+    """The scene's own accuracy for a cheaper model; models without contact on flanks have steps only."""
     if name == STIFFNESS_TABLE:
         return replace(scene.accuracy, model=name)
     return Accuracy(model=name, steps_per_mesh_cycle=own_setting(scene).steps)

@@ -1,6 +1,6 @@
 """Peak stress at one material point of the pinion's tooth root: where the fillet's tangent stands at 30 degrees to the tooth's centreline.
 
-The point is the gear's, whatever its mesh, so that meshes can be compared by it; the largest stress anywhere sits elsewhere on every mesh.
+Meshes can be compared at this point, for it is the same on all of them; the place of the largest stress differs from mesh to mesh.
 """
 
 from __future__ import annotations
@@ -12,9 +12,8 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
-from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import Material, Scene
+from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 
@@ -22,15 +21,14 @@ PINION = 0
 
 
 def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
-    """Largest tension (MPa) at the point over the last stored mesh cycle, of whichever fillet it is pulled in: that on the loaded side.
+    """Largest tension (MPa) at the point over the last stored mesh cycle, of both fillets: it is that on the loaded side.
 
-    run: of `scene`, with contact nodes on the flanks; cycle: the one that it had.
+    run: a result of `scene` with contact fields; cycle: its mesh cycle.
     """
     model = model_of(scene)
-    resolution = model.resolution
     rows = _rows(
-        model.pair.pinion, scene.gears.material_of("pinion"), resolution.element, resolution.flank_element_size, resolution.body_element_size,
-        tooth_reach(model).farthest + 1, scene.coast_flanks is not None,
+        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation, tooth_reach(model).farthest + 1,
+        scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
     steps = range(run.sizes["contact_time"] - cycle.steps, run.sizes["contact_time"])
@@ -39,7 +37,7 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
 
 
 def point_rows(rows: RootStressRows) -> np.ndarray:
-    """Rows (2 reach + 1, 2, d) of the point on either side; of a fillet without such a tangent those of its middle."""
+    """Rows (2 reach + 1, 2, d) of the point on either side; of the fillet's middle where the fillet has no such tangent."""
     points = rows.rows.shape[1] // 2
     place = points - 1 if np.isfinite(rows.rows[rows.reach, points - 1]).all() else (points - 1) // 2
     return rows.rows[:, [place, points + place]]
@@ -52,10 +50,4 @@ def _stress(point: np.ndarray, stored: StoredForces, model) -> float:
     return float(np.max(of_teeth, initial=0.0))
 
 
-@lru_cache(maxsize=64)
-def _rows(
-    pinion: Gear, material: Material, element: str, flank: float, body: float | None, reach: int, coast_flank: bool,
-) -> RootStressRows:  # fmt: skip
-    return root_stress_rows(
-        pinion, material, element=element, flank_element_size=flank, body_element_size=body, reach=reach, coast_flank=coast_flank,
-    )  # fmt: skip
+_rows = lru_cache(maxsize=64)(root_stress_rows)

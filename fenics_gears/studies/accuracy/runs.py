@@ -1,4 +1,4 @@
-"""Runs of settings without the cache, that share their gears or stand alone, and how long they take, stage by stage and without the cache; of several rounds, in which runs take turns, the median."""
+"""Runs without the cache, with shared gears or with gears of their own, and their times: the median of several rounds, stage by stage."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ STAGES = ("mesh", "condense", "march")
 
 @dataclass(frozen=True)
 class Times:
-    """Seconds of every round: meshing, condensing, marching with the contact operators. Compiling does not count."""
+    """Seconds of every round: meshing, condensing, marching with the contact operators; without compiling."""
 
     mesh: tuple[float, ...] = ()
     condense: tuple[float, ...] = ()
     march: tuple[float, ...] = ()
 
     def and_also(self, run: xr.Dataset) -> Times:
-        """With one more run."""
+        """These times with those of one more run."""
         return Times(*((*getattr(self, stage), float(run.attrs[f"time_{stage}"])) for stage in STAGES))
 
     @property
@@ -47,25 +47,25 @@ class Times:
         return statistics.median(self.totals)
 
     def median(self, stage: str) -> float:
-        """Of one stage."""
+        """Median seconds of one stage."""
         return statistics.median(getattr(self, stage))
 
 
 def run_afresh(scene: Scene) -> tuple[xr.Dataset, Cycle]:
-    """A run that takes nothing from the cache and leaves nothing there, and its mesh cycle. Ctrl-C in its march ends all."""
+    """A run that neither reads nor writes the cache, and its mesh cycle. Raises KeyboardInterrupt on Ctrl-C in its march."""
     return _run(scene, lambda model: prepared(model, SilentProgress(), None))
 
 
 def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
-    """A run that shares gears with others, without the cache, and its mesh cycle; its times are those of a run of its own.
+    """A run that shares gears with others, without the cache, and its mesh cycle; its times include condensing these gears.
 
-    KeyboardInterrupt from `progress` ends all.
+    Raises KeyboardInterrupt on Ctrl-C, or from `progress`.
     """
     return _run(scene, lambda model: gears.prepared(model, SilentProgress(), None), progress)
 
 
 def shared_gears(most: int | None = None) -> GearStore:
-    """For runs whose times count, so that no mesh cycle is taken over; `most`: how many gears are kept."""
+    """A store for runs that are timed: it shares gears, but no mesh cycles; `most`: how many gears are kept."""
     return GearStore(most, cycles=False)
 
 

@@ -1,4 +1,4 @@
-"""A whole setting of `[accuracy]`: element, sizes, steps; the scene's own, and the half-width that sizes go by."""
+"""A whole setting of `[accuracy]`: element, sizes and steps; the scene's own setting; the half-width in which sizes are given."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.elasticity.gear_compliance import DEFAULT_SIZES
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Scene
@@ -28,7 +28,7 @@ class Setting:
 
     @property
     def grid(self) -> ContactGrid:
-        """Contact nodes as close as wanted, but not closer than the flank bears; wider windows hold the nodes of narrower ones."""
+        """Contact nodes at the wanted spacing, but not closer than the flank's elements resolve; wider windows hold the nodes of narrower ones."""
         flank_nodes = self.flank / (2 if self.order == 2 else 1)
         spacing = max(self.spacing, CLOSEST_NODES * flank_nodes)
         cells = max(2, 2 * round(self.length / (2.0 * spacing)))
@@ -68,7 +68,7 @@ class Setting:
 
 
 def half_width(scene: Scene) -> float:
-    """The half-width (mm) that sizes go by: Hertz's, within the program's bounds, for a vanishing load has none."""
+    """The contact half-width (mm) in which sizes are given: Hertz's, within bounds, for it vanishes with the load."""
     return model_of(without_settings(scene)).resolution.flank_element_size * ELEMENTS_PER_HALF_WIDTH
 
 

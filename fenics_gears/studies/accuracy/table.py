@@ -1,4 +1,4 @@
-"""A report as a table for people, in words, and as CSV."""
+"""The report of `gears accuracy` as tables, in words, and as CSV."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from pathlib import Path
 
 from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.measures import MEASURES, judged
-from fenics_gears.studies.accuracy.report import RefinementResult, Report, WholeResult
+from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import STAGES, Times
 
-# Measures whose orders are told.
+# Measures whose observed orders are shown.
 ORDERED = ("T_E", "T_EPP", "root stress")
 HEADINGS = ("setting", "value", *MEASURES, "time", "order T_E", *ORDERED[1:], "expected")
 UNITS = ("", "", *["%"] * len(MEASURES), "s", *[""] * len(ORDERED), "")
 WHOLE_HEADINGS = ("whole setting", "charged", *MEASURES, "mesh", "condense", "march", "time", "what limits it")
 WHOLE_UNITS = ("", "%", *["%"] * len(MEASURES), "s", "s", "s", "s", "")
 TARGETS = (0.01, 0.001)
-# An order this far from the expected one is said.
+# An order further than this from the expected one gets a remark.
 ORDER_OFF = 0.5
 
 
-def table_rows(report: Report) -> list[tuple[str, ...]]:
+def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
     """A row for each level; a setting's name and orders stand in its first."""
     rows = []
     for result in report.refinements:
@@ -35,7 +35,7 @@ def table_rows(report: Report) -> list[tuple[str, ...]]:
     return rows
 
 
-def whole_rows(report: Report) -> list[tuple[str, ...]]:
+def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
     """A row for each whole setting and cheaper model; those of the Pareto front are marked."""
     front = report.front
     rows = []
@@ -75,8 +75,8 @@ def limits_it(each: WholeResult) -> str:
     return largest_part(each.parts) if each.parts else "the model"
 
 
-def in_one_sentence(report: Report) -> str:
-    """What the user wants to know: what an error costs, and what limits her own setting."""
+def in_one_sentence(report: AccuracyReport) -> str:
+    """What an error of 1 % and of 0.1 % costs, and what limits the scene's own setting."""
     costs = "; ".join(_cost(report, target) for target in TARGETS if target >= report.floor)
     missed = [f"{100 * target:g} %" for target in TARGETS if target < report.floor]
     if missed:
@@ -87,7 +87,7 @@ def in_one_sentence(report: Report) -> str:
     return f"{costs}; the largest part of the scene's own error is that of the {worst} ({percent(mine.parts[worst])} of {percent(mine.charged)} %)."
 
 
-def _cost(report: Report, target: float) -> str:
+def _cost(report: AccuracyReport, target: float) -> str:
     words = f"{100 * target:g} % in T_E and T_EPP"
     reached = [each for each in report.front if each.charged <= target]
     if reached:
@@ -95,13 +95,13 @@ def _cost(report: Report, target: float) -> str:
     return f"{words} was not reached; {_best(report)}"
 
 
-def _best(report: Report) -> str:
+def _best(report: AccuracyReport) -> str:
     best = report.front[-1]
     return f"the best setting that was run has an error of {percent(max(best.charged, report.floor))} % and costs {seconds(best.times.total)} s"
 
 
-def remarks(report: Report) -> list[str]:
-    """What the reader must know beside the numbers."""
+def remarks(report: AccuracyReport) -> list[str]:
+    """Remarks on how to read the numbers."""
     found = [
         f"the reference, Richardson's limits of all settings together, is uncertain by {percent(report.floor)} % in T_E and T_EPP; smaller errors cannot be assessed",
         "the error of a single setting is measured with all others fine; the charged error of a whole setting is the sum of these, or its own difference from the reference where that is larger",
@@ -125,8 +125,8 @@ def remarks(report: Report) -> list[str]:
     return found
 
 
-def timed(report: Report) -> str:
-    """How often things were timed."""
+def timed(report: AccuracyReport) -> str:
+    """How often settings were timed, in words."""
     counts = [each.times.rounds for result in report.refinements for each in result.levels]
     again = sum(rounds >= report.rounds for rounds in counts)
     words = f"Times are medians. Whole settings were timed {report.rounds} times in turns, "
@@ -143,7 +143,7 @@ CSV_COLUMNS = (
 )  # fmt: skip
 
 
-def write_csv(report: Report, file: Path) -> None:
+def write_csv(report: AccuracyReport, file: Path) -> None:
     """All numbers: a line for each level, whole setting, cheaper model, the reference's uncertainty, and what did not run."""
     with open(file, "w", encoding="utf-8", newline="") as opened:
         writer = csv.DictWriter(opened, CSV_COLUMNS, restval="")
@@ -156,7 +156,7 @@ def write_csv(report: Report, file: Path) -> None:
             writer.writerow({"kind": "failed", "name": name, "setting": reason, **report.machine})
 
 
-def _level_lines(report: Report):
+def _level_lines(report: AccuracyReport):
     for result in report.refinements:
         orders = {f"order_{name.replace(' ', '_')}": result.order(name) for name in ORDERED} | {"order_expected": result.refinement.expected}
         for each in result.levels:
@@ -166,7 +166,7 @@ def _level_lines(report: Report):
             }  # fmt: skip
 
 
-def _whole_lines(report: Report):
+def _whole_lines(report: AccuracyReport):
     for each in (*report.settings, *report.models):
         words = each.setting.words if each.setting else ""
         kind = "setting" if each.setting else "model"

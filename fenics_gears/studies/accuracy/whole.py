@@ -1,7 +1,7 @@
-"""Whole settings: what the errors of their parts add up to, a path of them from coarse to fine, and those that pay.
+"""Whole settings: the sum of their parts' errors, a path of them from coarse to fine, and the Pareto front.
 
-Errors that cancel in one run are no accuracy: another load or speed undoes it. A whole setting's error is the sum of its
-parts' magnitudes, each measured with the others fine, or its own distance from the reference where that is larger.
+Errors may cancel in one run and add up at another load or speed. So a whole setting is charged the sum of its parts' errors, each measured
+with the others fine, or its own distance from the reference where that is larger.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.refinement import LENGTH, Refinement
 from fenics_gears.studies.accuracy.setting import Setting
 
-# A path keeps a setting when its error has fallen to this part of that of the last one kept.
+# The path keeps a setting when its error is below this part of the error of the last one kept.
 KEPT_PART, MOST_KEPT = 0.6, 9
 # Contact operators of a mesh cycle are held all at once; larger ones are not tried.
 MOST_BYTES = 1.8e9
@@ -26,7 +26,7 @@ Errors = Mapping[tuple[str, int], float]
 
 
 def charged_error(direct: float, parts: Mapping[str, float]) -> float:
-    """What a whole setting is charged: `direct` distance from the reference, but never less than its settings' errors together."""
+    """The error that a whole setting is charged: its `direct` distance from the reference, or the sum of its parts' errors if that is larger."""
     return max(direct, sum(parts.values()))
 
 
@@ -37,7 +37,7 @@ def parts_of(setting: Setting, refinements: Sequence[Refinement], errors: Errors
 
 
 def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
-    """Which of the points (time, error) no other beats in one without losing in the other, the quickest first; one of equal points."""
+    """Places of the points (time, error) that no other point beats in both, the quickest first; one of equal points."""
     front: list[int] = []
     for place in sorted(range(len(points)), key=lambda each: points[each]):
         if not front or points[place][1] < points[front[-1]][1]:
@@ -46,9 +46,9 @@ def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
 
 
 def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True) -> list[Setting]:
-    """Whole settings from the coarsest on: at each the setting with the largest error goes one level finer.
+    """Whole settings from the coarsest on: from one to the next the setting with the largest error goes one level finer.
 
-    It ends where that one has no finer level, or none that is `allowed`; the end is kept. Choices stay as `base` has them.
+    The path ends where that setting has no finer level that is `allowed`; its end is kept. Choices, such as the element, are those of `base`.
     """
     moving = {each.name: each for each in refinements if each.expected is not None or each.name == LENGTH}
     levels = {name: [place for place, level in enumerate(each.levels) if not level.own and (name, place) in errors] for name, each in moving.items()}
@@ -74,7 +74,7 @@ def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allow
 
 
 def _thinned(found: list[Setting]) -> list[Setting]:
-    """At most as many as are worth a run, the ends among them."""
+    """At most `MOST_KEPT` of them, evenly chosen, with both ends."""
     if len(found) <= MOST_KEPT:
         return found
     return [found[round(place * (len(found) - 1) / (MOST_KEPT - 1))] for place in range(MOST_KEPT)]

@@ -1,1 +1,1 @@
-"""`[accuracy] target`: the cheapest settings that reach it, chosen by trial runs whose errors are measured and by costs that are counted."""
+"""`[accuracy] target`: choose the cheapest settings that reach it, from errors measured by trial runs and from counted costs."""

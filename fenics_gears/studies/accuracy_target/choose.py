@@ -1,4 +1,4 @@
-"""Settings for a target: the cheapest by measured errors and counted costs, then checked by a run that halves the size that limits them."""
+"""Settings for a target: the cheapest ones by measured errors and counted costs, checked by a run with half the size that limits them."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from fenics_gears.studies.accuracy_target.limits import TargetNotReached
 from fenics_gears.studies.accuracy_target.trial_runs import BODY, FLANK, STEPS, Sizes, TrialRuns
 from fenics_gears.system.progress import Progress
 
-# Sizes that are searched stand this factor apart: fine enough to cost no more than a tenth.
+# Ratio of neighbouring sizes in the search; the best between them is at most a tenth cheaper.
 RATIO = 2.0**0.25
 # A check corrects errors by this factor at least.
 LEAST_CORRECTION = 0.5
-# Where a check leaves more of the target than this unused, cheaper settings are looked for once more.
+# Where the checked error is below this part of the target, cheaper settings are searched once more.
 WELL_USED = 0.75
-# A setting with less than this part of the error needs no remark.
+# Settings with less than this part of the error get no remark.
 NOTABLE_PART = 0.1
-# Runs until settings are chosen, about.
+# Usual number of runs until settings are chosen, for the progress bar.
 USUAL_RUNS = 8
-# Larger targets are tried in these steps where one is not reached.
+# Where a target is not reached, larger ones are tried by this factor.
 REACHABLE = 1.2
 MOST_LENGTHENED, MOST_REFINED, MOST_CHECKS = 4, 24, 6
 SIZE_WORDS = {FLANK: "{:.3g} mm", BODY: "default x {:.2g}", STEPS: "{:.2g} of a mesh cycle"}
@@ -35,7 +35,7 @@ Arrays = Mapping[str, np.ndarray]
 
 @dataclass(frozen=True)
 class Chosen:
-    """Settings with what they are expected to err by, relative: `parts` by setting, `estimated_error` all together; `runs` that it took."""
+    """Chosen settings with their relative estimated error: `parts` by setting, `estimated_error` of all together; `runs`: how many it took."""
 
     accuracy: Accuracy
     setting: Setting
@@ -82,7 +82,7 @@ def _grid(curve: ErrorCurve) -> np.ndarray:
 
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
-    """Trial runs that report how far they are: how many there will be is not known, for levels are added as they are needed."""
+    """Trial runs that report their progress; how many there will be is not known, for levels are added as needed."""
     at = [-1, USUAL_RUNS, ""]
 
     def begun(words: str) -> None:
@@ -96,7 +96,7 @@ def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
 
 
 def _chosen(scene: Scene, target: float, runs: TrialRuns) -> Chosen:
-    """Choose, check, choose again with what the check found: finer where errors are larger, cheaper where much of the target is left."""
+    """Choose, check, and choose again by the checked errors: finer where these are too large, cheaper where they are far below the target."""
     _lengthen_window(runs)
     factors: dict[str, float] = {}
     accepted, sizes_accepted = None, None
@@ -119,7 +119,7 @@ def _chosen(scene: Scene, target: float, runs: TrialRuns) -> Chosen:
 
 
 def _lengthen_window(runs: TrialRuns) -> None:
-    """Make the contact window so long that no contact reaches its ends: nothing is left out then."""
+    """Lengthen the contact window until no contact reaches its ends."""
     for _ in range(MOST_LENGTHENED):
         if not runs.window_cuts_contact():
             return
@@ -128,7 +128,7 @@ def _lengthen_window(runs: TrialRuns) -> None:
 
 
 def _refined_until_reached(runs: TrialRuns, target: float, factors: dict[str, float]) -> tuple[Sizes, list[ErrorCurve]]:
-    """The cheapest sizes, by levels that were added where they had to be."""
+    """The cheapest sizes; levels are added until they reach the target."""
     for _ in range(MOST_REFINED):
         curves = [_corrected(curve, factors) for curve in runs.curves()]
         sizes = _cheapest(runs, curves, target)
@@ -142,7 +142,7 @@ def _refined_until_reached(runs: TrialRuns, target: float, factors: dict[str, fl
 
 
 def _reachable(runs: TrialRuns, target: float, factors: dict[str, float]) -> str:
-    """What the same levels say can be reached, checked as a choice is."""
+    """The smallest target that the present levels reach, checked as a choice is, in words."""
     for larger in target * REACHABLE ** np.arange(1, 30):
         curves = [_corrected(curve, factors) for curve in runs.curves()]
         sizes = _cheapest(runs, curves, larger)
@@ -155,15 +155,15 @@ def _reachable(runs: TrialRuns, target: float, factors: dict[str, float]) -> str
 
 
 def _cheapest(runs: TrialRuns, curves: Sequence[ErrorCurve], target: float) -> Sizes | None:
-    """Of the whole scene's run; whole steps, so that half as long ones are twice as many."""
+    """The cheapest sizes for the whole scene's run, with a whole number of steps."""
     sizes = cheapest(curves, runs.cost, target, lambda sizes: runs.may_run(sizes, stored=True))
     return None if sizes is None else {**sizes, STEPS: 1.0 / round(1.0 / sizes[STEPS])}
 
 
 def _check(runs: TrialRuns, sizes: Sizes, name: str, curves: list[ErrorCurve], factors: dict[str, float]) -> None:
-    """Correct a setting's errors by one run that halves it at the chosen sizes; they are not made less than half of what they were.
+    """Correct a setting's errors by a run with half its size, the others as chosen; they are at most halved.
 
-    Where that run is beyond the limits, by one that doubles it.
+    Where that run is beyond the limits, by one with twice the size.
     """
     curve = next(each for each in curves if each.name == name)
     factor = 0.5 if runs.may_run({**sizes, name: 0.5 * sizes[name]}) else 2.0
@@ -196,7 +196,7 @@ def _result(scene: Scene, runs: TrialRuns, sizes: Sizes, curves: list[ErrorCurve
 def _remark(curve: ErrorCurve, size: float) -> str:
     leading = curve.leading
     order = "no order" if leading.order is None else f"order {leading.order:.3g}"
-    # Heights of curves jump where a corner falls between steps, and then have the curve's order.
+    # T_EPP jumps where a corner of the curve falls between steps; it is then given the order of the curve.
     whose = " in T_EPP alone, which is taken to have T_E's" if leading.order is not None and leading.used > leading.order else ""
     return (
         f"{curve.name}: {order} observed{whose} where {curve.expected:g} was expected; its error at {SIZE_WORDS[curve.name].format(size)} is "

@@ -1,4 +1,4 @@
-"""A run of a scene with `[accuracy] target`: settings chosen first, the scene run with them, and what is known of its error in the result's attributes."""
+"""A run of a scene with `[accuracy] target`: choose settings, run the scene with them, add the estimated error to the result's attributes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from fenics_gears.studies.accuracy_target.choose import Chosen, choose
 from fenics_gears.studies.fields import changed
 from fenics_gears.system.progress import Progress
 
-# What to do about a warning that names settings: they may not stand beside a target.
+# The remedy where a warning recommends a setting, for settings may not stand beside a target.
 OTHER_SETTINGS = "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene has, and change them"
 LENGTHS = ("flank_element_size", "body_element_size", "contact_length")
 

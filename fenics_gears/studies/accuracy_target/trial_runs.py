@@ -1,7 +1,7 @@
-"""The runs that a choice rests on: one setting at a time, its size halved from level to level, all others as the base has them.
+"""The trial runs by which settings are chosen: one setting at a time is halved from level to level, the others stay as in the base.
 
-Flank elements and contact nodes are refined together, as the program's defaults have them. Alone neither shows what it is worth: where a
-tip's edge presses, closer nodes pass part of their error on to the elements. Together their error falls with a clean order.
+Flank elements and contact nodes are refined together, as in the program's defaults. Where a tip's edge presses, closer nodes alone pass part of
+their error on to the elements; together their error falls with a clear order.
 """
 
 from __future__ import annotations
@@ -25,23 +25,23 @@ from fenics_gears.studies.work import Ticking
 ELEMENT = "P2"
 FLANK = "flank elements and contact nodes"
 NAMES = (FLANK, BODY, STEPS)
-# Where refinement begins: elements in a half-width, body elements in parts of their default, steps in a cycle; and by how many levels.
+# Coarsest level: elements in a half-width, body elements in parts of their default, steps in a cycle; and the number of levels.
 COARSEST = {FLANK: 0.7, BODY: 4.0, STEPS: 20}
 LEVELS = 3
 # The level on which the others stand while one setting is refined.
 BASE_LEVEL = {FLANK: 2, BODY: 2, STEPS: 2}
-# Condensed gears that are kept: pinion and wheel of the base, and of one more level.
+# Gears kept in memory: pinion and wheel of the base, and of one more level.
 KEPT_GEARS = 4
-# By how much the contact window is lengthened where it cuts contact off.
+# Factor by which the contact window is lengthened where contact reaches its end.
 LONGER = 1.25
 
 Sizes = dict[str, float]
 
 
 class TrialRuns:
-    """Runs levels as they are asked for, each setting once; gears are condensed once for all runs that share them.
+    """Trial runs, each setting once; gears are condensed once for all runs that share them.
 
-    `begun`: called with a run's words before it; `tick`: often while it goes on, and may raise KeyboardInterrupt.
+    `begun`: called before each run with its settings in words; `tick`: called often during a run, may raise KeyboardInterrupt.
     """
 
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
@@ -53,8 +53,8 @@ class TrialRuns:
         orders = expected_orders(self.scene)
         # Of flank elements and contact nodes the lower order counts, the nodes'.
         self._expected = {FLANK: orders[NODES][0], BODY: orders[BODY][0], STEPS: orders[STEPS][0]}
-        # Without friction and inertia a step knows nothing of the one before: a run's every other step is a run of half as many, and one
-        # level more of steps costs less than a run.
+        # Without friction and inertia steps are independent: every other step of a run is a run of half as many steps, so that one more
+        # level of steps costs less than a run.
         self._steps_stand_alone = scene.friction is None and model.drivetrain.mass is None
         self._levels = {**dict.fromkeys(NAMES, LEVELS), STEPS: LEVELS + self._steps_stand_alone}
         self._known: dict[Setting, Answer] = {}
@@ -66,7 +66,7 @@ class TrialRuns:
         return Setting(ELEMENT, sizes[FLANK], NODE_SPACING * sizes[FLANK], self.length, sizes[BODY], round(1.0 / sizes[STEPS]))
 
     def refine(self, name: str) -> None:
-        """Give a setting one level more. Raises TargetNotReached where that run is beyond the limits."""
+        """Add a finer level to a setting. Raises TargetNotReached where its run is beyond the limits."""
         finer = {**self._base_sizes(), name: self._size(name, self._levels[name])}
         if not self.may_run(finer):
             reason = self._limits.why_not(finer[FLANK], finer[BODY], self.length)
@@ -78,11 +78,11 @@ class TrialRuns:
         return self._limits.allowed(sizes[FLANK], sizes[BODY], sizes[STEPS], self.length, stored)
 
     def cost(self, sizes: dict[str, Size]) -> Size:
-        """What the whole scene's run costs; arrays of sizes are broadcast."""
+        """Cost of the whole scene's run; arrays of sizes are broadcast."""
         return self._limits.cost(sizes[FLANK], sizes[BODY], sizes[STEPS], self.length)
 
     def curves(self) -> list[ErrorCurve]:
-        """Every setting's errors, by runs of all its levels, the most steps first: fewer may be found among them."""
+        """The errors of every setting from runs of all its levels; the run with most steps comes first, for it may hold those with fewer."""
         found = {}
         for name in NAMES[::-1]:
             sizes = [self._size(name, level) for level in range(self._levels[name])]
@@ -91,16 +91,16 @@ class TrialRuns:
         return [found[name] for name in NAMES]
 
     def window_cuts_contact(self) -> bool:
-        """Whether contact reaches an end of the window; where it does not, a longer window changes nothing but where nodes stand."""
+        """Whether contact reaches an end of the window; if not, a longer window only moves the contact nodes."""
         self.answer(self.setting({**self._base_sizes(), STEPS: self._size(STEPS, self._levels[STEPS] - 1)}))
         return self._cut[self.length]
 
     def lengthen(self) -> None:
-        """Take the longer contact window from now on."""
+        """Lengthen the contact window for all further runs."""
         self.length *= LONGER
 
     def answer(self, setting: Setting) -> Answer:
-        """What a run of a setting is judged by, run once. Raises ComputationError."""
+        """The judged measures of a setting, which is run unless it has run before. Raises ComputationError."""
         if setting not in self._known:
             self._begun(setting.words)
             self._run(setting)
@@ -108,7 +108,7 @@ class TrialRuns:
 
     @property
     def _why_slow(self) -> str:
-        """What makes errors fall slowly, or begin high, in words; empty where nothing is known to."""
+        """Known reason why errors fall slowly or begin high, in words; empty without one."""
         width = model_of(self.scene).resolution.half_width
         if width < 0.5 * self._unit:
             return f", because the contact's half-width under this load is only {width:.2g} mm"

@@ -1,1 +1,1 @@
-"""What the effects of a scene cost and what they change: the scene run with subsets of its effects, in one process (`gears effects`)."""
+"""`gears effects`: run a scene with subsets of its effects, to see what each effect costs in time and changes in the results."""

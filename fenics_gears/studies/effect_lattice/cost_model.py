@@ -1,4 +1,4 @@
-"""What the unknowns of two scenes lead one to expect of the times of their steps.
+"""The ratio of the times of two scenes' steps that their numbers of unknowns lead one to expect.
 
 An iteration of `contact.newton` sets up and solves one dense system of N = closed nodes + centre coordinates (a slipping node's
 tangential force is inserted, only a sticking one's is an unknown) and multiplies out the displacement of all m contact rows:
@@ -8,8 +8,8 @@ tangential force is inserted, only a sticking one's is an unknown) and multiplie
 with c closed nodes, l loaded rows (c, or 2 c with friction) and k centre coordinates. With friction a step multiplies out once the
 displacement that the material points had before, H = m (m + k). The arithmetic of a step of i iterations is i W + H.
 
-Small systems cost what their calls cost: a step takes a time of its own whatever its size, more of it with equations of motion, with
-friction, and with each effect that varies from step to step (gaps, loads, the clock):
+Beside its arithmetic a step takes a time of its own whatever its size, which dominates in small systems. It is longer with equations of
+motion, with friction, and with each effect that varies from step to step (gaps, loads, the clock):
 
     t = own + own of inertia + own of friction + varying effects x own of one + (i W + H) / rate
 
@@ -26,7 +26,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class StepWork:
-    """Size of a scene's steps, all on the average: centre coordinates, contact rows, closed nodes, Newton iterations a step.
+    """Average size of a scene's steps: centre coordinates, contact rows, closed nodes, Newton iterations a step.
 
     `varying`: how many effects change gaps, loads or the length of a step as it goes.
     """
@@ -51,7 +51,7 @@ class StepWork:
 
     @property
     def terms(self) -> tuple[float, ...]:
-        """What the constants of the model are multiplied by."""
+        """The factors of the constants of the time model."""
         return 1.0, float(self.inertia), float(self.friction), float(self.varying), self.operations
 
 
@@ -59,15 +59,14 @@ class StepWork:
 class Expectation:
     """Ratio of the times of two steps.
 
-    `arithmetic`: of their operations alone. `fitted`: with what a step takes whatever its size, None where too few subsets tell;
-    `small` and `large`: the two times that it consists of, s; `rate`: operations a second.
+    `arithmetic`: of their operations alone. `fitted`: with the own time of a step, None where too few subsets were run to fit it;
+    `small` and `large`: the two fitted times, s.
     """
 
     arithmetic: float
     fitted: float | None = None
     small: float | None = None
     large: float | None = None
-    rate: float | None = None
 
 
 def expected_ratio(small: StepWork, large: StepWork, others: Sequence[tuple[StepWork, float]]) -> Expectation:
@@ -75,7 +74,7 @@ def expected_ratio(small: StepWork, large: StepWork, others: Sequence[tuple[Step
     arithmetic = large.operations / small.operations
     terms = np.array([work.terms for work, _ in others]).reshape(len(others), len(small.terms))
     asked = np.array([small.terms, large.terms])
-    # A term that neither of the two has needs no constant, and where the others do not tell it apart there is none.
+    # Terms that neither of the two has need no constant. Constants that the others do not determine are not fitted.
     used = np.flatnonzero(asked.any(axis=0))
     if len(others) <= len(used) or np.linalg.matrix_rank(terms[:, used] / np.abs(terms[:, used]).max(axis=0).clip(1e-300)) < len(used):
         return Expectation(arithmetic)
@@ -85,4 +84,4 @@ def expected_ratio(small: StepWork, large: StepWork, others: Sequence[tuple[Step
     times = asked[:, used] @ constants
     if constants[-1] <= 0.0 or times.min() <= 0.0:
         return Expectation(arithmetic)
-    return Expectation(arithmetic, float(times[1] / times[0]), float(times[0]), float(times[1]), float(1.0 / constants[-1]))
+    return Expectation(arithmetic, float(times[1] / times[0]), float(times[0]), float(times[1]))

@@ -1,4 +1,4 @@
-"""The subsets of a scene's effects run and timed: answers from whole runs, times from shorter ones in turn."""
+"""Runs and times the subsets of a scene's effects: results from whole runs, times from shorter runs in turns."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
-from fenics_gears.studies.effect_lattice.machine import machine
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
 from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS = 5
 TIMED_STEPS = 1000
-# Contact operators of all subsets are kept between the rounds up to here; beyond it they are built again.
+# Contact operators are kept between the rounds up to this size of all subsets; beyond it they are built again.
 MOST_BYTES = 1e9
 
 
 @dataclass(frozen=True)
 class Row:
-    """What one subset costs and answers.
+    """Costs and results of one subset.
 
     `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s; `condense`: both gears, s,
     zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on the wheel's base circle;
-    `peak_force`: largest contact force of the mesh, N; `remarks`: what the reader must know of this row.
+    `peak_force`: largest contact force of the mesh, N; `remarks`: what to know of this row.
     """
 
     subset: Subset
@@ -55,7 +55,7 @@ class Row:
 
     @property
     def elastic(self) -> bool:
-        """Whether the flanks give way; rigid ones are solved by another method."""
+        """Whether the teeth are elastic; rigid flanks are solved by another method."""
         return self.subset.scene.tooth_elasticity is not None
 
     @property
@@ -70,7 +70,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Report:
+class EffectReport:
     """All rows of a scene, what was left out and why, the ratio of full to bare scene (measured round by round, s/s), and the machine.
 
     `ratios` (rounds,) is empty where bare and full scene are the same or one failed; then `expected` is None.
@@ -92,7 +92,7 @@ class Report:
         return {ALONE: self.row(BARE), LEFT_OUT: self.row(ALL)}.get(row.subset.kind)
 
 
-def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS) -> Report:
+def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS) -> EffectReport:
     """Run and time the subsets of a scene's effects. Raises SceneError, GeometryError, ComputationError where not one subset runs."""
     progress = progress or SilentProgress()
     scene = at_one_accuracy(scene)
@@ -117,7 +117,7 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
             progress.update(turn * len(benches) + done, rounds * len(benches), bench.subset.name)
             bench.time_steps()
     rows = tuple(bench.row() for bench in benches)
-    return Report(scene, rows, tuple(skipped), *_full_by_bare(rows), machine())
+    return EffectReport(scene, rows, tuple(skipped), *_full_by_bare(rows), machine())
 
 
 def at_one_accuracy(scene: Scene) -> Scene:
@@ -201,7 +201,7 @@ class Bench:
 
 
 def _varying(scene: Scene) -> int:
-    """How many of a scene's effects are asked at every step."""
+    """How many of a scene's effects change gaps, loads or the step's length at every step."""
     return sum(any((each.gaps, each.load, each.clock)) for each in effects_on(scene))
 
 

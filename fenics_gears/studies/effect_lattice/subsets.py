@@ -1,4 +1,4 @@
-"""Which subsets of a scene's effects are worth a run: none, each alone, all but each, all. Only those that make a valid scene."""
+"""The subsets of a scene's effects that are run: none, each alone, all but each, all; only those that make a valid scene."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import broken_rules
 
 NOTHING, BARE, ALONE, LEFT_OUT, ALL = "nothing", "bare", "alone", "left out", "all"
-# What all other effects act on: a scene that has it is bare with it and nothing else.
+# The other effects act on elastic teeth: a scene that has them is called bare with them and nothing else.
 BASE = "tooth_elasticity"
-# How many further effects may be added or left out to make a subset valid.
+# Most further effects that are added or left out to make a subset valid.
 MOST_FURTHER = 2
 
 Sections = frozenset[str]
@@ -25,8 +25,8 @@ Valid = Callable[[Sections], str]
 
 @dataclass(frozen=True)
 class Subset:
-    """A scene with some of its effects: `kind` of subset, the `effect` in question ("" where there is none), the `sections` that
-    are on, and those `beside` the effect that had to come or go with it."""
+    """A scene with some of its effects: `kind` of subset, the `effect` that is added or left out ("" for none), the `sections` that are on,
+    and those that had to be added or left out `beside` it."""
 
     kind: str
     effect: str
@@ -43,7 +43,7 @@ class Subset:
 
     @property
     def note(self) -> str:
-        """Why further effects came or went; empty where none did."""
+        """Why further effects were added or left out; empty where none were."""
         others = " and ".join(self.beside)
         if not others:
             return ""
@@ -75,7 +75,7 @@ def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
 
 
 def _without_repetition(scene: Scene, wanted, every: Sections, problem: Valid) -> tuple[list[Subset], list[Skipped]]:
-    """The valid ones among the wanted sets; where a set comes again, the plainest name stays: bare and all before the others."""
+    """The valid ones among the wanted sets, each once; of several names of a set the plainest is taken: bare and all before the others."""
     first = {sections: (kind, name) for kind, name, sections in reversed(wanted) if sections is not None}
     first |= {sections: (kind, name) for kind, name, sections in wanted if kind in (NOTHING, BARE)}
     first[every] = (ALL, "")
@@ -92,7 +92,7 @@ def _without_repetition(scene: Scene, wanted, every: Sections, problem: Valid) -
 
 
 def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:
-    """What came or went with an effect."""
+    """The effects that were added or left out with an effect."""
     return tuple(in_order({ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())))
 
 

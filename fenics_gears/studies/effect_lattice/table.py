@@ -1,15 +1,14 @@
-"""A report as a table for people, in words, and as CSV."""
+"""The report of `gears effects` as a table, in words, and as CSV."""
 
 from __future__ import annotations
 
 import csv
 import re
 import statistics
-from collections.abc import Sequence
 from pathlib import Path
 
-from fenics_gears.studies.effect_lattice.measured import Report, Row
-from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, in_order
+from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
+from fenics_gears.studies.effect_lattice.subsets import ALL, BARE, in_order
 
 MICRO, MILLI = 1e6, 1e3
 NUMBERS_OF_ONE = " (numbers of the first row that says so)"
@@ -19,13 +18,13 @@ HEADINGS = (
 UNITS = ("", "centre + contact", "mean (most)", "", "us", "s", "s", "um", "N", "remark")
 
 
-def table_rows(report: Report) -> list[tuple[str, ...]]:
+def table_rows(report: EffectReport) -> list[tuple[str, ...]]:
     """A row of cells for each subset; changes are against the bare scene for one effect more, against all for one less."""
     numbers = {_words(remark): place for place, remark in enumerate(remarks(report), 1)}
     return [_cells(report, row, numbers) for row in report.rows]
 
 
-def _cells(report: Report, row: Row, numbers: dict[str, int]) -> tuple[str, ...]:
+def _cells(report: EffectReport, row: Row, numbers: dict[str, int]) -> tuple[str, ...]:
     return (
         row.subset.name,
         f"{row.coordinates} + {row.contact_rows:.1f}",
@@ -40,12 +39,12 @@ def _cells(report: Report, row: Row, numbers: dict[str, int]) -> tuple[str, ...]
     )
 
 
-def _with_change(value: float, report: Report, row: Row, name: str, digits: int) -> str:
+def _with_change(value: float, report: EffectReport, row: Row, name: str, digits: int) -> str:
     changed = change(report, row, name)
     return f"{value:.{digits}f}" + ("" if changed is None else f" ({in_percent(changed)})")
 
 
-def change(report: Report, row: Row, name: str) -> float | None:
+def change(report: EffectReport, row: Row, name: str) -> float | None:
     """Relative change of "transmission_error", "peak_force" or "step_time" against what the row is compared with; None without that."""
     reference = report.reference(row)
     return None if reference is None else relative_change(reference, row, name)
@@ -57,11 +56,11 @@ def relative_change(reference: Row, row: Row, name: str) -> float | None:
 
 
 def in_percent(changed: float) -> str:
-    """A relative change as people read it."""
+    """A relative change in percent."""
     return "same" if abs(changed) < 5e-4 else f"{changed:+.1%}" if abs(changed) < 0.1 else f"{changed:+.0%}"
 
 
-def remarks(report: Report) -> list[str]:
+def remarks(report: EffectReport) -> list[str]:
     """Every remark once, in order; of those that differ in their numbers only, the first row's."""
     said: dict[str, list[str]] = {}
     for row in report.rows:
@@ -70,8 +69,8 @@ def remarks(report: Report) -> list[str]:
     return [same[0] if len(set(same)) == 1 else same[0] + NUMBERS_OF_ONE for same in said.values()]
 
 
-def own_remarks(report: Report, row: Row) -> list[str]:
-    """What must be known of a row and not of the whole scene."""
+def own_remarks(report: EffectReport, row: Row) -> list[str]:
+    """The remarks on a row that the whole scene does not have."""
     full = report.row(ALL)
     said = {_words(remark) for remark in full.remarks} if full is not None else set()
     return [remark for remark in row.remarks if _words(remark) not in said]
@@ -82,7 +81,7 @@ def _words(remark: str) -> str:
     return re.sub(r"\d+(\.\d+)?(e[+-]?\d+)?", "#", remark.removesuffix(NUMBERS_OF_ONE))
 
 
-def ratio_in_words(report: Report) -> list[tuple[str, str, str]]:
+def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: bare against full scene, measured and expected."""
     bare, full = report.row(BARE), report.row(ALL)
     if report.expected is None:
@@ -101,11 +100,11 @@ def ratio_in_words(report: Report) -> list[tuple[str, str, str]]:
     return rows
 
 
-def needs_in_words(report: Report) -> list[tuple[str, str, str]]:
+def needs_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: what leaving an effect out changes and saves, the largest change of either answer first."""
     full, found = report.row(ALL), []
     for section in in_order(full.subset.sections if full is not None else ()):
-        # Where effects are few, what all but one leaves is the bare scene or one effect's: the largest set will do.
+        # With few effects all but one is the bare scene or that of one effect: take the largest set without this effect.
         others = [row for row in report.rows if section not in row.subset.sections]
         row = max(others, key=lambda each: len(each.subset.sections), default=None)
         changes = [] if row is None else [relative_change(full, row, name) for name in ("transmission_error", "peak_force", "step_time")]
@@ -125,23 +124,25 @@ CSV_COLUMNS = (
 )  # fmt: skip
 
 
-def write_csv(report: Report, file: Path) -> None:
+def write_csv(report: EffectReport, file: Path) -> None:
     """All numbers of a report, a line for each subset and each one that was skipped; changes are relative."""
     with open(file, "w", encoding="utf-8", newline="") as opened:
-        writer = csv.writer(opened)
-        writer.writerow(CSV_COLUMNS)
+        writer = csv.DictWriter(opened, CSV_COLUMNS, restval="")
+        writer.writeheader()
         for row in report.rows:
-            writer.writerow([*_values(report, row), *report.machine.values()])
+            writer.writerow(_line(report, row) | report.machine)
         for each in report.skipped:
-            writer.writerow([each.name, *[""] * 17, f"skipped: {each.reason}", *report.machine.values()])
+            writer.writerow({"effects": each.name, "remarks": f"skipped: {each.reason}"} | report.machine)
 
 
-def _values(report: Report, row: Row) -> Sequence:
+def _line(report: EffectReport, row: Row) -> dict:
     reference = report.reference(row)
-    changes = [change(report, row, name) for name in ("transmission_error", "peak_force")]
-    return [
-        row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes, row.most_closed_nodes,
-        row.iterations, row.work.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators, row.condense,
-        row.transmission_error, row.peak_force, *["" if each is None else each for each in changes],
-        "" if reference is None or row.subset.kind not in (ALONE, LEFT_OUT) else reference.subset.name, "; ".join(row.remarks),
-    ]  # fmt: skip
+    return {
+        "effects": row.subset.name, "sections": " ".join(sorted(row.subset.sections)), "centre_coordinates": row.coordinates,
+        "contact_rows": row.contact_rows, "closed_nodes_mean": row.closed_nodes, "closed_nodes_max": row.most_closed_nodes,
+        "newton_iterations_per_step": row.iterations, "operations_per_step": row.work.operations, "step_time_s": row.step_time,
+        "step_time_least_s": min(row.step_times), "step_time_most_s": max(row.step_times), "operators_s": row.operators,
+        "condensing_s": row.condense, "transmission_error_peak_to_peak_mm": row.transmission_error, "peak_force_N": row.peak_force,
+        "change_of_transmission_error": change(report, row, "transmission_error"), "change_of_peak_force": change(report, row, "peak_force"),
+        "compared_with": "" if reference is None else reference.subset.name, "remarks": "; ".join(row.remarks),
+    }  # fmt: skip

@@ -21,7 +21,7 @@ from tests.benchmarks.growth.report import section, write_csv
 from tests.benchmarks.marked_section import write_section
 
 from fenics_gears.show.plots import save_figure
-from fenics_gears.studies.effect_lattice.machine import machine
+from fenics_gears.studies.machine import machine
 
 ROOT = Path(__file__).parents[3]
 PAGE, NUMBERS, PICTURE = (ROOT / "docs" / name for name in ("growth.md", "pictures/growth.csv", "pictures/growth.png"))

@@ -19,8 +19,8 @@ from tests.benchmarks.growth.memory import array_bytes, forget_peak, peak, resid
 
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.elasticity import condensation, gear_compliance, ring
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle

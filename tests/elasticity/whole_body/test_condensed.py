@@ -7,8 +7,9 @@ from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes, flank_compliance
+from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import ring_compliance, rotation
 from fenics_gears.elasticity.whole_body import parts
@@ -45,7 +46,7 @@ def test_another_mesh_agrees_within_its_discretisation():
     sizes = element_sizes(PINION, ELEMENTS["P2"], 0.3)
     body = whole_body(standing_anywhere(cracked_gear_mesh(PINION, sizes, {})), PINION, "gear")
     one = whole_body_compliance(body.mesh, PINION, STEEL, tooth_offsets=1)
-    other = flank_compliance(PINION, STEEL, flank_element_size=0.2, body_element_size=0.9, reach=Reach(1))
+    other = flank_compliance(PINION, STEEL, Discretisation("P2", 0.2, 0.9), Reach(1))
     for ahead in (0, 1):
         here, there = under_pressure(one.rolls_of(0), one.between(ahead, 0)), under_pressure(other.roll_angle, other.block(ahead))
         assert here == pytest.approx(there, rel=1e-3)

@@ -14,8 +14,8 @@ import pytest
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 from tests.coarse_sector import PINION, STEEL
 
+from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import element_sizes
 from fenics_gears.elasticity.recovery import GearRecovery
 from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.elasticity.sector_mesh import sector_mesh

@@ -101,7 +101,7 @@ def test_a_crack_begins_where_the_fillet_has_the_angle_and_goes_into_the_tooth()
     [
         (RootCrack(30.0), "30 mm at 45 degrees .* leaves less than 0.675 mm of the tooth's sector whole from about 12 mm on"),
         (RootCrack(9.0, np.radians(100.0)), "leaves less than"),
-        (RootCrack(-1.0), "deeper than nothing"),
+        (RootCrack(-1.0), "depth must be positive"),
         (RootCrack(3.0, mouth=np.radians(85.0)), "no place where it stands at 85 degrees .* between .* and 79.2 degrees"),
     ],
 )

@@ -7,6 +7,7 @@ from tests.coarse_sector import PINION, STEEL
 
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
@@ -80,7 +81,7 @@ def solid(solid_file):
 def test_a_solid_gear_meshed_as_a_whole_has_the_compliance_of_a_ring(solid):
     """Authority: the ring of sectors on its own mesh; all 16 unlike meshes of the teeth agree with it within 0.2 %, which is the error of
     straight sides along fillets of twelve points."""
-    ring = flank_compliance(PINION, STEEL, flank_element_size=0.3, reach=Reach(1))
+    ring = flank_compliance(PINION, STEEL, Discretisation("P2", 0.3), Reach(1))
     own, beside = (bending(ring.roll_angle, ring.block(ahead)) for ahead in (0, 1))
     for tooth in range(PINION.teeth):
         assert bending(solid.rolls_of(tooth), solid.between(tooth, tooth)) == pytest.approx(own, rel=2e-3)

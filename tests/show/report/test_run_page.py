@@ -164,7 +164,7 @@ def test_a_scene_whose_meshes_are_elsewhere_has_the_rest_of_its_page(run, tmp_pa
     meshed = dataset.assign_attrs(scene=dataset.attrs["scene"].replace("root_stress = true", "") + '\n[body_meshes]\npinion = "nowhere.msh"\n')
     page = page_of(meshed, tmp_path)
     assert page.faults == [] and list(page.sections) == SECTIONS and "contact ratio" in page.sections["geometry"]
-    assert "cannot be told without" in page.sections["solver"] and "nowhere.msh" in page.sections["solver"]
+    assert "cannot be described without" in page.sections["solver"] and "nowhere.msh" in page.sections["solver"]
     assert "meshed as a whole" in stress(Run(meshed, tmp_path / "run.nc")).blocks[0].text
 
 

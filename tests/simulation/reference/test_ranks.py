@@ -6,6 +6,7 @@ from tests.studies.conftest import CHECKOUT, gears
 
 from fenics_gears import results
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.remeshing import remeshed_stiffness
 from fenics_gears.errors import ComputationError
 from fenics_gears.scene.read import load_scene
@@ -68,5 +69,5 @@ def test_a_failure_on_one_rank_is_an_error_on_all(paper_pair, paper_scene):
     """Hard case 28: no hang, and the message says where and why."""
     with pytest.raises(ComputationError, match="rank 1: gmsh"):
         remeshed_stiffness(
-            paper_pair.pinion, paper_scene.gears.material, [], element="P1", flank_element_size=1.0, comm=TwoRanks("rank 1: gmsh gave up")
+            paper_pair.pinion, paper_scene.gears.material, [], Discretisation("P1", 1.0), comm=TwoRanks("rank 1: gmsh gave up")
         )

@@ -18,13 +18,13 @@ from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target import choose as choosing
 from fenics_gears.studies.accuracy_target import limits, trial_runs
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.limits import TargetNotReached
+from fenics_gears.studies.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1

@@ -1,4 +1,4 @@
-"""Where a time was measured: processor, threads and the versions of what computes."""
+"""The machine on which a time was measured: processor, threads, versions of the program and its libraries."""
 
 from __future__ import annotations
 
