@@ -49,10 +49,10 @@ def pressure_maps(run: Run) -> list[Chart]:
 def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, named: bool) -> Chart:
     field = pressure_field(pressure, place, phase)
     highest = float(np.nanmax(field.values, initial=0.0))
-    caption = f"Contact pressure on the {SIDES[side]}" if named else "Contact pressure"
+    caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
     if highest > field.limit * (1 + 1e-9):
         step = np.unravel_index(np.argmax(pressure), pressure.shape)[0]
-        caption += f"; single nodes beyond the colours, up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
+        caption += f", beyond the colours up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
     curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
     if run.pair is not None:
         pair = run.pair
@@ -71,8 +71,8 @@ def _peaks(run: Run) -> str:
     """The settled run's peak pressures, which are not those of single nodes."""
     attributes = run.dataset.attrs
     if "peak_contact_pressure" not in attributes:
-        return "Pressure of single contact nodes."
-    words = f"Pressure of single contact nodes. The peak contact pressure of the settled run, averaged over five nodes, is {attributes['peak_contact_pressure']:.4g} MPa"
+        return ""
+    words = f"The peak contact pressure of the settled run, averaged over five nodes, is {attributes['peak_contact_pressure']:.4g} MPa"
     edge = f" off the flanks' edges and {attributes['peak_edge_pressure']:.4g} MPa at tips' edges" if "peak_edge_pressure" in attributes else ""
     return f"{words}{edge}."
 

@@ -75,7 +75,7 @@ def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, m
     """A worker's answer travels to rank 0 as bytes; one that cannot is a failure, not a rank waiting for ever."""
     program = (
         "import time\n"
-        "from fenics_gears import environment; environment.prepare()\n"
+        "from fenics_gears.system import environment; environment.prepare()\n"
         "from fenics_gears.studies.ranks import ranks\n"
         "class Odd(Exception):\n"
         "    def __init__(self, one, two): super().__init__('odd')\n"

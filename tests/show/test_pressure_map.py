@@ -80,7 +80,7 @@ def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
     run["contact_pressure"][50, there, 2] = 9000.0
     figure = contact_pressure(run)
     assert mesh(figure).norm.vmax < 1700.0
-    assert figure.get_axes()[0].get_title(loc="left").endswith("single nodes beyond the colours, up to 9000 MPa at mesh cycle 29.00")
+    assert figure.get_axes()[0].get_title(loc="left").endswith("beyond the colours up to 9000 MPa at mesh cycle 29.00")
 
 
 def test_pitch_point_and_the_wheels_axis(paper_scene):
@@ -120,6 +120,6 @@ def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
     coasting = run.assign(coast_contact_pressure=run["contact_pressure"], contact_pressure=zero.assign_attrs(run["contact_pressure"].attrs))
     figure = contact_pressure(coasting)
     np.testing.assert_array_equal(mesh(figure).get_array().compressed(), mesh(contact_pressure(run)).get_array().compressed())
-    assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure on the coast flanks"
+    assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure of single nodes on the coast flanks"
     both = contact_pressure(run.assign(coast_contact_pressure=run["contact_pressure"]))
     assert [axes.get_title(loc="left").split()[-2] for axes in both.get_axes()[:2]] == ["drive", "coast"]
