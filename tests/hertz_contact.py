@@ -18,7 +18,7 @@ from fenics_gears.contact.pressure import without_oscillation
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
 from fenics_gears.model.model import Model, model_of
@@ -77,7 +77,7 @@ class HertzContact:
     def compliances(self, flank_element_size: float, element: str = "P2", cache=None):
         """Both gears' flank compliance."""
         model = self.model(flank_element_size, element)
-        return tuple(gear_compliance(model, name, 2, cache) for name in ("pinion", "wheel"))
+        return tuple(gear_compliance(model, name, Reach(2), cache) for name in ("pinion", "wheel"))
 
     def pressed(self, compliances, spacing: float, line_load: float) -> Pressed:
         """Solve one position under a line load (N/mm) with contact nodes `spacing` (mm) apart, one of them on the line of action."""

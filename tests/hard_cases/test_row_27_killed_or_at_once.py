@@ -61,7 +61,7 @@ def test_a_run_killed_between_its_files(folder, measured, number, what):
     """kill -9 with the first gear kept and the second written aside, and with the result written aside."""
     program = (
         "import os, signal, sys\n"
-        "from fenics_gears import cli\n"
+        "from fenics_gears.commands import cli\n"
         "replace, left = os.replace, [None] * int(sys.argv[1])\n"
         "def killed(*files): left.pop(); replace(*files) if left else os.kill(os.getpid(), signal.SIGKILL)\n"
         "os.replace = killed\n"

@@ -21,6 +21,9 @@ class InvoluteArms(Cycle):
         super().__init__(cycle.pair, cycle.grid, cycle.steps)
         self._cycle, self._coordinates = cycle, coordinates
 
+    def pairs_at(self, index: int):
+        return self._cycle.pairs_at(index)
+
     def position(self, step: int):
         position = self._cycle.position(step)
         operator = position.operator
