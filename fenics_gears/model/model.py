@@ -43,20 +43,20 @@ class Model:
     removal: tuple
     contact_cycles: int = 0
 
-    @property
+    @cached_property
     def time_step(self) -> float:
         """Length of a step, s; of the longest where they are not all as long."""
         for clock in from_effects(self.scene, "clock", self):
             return max(clock.duration(0, 1), clock.duration(self.steps - 1, self.steps))
         return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
 
-    @property
+    @cached_property
     def clock(self) -> Clock:
         """When a step is."""
         clocks = from_effects(self.scene, "clock", self)
         return clocks[0] if clocks else SteadyClock(self.time_step)
 
-    @property
+    @cached_property
     def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
         """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
         return tuple(from_effects(self.scene, "load", self))
@@ -77,7 +77,7 @@ class Model:
         """Steps whose contact fields are stored: the last cycles, both ends included."""
         return self.contact_cycles * self.resolution.steps_per_mesh_cycle + 1 if self.contact_cycles else 0
 
-    @property
+    @cached_property
     def corner(self):
         """How tips touch off the line of action (`contact.corner`); None where the scene does not ask for it."""
         return corner(self.scene, self.pair)
@@ -96,7 +96,7 @@ class Model:
         size = sizes(self.steps + 1, self.contact_steps, self.slots, self.resolution.contact_grid.nodes)
         return counted_bytes(stored_arrays(self.scene, size), size)
 
-    @property
+    @cached_property
     def vibrations(self) -> list[Vibration]:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
         if self.drivetrain.mass is None:
@@ -105,7 +105,7 @@ class Model:
 
         return vibrations(self.drivetrain, mesh_stiffness(self.scene), self.scene.friction is not None)
 
-    @property
+    @cached_property
     def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
         elastic = np.array([vibration.frequency for vibration in self.vibrations])
