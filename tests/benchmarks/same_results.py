@@ -74,7 +74,7 @@ def main(arguments: list[str]) -> int:
     """Compare all scenes, or those named; 1 where results differ."""
     old_checkout = Path(arguments[0]).resolve()
     scenes = [Path(each) for each in arguments[1:]] or sorted(
-        path for path in (HERE / "demos").rglob("*.toml") if "[gears]" in path.read_text()
+        path for path in (HERE / "demos").rglob("*.toml") if "\n[gears]" in path.read_text(encoding="utf-8")
     )
     failed = False
     with tempfile.TemporaryDirectory() as directory:
