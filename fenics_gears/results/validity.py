@@ -61,9 +61,10 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     Every step is judged. Only the uniqueness of the solution is judged by the last steps, which the march keeps: its proof costs more than a step.
     """
     cycle, drivetrain, clock = recorder.cycle, recorder.model.drivetrain, recorder.model.clock
-    of_flanks = [*_window(cycle, recorder.watched), *_rank(recorder.watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
+    watched = recorder.watched
+    of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
-        of_flanks += _sharp_edge(recorder.model.scene, recorder.watched)
+        of_flanks += _sharp_edge(recorder.model.scene, watched)
     return [
         *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
         *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *(() if cycle.traits.prescribes_friction else _uniqueness(march)),

@@ -60,7 +60,8 @@ def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float |
     if march.interrupted:
         return {"dynamic_factor_unknown": "the quasi-static run was interrupted"}
     reference.finish()
-    moving = {name: of_settled(result)[name].values for name in result.data_vars if name in LARGEST_FORCE + LARGEST_STRESS}
+    counted = of_settled(result)
+    moving = {name: counted[name].values for name in LARGEST_FORCE + LARGEST_STRESS if name in counted}
     (stress_moving, force_moving), (stress_still, force_still) = _peaks(moving), _peaks(reference.arrays)
     if not force_still:
         return {"dynamic_factor_unknown": "without inertia nothing touches"}
