@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.addresses import addresses
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator, node_slices
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
@@ -24,12 +25,26 @@ if TYPE_CHECKING:
     from fenics_gears.contact.corner import CornerContact
 
 
+# What `Position.in_memory` holds.
+NODES, COMPLIANCE, JACOBIAN, GAP, ON_DRIVE_FLANKS, NODE_PAIR, CARRIED, RIGID_SLIP, PREVIOUS_JACOBIAN, PREVIOUS_COMPLIANCE = range(10)
+
+
 @dataclass(frozen=True)
 class Position:
     """The contact operator of one phase, and for each node the one it was a step before, (n,), -1 where it is new."""
 
     operator: ContactOperator
     carried_from: np.ndarray
+
+    @cached_property
+    def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
+        """For compiled code: number of contact nodes, then addresses of the operator's arrays (10,), by the names below; and those arrays."""
+        operator = self.operator
+        found, held = addresses([
+            operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair, self.carried_from,
+            operator.rigid_slip, operator.previous_jacobian, operator.previous_compliance,
+        ])  # fmt: skip
+        return np.array([operator.nodes, *found], dtype=np.int64), held
 
 
 # The reach of teeth, the size of a result and the cycle itself all ask for the same places.
@@ -92,13 +107,14 @@ class CycleTraits:
 
     `divisible`: there are positions between its steps; `nodes_on_flanks`: nodes are points of the flanks, springs are not;
     `has_pressure`: forces of nodes are a pressure on the flank, those of springs and rigid flanks are not; `prescribes_friction`:
-    friction follows from the place of a tooth pair, not from the slip of its nodes.
+    friction follows from the place of a tooth pair, not from the slip of its nodes; `own_solver`: steps are not solved by Newton's method first.
     """
 
     divisible: bool = False
     nodes_on_flanks: bool = True
     has_pressure: bool = True
     prescribes_friction: bool = False
+    own_solver: bool = False
 
 
 class Cycle:

@@ -7,60 +7,60 @@ is the spring that small vibrations meet: the closed contact nodes stay closed a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from scipy.linalg.lapack import dposv
+from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE, OPEN
-from fenics_gears.contact.operator import ContactOperator
-from fenics_gears.contact.step_solver import StepSolution
 
 
-@dataclass(frozen=True)
-class MeshStiffness:
-    """Of the drive or coast flanks, whichever carry more: `force` N, `deflection` mm, `secant` and `tangent` N/mm, number of loaded `pairs`.
+@njit(cache=True)
+def mesh_stiffness(compliance, jacobian, gap, on_drive_flanks, node_pair, status, forces, coordinates):
+    """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs carry there.
 
-    All are zero where nothing touches.
+    Arrays as of ContactOperator and StepSolution, of elastic flanks; all zero where nothing touches.
     """
-
-    force: float
-    deflection: float
-    secant: float
-    tangent: float
-    pairs: int
-
-
-NOTHING_TOUCHES = MeshStiffness(0.0, 0.0, 0.0, 0.0, 0)
-
-
-def mesh_stiffness(operator: ContactOperator, solution: StepSolution) -> MeshStiffness:
-    """The mesh stiffness at a step; only of flanks that are elastic."""
-    forces, drive = solution.forces[: operator.nodes], operator.on_drive_flanks
-    on_side = drive if 2.0 * forces.dot(drive) >= forces.sum() else ~drive
-    nodes = (on_side & (solution.status != OPEN)).nonzero()[0]
-    force = float(forces[nodes].sum())
+    n, drive, whole = len(gap), 0.0, 0.0
+    for node in range(n):
+        whole += forces[node]
+        drive += forces[node] if on_drive_flanks[node] else 0.0
+    side = 2.0 * drive >= whole
+    closed = np.flatnonzero((on_drive_flanks == side) & (status != OPEN))
+    force, pairs, last = 0.0, 0, -1
+    for node in closed:
+        force += forces[node]
+        if forces[node] > 0.0 and node_pair[node] != last:
+            pairs, last = pairs + 1, node_pair[node]
     if force <= NO_FORCE:
-        return NOTHING_TOUCHES
-    overlap = operator.jacobian[: operator.nodes] @ solution.coordinates - operator.gap
-    deflection = _highest(np.where(on_side, overlap, -np.inf), operator.node_pair)
-    pairs = np.count_nonzero(np.bincount(operator.node_pair[nodes], forces[nodes]))
-    return MeshStiffness(force, deflection, force / deflection, _tangent(operator.compliance, nodes), pairs)
+        return np.zeros(3)
+    overlap = np.full(n, -np.inf)
+    for node in range(n):
+        if on_drive_flanks[node] == side:
+            overlap[node] = -gap[node]
+            for c in range(len(coordinates)):
+                overlap[node] += jacobian[node, c] * coordinates[c]
+    return np.array([force / _highest(overlap, node_pair), _tangent(compliance, closed), pairs])
 
 
-def _highest(overlap: np.ndarray, node_pair: np.ndarray) -> float:
+@njit(cache=True)
+def _highest(overlap, node_pair):
     """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: vertex of the parabola through the largest and its neighbours.
 
     The deepest overlap lies between two nodes as a rule; at nodes alone it would be too small by up to spacing^2/(8 rho).
     """
-    top = int(overlap.argmax())
-    if not 0 < top < len(overlap) - 1 or not node_pair[top - 1] == node_pair[top] == node_pair[top + 1]:
-        return float(overlap[top])
-    before, at, after = (float(value) for value in overlap[top - 1 : top + 2])
+    top = np.argmax(overlap)
+    at = overlap[top]
+    if top == 0 or top == len(overlap) - 1 or not node_pair[top - 1] == node_pair[top] == node_pair[top + 1]:
+        return at
+    before, after = overlap[top - 1], overlap[top + 1]
     bend = 2.0 * at - before - after
     return at + (after - before) ** 2 / (8.0 * bend) if bend > 0.0 else at
 
 
-def _tangent(compliance: np.ndarray, nodes: np.ndarray) -> float:
+@njit(cache=True)
+def _tangent(compliance, nodes):
     """Force (N) on some nodes of a compliance (m, m), mm/N, when all of them approach by 1 mm."""
-    return float(dposv(compliance[nodes[:, None], nodes], np.ones(len(nodes)))[1].sum())
+    matrix = np.empty((len(nodes), len(nodes)))
+    for i in range(len(nodes)):
+        for j in range(len(nodes)):
+            matrix[i, j] = compliance[nodes[i], nodes[j]]
+    return np.linalg.solve(matrix, np.ones(len(nodes))).sum()

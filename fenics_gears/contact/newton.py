@@ -90,13 +90,23 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
 
 @njit(cache=True)
 def relative_displacement(compliance, jacobian, forces, coordinates):
-    """u = G q - C p (m,), mm; only loaded nodes are summed."""
-    displacement = np.dot(jacobian, coordinates)
+    """u = G q - C p (m,), mm; only loaded nodes are summed, by rows of the symmetric compliance, which lie in one piece."""
+    displacement = np.empty(len(jacobian))
+    for i in range(len(jacobian)):
+        displacement[i] = _product(jacobian[i], coordinates)
     for j in range(len(forces)):
         if forces[j] != 0.0:
             for i in range(len(displacement)):
-                displacement[i] -= compliance[i, j] * forces[j]
+                displacement[i] -= compliance[j, i] * forces[j]
     return displacement
+
+
+@njit(cache=True, inline="always")
+def _product(row, vector):
+    total = 0.0
+    for c in range(len(vector)):
+        total += row[c] * vector[c]
+    return total
 
 
 @njit(cache=True)
@@ -125,9 +135,18 @@ def _update_status(status, forces, displacement, compliance, gap, slip_before, f
 @njit(cache=True)
 def _force_round_off(stiffness, load, compliance, gap, coordinates):
     """Round-off (N) of the forces: that of the load, and that of the lengths times the stiffnesses of springs and teeth."""
-    terms = np.max(np.abs(load)) + np.max(np.abs(stiffness) @ np.abs(coordinates))
+    largest_load, largest_spring, length = 0.0, 0.0, 0.0
+    for c in range(len(load)):
+        spring = 0.0
+        for d in range(len(load)):
+            spring += abs(stiffness[c, d] * coordinates[d])
+        largest_load, largest_spring = max(largest_load, abs(load[c])), max(largest_spring, spring)
+        length = max(length, abs(coordinates[c]))
+    terms = largest_load + largest_spring
     if len(gap):
-        terms += 1e-2 * max(np.max(np.abs(coordinates)), np.max(np.abs(gap))) / compliance[0, 0]
+        for each in gap:
+            length = max(length, abs(each))
+        terms += 1e-2 * length / compliance[0, 0]
     return ROUND_OFF * terms
 
 
@@ -152,10 +171,16 @@ def measure(residual, stiffness, load, compliance, jacobian, gap, slip_before, f
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
             elif status[j] != OPEN and forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible:
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
-    terms = np.dot(np.abs(stiffness), np.abs(coordinates)) + np.dot(np.abs(jacobian.T), np.abs(forces)) + np.abs(load)
-    balance = np.dot(stiffness, coordinates) + np.dot(jacobian.T, forces) - load
     for c in range(len(load)):
-        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance[c]) - ROUND_OFF * terms[c])
+        balance, terms = -load[c], abs(load[c])
+        for d in range(len(load)):
+            balance += stiffness[c, d] * coordinates[d]
+            terms += abs(stiffness[c, d] * coordinates[d])
+        for i in range(len(forces)):
+            if forces[i] != 0.0:
+                balance += jacobian[i, c] * forces[i]
+                terms += abs(jacobian[i, c] * forces[i])
+        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance) - ROUND_OFF * terms)
 
 
 @njit(cache=True)
@@ -163,7 +188,10 @@ def _within(residual, length_tolerance, force_tolerance, load, coordinates, stif
     # Equilibrium is solved, not iterated: only the round-off of its largest terms may be left. A gap is a difference of
     # displacements and is known to their round-off only.
     round_off = _force_round_off(stiffness, load, compliance, gap, coordinates)
-    length_tolerance = length_tolerance + 1e-14 * np.max(np.abs(coordinates))
+    longest = 0.0
+    for each in coordinates:
+        longest = max(longest, abs(each))
+    length_tolerance = length_tolerance + 1e-14 * longest
     return (
         residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + round_off
         and residual[PENETRATION] <= length_tolerance

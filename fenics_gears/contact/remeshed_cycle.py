@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle, pair_places
+from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, pair_places
 from fenics_gears.contact.node_to_node import NodePairs, NodeResponse, by_direction, node_pairs, node_to_node_operator
 from fenics_gears.contact.published_solver import PublishedSolver, RemeshedPosition
 from fenics_gears.contact.tooth_pair import Removal
@@ -33,6 +33,8 @@ class RemeshedCycle(Cycle):
     `stiffness`: at each position that of pinion and wheel, N/mm per mm of face width, on the nodes of `loaded_teeth`;
     `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.
     """
+
+    traits = CycleTraits(own_solver=True)
 
     def __init__(
         self,

@@ -38,7 +38,7 @@ class RigidCycle(Cycle):
     `coordinates`: which centre coordinates are unknowns; `removal`: material removed from either drive flank.
     """
 
-    traits = CycleTraits(has_pressure=False)
+    traits = CycleTraits(has_pressure=False, own_solver=True)
     frictional = False
 
     def __init__(

@@ -7,36 +7,43 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from fenics_gears.dynamics.march import Record
-
-NONE, NO_ROWS = np.empty(0), np.empty((0, 0))
+from fenics_gears.contact.addresses import integers_at, matrix_at, vector_at
+from fenics_gears.contact.mesh_cycle import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP
+from fenics_gears.dynamics.steps import Steps
 
 
 @dataclass(frozen=True)
 class ContactWork:
-    """Work of the contact over one step, N mm: `rotation` by the prescribed rotation, `friction` lost, `changes` by the time stepping."""
+    """Work of the contact over some steps (s,), N mm: `rotation` by the prescribed rotation, `friction` lost, `changes` by the time stepping."""
 
-    rotation: float
-    friction: float
-    changes: float
-
-
-def contact_work(last: Record, record: Record) -> ContactWork:
-    """The contact's work between two consecutive records."""
-    before, now, frictional = last.position.operator, record.position.operator, record.position.operator.rigid_slip is not None
-    ends = (
-        (each.gap, each.jacobian, np.ascontiguousarray(each.compliance), of.solution.forces, of.solution.displacement, of.state.position)
-        for each, of in ((before, last), (now, record))
-    )
-    slid = (now.rigid_slip, now.previous_jacobian, now.previous_compliance) if frictional else (NONE, NO_ROWS, NO_ROWS)
-    return ContactWork(*_work(record.position.carried_from, *next(ends), *next(ends), *(np.ascontiguousarray(each) for each in slid)))
+    rotation: np.ndarray
+    friction: np.ndarray
+    changes: np.ndarray
 
 
-def compile_contact_work() -> None:
-    """Compile the work of a step, or load it from disk: that of one open contact node."""
-    node, row, square = np.zeros(1), np.zeros((1, 1)), np.zeros((1, 1))
-    end = (node, row, square, node, node, node)
-    _work(np.zeros(1, dtype=np.int64), *end, *end, NONE, NO_ROWS, NO_ROWS)
+def contact_work(steps: Steps) -> ContactWork:
+    """The contact's work from each of consecutive steps to the next."""
+    works = _works(steps.table, steps.starts, steps.kinds, steps.states[:, 0].copy(), steps.forces, steps.displacement)
+    return ContactWork(*works)
+
+
+@njit(cache=True)
+def _works(table, starts, kinds, positions, forces, displacement):
+    works, k = np.zeros((3, max(len(table) - 1, 0))), positions.shape[1]
+    for s in range(1, len(table)):
+        n_0, n_1 = starts[s] - starts[s - 1], starts[s + 1] - starts[s]
+        m_0, m_1 = kinds * n_0, kinds * n_1
+        then, now = slice(kinds * starts[s - 1], kinds * starts[s]), slice(kinds * starts[s], kinds * starts[s + 1])
+        before, row, slides = table[s - 1], table[s], 0 if table[s, RIGID_SLIP] == 0 else n_1
+        works[:, s - 1] = _work(
+            integers_at(row[CARRIED], n_1),
+            vector_at(before[GAP], n_0), matrix_at(before[JACOBIAN], m_0, k), matrix_at(before[COMPLIANCE], m_0, m_0),
+            forces[then], displacement[then], positions[s - 1],
+            vector_at(row[GAP], n_1), matrix_at(row[JACOBIAN], m_1, k), matrix_at(row[COMPLIANCE], m_1, m_1),
+            forces[now], displacement[now], positions[s],
+            vector_at(row[RIGID_SLIP], slides), matrix_at(row[PREVIOUS_JACOBIAN], slides, k), matrix_at(row[PREVIOUS_COMPLIANCE], slides, m_0),
+        )  # fmt: skip
+    return works
 
 
 @njit(cache=True)
@@ -99,7 +106,7 @@ def _work(
         rotation += 0.5 * (p_0 + p_1) * (slid + moved)
         friction += p_1 * slip
         changes += 0.5 * (p_1 - p_0) * slip
-    return rotation, friction, changes
+    return np.array([rotation, friction, changes])
 
 
 @njit(cache=True)

@@ -26,12 +26,13 @@ import numpy as np
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import Record, VaryingLoad
+from fenics_gears.dynamics.march import VaryingLoad
+from fenics_gears.dynamics.steps import Steps
 
 
 @dataclass(frozen=True)
 class Account:
-    """Work since the first record, (records,), N mm, and its `defect` from the change of energy."""
+    """Work since the first step, (steps,), N mm, and its `defect` from the change of energy."""
 
     rotation: np.ndarray
     load: np.ndarray
@@ -41,32 +42,29 @@ class Account:
     defect: np.ndarray
 
 
-def account(
-    drivetrain: Drivetrain, clock: Clock, records: Sequence[Record], energy: np.ndarray, loads: Sequence[VaryingLoad] = ()
-) -> Account:
-    """The account of consecutive records, whose elastic and kinetic `energy` (records,) is in N mm; `loads` as the march had them."""
+def account(drivetrain: Drivetrain, clock: Clock, steps: Steps, energy: np.ndarray, loads: Sequence[VaryingLoad] = ()) -> Account:
+    """The account of consecutive steps, whose elastic and kinetic `energy` (steps,) is in N mm; `loads` as the march had them."""
     # A step that was divided is accounted for part by part.
-    ends = [record.parts or (record,) for record in records[1:]]
-    ended = np.cumsum([0] + [len(parts) for parts in ends])
-    passed = [*records[:1], *(part for parts in ends for part in parts)]
-    steps = list(zip(passed[:-1], passed[1:]))
-    contact = [contact_work(last, record) for last, record in steps]
-    moved = np.array([record.state.position - last.state.position for last, record in steps])
-    moved = moved.reshape(len(steps), len(drivetrain.coordinates))
-    damping = np.zeros(len(steps))
+    passed, whole = steps.with_parts()
+    contact = contact_work(passed)
+    moved = np.diff(passed.states[:, 0], axis=0)
+    damping = np.zeros(len(moved))
     if drivetrain.damping is not None:
-        damping = np.einsum("ti,ij,tj->t", moved, drivetrain.damping, moved)
-        damping /= np.array([clock.duration(last.step, record.step) for last, record in steps])
+        damping = _quadratic(moved, drivetrain.damping) / np.array([clock.duration(*ends) for ends in zip(passed.numbers[:-1], passed.numbers[1:])])
     parts = {
-        "rotation": _summed([work.rotation for work in contact]),
-        "load": _summed(np.einsum("ti,ti->t", moved, mean_load(drivetrain, loads, [record.step for record in passed]))),
+        "rotation": _summed(contact.rotation),
+        "load": _summed(np.sum(moved * mean_load(drivetrain, loads, passed.numbers), axis=1)),
         "damping": _summed(damping),
-        "friction": _summed([work.friction for work in contact]),
-        "changes": _summed([work.changes for work in contact]),
+        "friction": _summed(contact.friction),
+        "changes": _summed(contact.changes),
     }
-    parts = {name: work[ended][: len(records)] for name, work in parts.items()}
+    parts = {name: work[whole] for name, work in parts.items()}
     gained = parts["rotation"] + parts["load"] + parts["changes"] - parts["damping"] - parts["friction"]
     return Account(**parts, defect=energy - energy[:1] - gained if len(energy) else energy)
+
+
+def _quadratic(vectors: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    return np.sum(vectors @ matrix * vectors, axis=1)
 
 
 def mean_load(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], steps: Sequence[float]) -> np.ndarray:

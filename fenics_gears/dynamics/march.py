@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import time
-from collections import deque
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,11 +18,13 @@ from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position
-from fenics_gears.contact.step_solver import HALVED, METHODS, StepProblem, StepSolution, cold_start
+from fenics_gears.contact.step_solver import HALVED, METHODS, NEWTON, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.clock import Clock, SteadyClock
+from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, STATIC, Motion, solve_steps
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.steps import Record, Steps, drive_flanks_touch, smallest_openings
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales
 
 if TYPE_CHECKING:
@@ -33,6 +38,8 @@ STEPS_SLID_BEFORE_START = 1e6
 VaryingLoad = Callable[[float], np.ndarray]
 # A step is divided in two at most this often: the shortest part is 1/64 of a step.
 MOST_HALVINGS = 6
+# Steps are handed on in blocks of at most so many.
+LONGEST_BLOCK = 128
 
 
 @dataclass(frozen=True)
@@ -51,25 +58,11 @@ class EquationsOfMotion:
     loads: tuple[VaryingLoad, ...] = ()
 
 
-@dataclass(frozen=True)
-class Record:
-    """One step: its number, the state and the contact solution.
-
-    `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is the step itself.
-    """
-
-    step: float
-    state: State
-    position: Position
-    solution: StepSolution
-    parts: tuple[Record, ...] = ()
-
-
 @dataclass
 class March:
     """A march so far.
 
-    `records`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
+    `kept`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at which friction
     locks a closed node (`contact.existence`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
     (k, k), N/mm: of every step.
@@ -78,7 +71,7 @@ class March:
     friction: float
     stiffness: np.ndarray
 
-    records: deque[Record] = field(default_factory=deque)
+    kept: int = 0
     newton_iterations: int = 0
     steps: int = 0
     steps_by_method: dict[str, int] = field(default_factory=lambda: dict.fromkeys(METHODS, 0))
@@ -86,13 +79,26 @@ class March:
     locked: list[int] = field(default_factory=list)
     interrupted: bool = False
     seconds: float = 0.0
+    _last: list[Steps] = field(default_factory=list)
 
+    def take(self, solved: Steps) -> None:
+        """Count the next steps, and keep them if they are among the last `kept`."""
+        self._last.append(solved)
+        while sum(map(len, self._last[1:])) >= self.kept:
+            del self._last[0]
+        moved = solved.numbers > 0
+        self.steps, self.newton_iterations = int(solved.numbers[-1]), self.newton_iterations + int(solved.iterations[moved].sum())
+        for method, count in Counter(method for method, counts in zip(solved.methods, moved) if counts).items():
+            self.steps_by_method[method] += count
+        apart = np.flatnonzero(~drive_flanks_touch(solved) & moved)
+        if len(apart):
+            openings = smallest_openings(solved)[apart, DRIVE]
+            self.separations += list(zip(solved.numbers[apart].astype(int).tolist(), openings.tolist()))
 
-def smallest_opening(record: Record, flank: int = DRIVE) -> float:
-    """Distance (mm) of the drive or coast flanks at the contact node nearest to contact; infinite where there is no such node."""
-    operator = record.position.operator
-    openings = (operator.gap - record.solution.displacement[: operator.nodes])[operator.on_drive_flanks == (flank == DRIVE)]
-    return float(np.min(openings, initial=np.inf))
+    @cached_property
+    def records(self) -> list[Record]:
+        """The last steps, as many as are kept."""
+        return [record for steps in self._last for record in steps.records][-self.kept :]
 
 
 def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[BackwardEuler]:
@@ -105,9 +111,9 @@ def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[Backwar
 
 
 class Marcher:
-    """Steps the equations of motion with the contact of a `cycle` through time."""
+    """Steps the equations of motion with the contact of a `cycle` through time; `plain`: every step by itself, in Python."""
 
-    def __init__(self, cycle: Cycle, equations: EquationsOfMotion):
+    def __init__(self, cycle: Cycle, equations: EquationsOfMotion, plain: bool = False):
         drivetrain, time_step, friction = equations.drivetrain, equations.time_step, equations.friction
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.clock, self.loads = equations.clock or SteadyClock(time_step), equations.loads
@@ -119,40 +125,38 @@ class Marcher:
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
         # Friction's lever arm is longest at the wheel's tip; with a smaller coefficient it never outweighs the normal force there.
         self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
-        self._time_scales = equations.time_scales
+        self._time_scales, self.plain = equations.time_scales, plain
+        method = AVERAGE_ACCELERATION if isinstance(self.dynamic, AverageAcceleration) else BACKWARD_EULER
+        self._motion = Motion.of(drivetrain, method if self.dynamic.inert else STATIC, friction, self.tolerance)
+        # Steps in a call of compiled code, which lasts until the next report as soon as it is known how long a step takes.
+        self._at_once, self._reported = 1, 0.0
 
     def run(
-        self, steps: int, kept: int, report: Callable[[int, int], None] | None = None, observe: Callable[[Record], None] | None = None
+        self, steps: int, kept: int, report: Callable[[int, int], None] | None = None, observe: Callable[[Steps], None] | None = None
     ) -> March:
-        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with each record.
+        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with blocks of steps.
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
         with threadpool_limits(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report, observe or (lambda record: None))
+            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved: None))
 
-    def _run(self, steps: int, kept: int, report, observe: Callable[[Record], None]) -> March:
-        march = March(self.friction, self.dynamic.stiffness, deque(maxlen=kept))
-        begun, reported = time.perf_counter(), 0.0
+    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps], None]) -> March:
+        march, begun = March(self.friction, self.dynamic.stiffness, kept), time.perf_counter()
+
+        def take(solved: Steps) -> None:
+            march.take(solved)
+            if self._may_lock:
+                march.locked += [int(record.step) for record in solved.records if record.step > 0 and self._locks(record)]
+            observe(solved)
+
         try:
-            record = self.start()
-            march.records.append(record)
-            observe(record)
-            for step in range(1, steps + 1):
-                record = self.step(self.scheme(step), record, step)
-                march.steps, march.newton_iterations = step, march.newton_iterations + record.solution.iterations
-                march.steps_by_method[record.solution.method] += 1
-                march.records.append(record)
-                observe(record)
-                if not record.solution.status[record.position.operator.on_drive_flanks].any():
-                    march.separations.append((step, smallest_opening(record)))
-                if self._may_lock and self._locks(record):
-                    march.locked.append(step)
-                now = time.perf_counter()
-                if report is not None and now - reported > SECONDS_BETWEEN_REPORTS:
-                    report(step, steps)
-                    reported = now
+            last = self.start()
+            take(Steps.of([last]))
+            blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
+            for first, end in self._blocks(steps):
+                last = blocks(last, range(first, end), take, functools.partial(report, steps=steps))
         except KeyboardInterrupt:
             march.interrupted = True
         except ContactNotConverged as failure:
@@ -161,6 +165,63 @@ class Marcher:
         finally:
             march.seconds = time.perf_counter() - begun
         return march
+
+    def _blocks(self, steps: int) -> Iterator[tuple[int, int]]:
+        """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of one, but at the end."""
+        cycle = self.cycle.steps
+        length = cycle * (LONGEST_BLOCK // cycle) or ceil(cycle / ceil(cycle / LONGEST_BLOCK))
+        first = 1
+        while first <= steps:
+            left_of_cycle = cycle - (first - 1) % cycle
+            end = min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
+            yield first, end
+            first = end
+
+    def _plain_block(self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]) -> Record:
+        """Solve the steps `numbers` from the record `last` one by one; `take` gets them, also those before a failure or Ctrl-C."""
+        records: list[Record] = []
+        try:
+            for step in numbers:
+                last = self.step(self.scheme(step), last, step)
+                records.append(last)
+                self._report(report, step)
+        finally:
+            if records:
+                take(Steps.of(records))
+        return last
+
+    def _compiled_block(self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]) -> Record:
+        """As `_plain_block`, many steps in each call of compiled code; steps that Newton's method does not solve at once are plain ones."""
+        positions = [last.position, *(self.cycle.position(step) for step in numbers)]
+        steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
+        steps.put(0, last)
+        durations = np.array([self.clock.duration(step - 1, step) for step in (numbers[0], *numbers)])
+        loads = np.array([self.load(step) for step in (numbers[0], *numbers)]) if self.loads else np.tile(self.drivetrain.load, (len(steps), 1))
+        done = 1
+        try:
+            while done < len(steps):
+                begun, end = time.perf_counter(), min(done + self._at_once, len(steps))
+                solved = solve_steps(steps, done, end, self._motion, durations, loads)
+                seconds = time.perf_counter() - begun
+                if solved == end:
+                    # Ctrl-C is heard between two calls.
+                    self._at_once = max(int((end - done) * SECONDS_BETWEEN_REPORTS / max(seconds, 1e-6)), 1)
+                done = solved
+                if done < end:
+                    step = numbers[done - 1]
+                    steps.put(done, self.step(self.scheme(step), steps.record(done - 1), step))
+                    done += 1
+                self._report(report, numbers[done - 2])
+        finally:
+            if done > 1:
+                take(steps.between(1, done))
+        return steps.record(done - 1)
+
+    def _report(self, report: Callable[[int], None], step: int) -> None:
+        now = time.perf_counter()
+        if now - self._reported > SECONDS_BETWEEN_REPORTS:
+            report(step)
+            self._reported = now
 
     def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""

@@ -132,11 +132,11 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     return 2 * len(element_nodes(_body(meshes, name, model.pair, element).mesh, element_named(element)).points)
 
 
-def watched(meshes: BodyMeshes, cycle, records) -> dict:
+def watched(meshes: BodyMeshes, cycle, steps) -> dict:
     """Smallest and largest openings (steps,), mm, of the cracks of either gear."""
     from fenics_gears.dynamics.crack_openings import crack_openings
 
-    return crack_openings(cycle, records)
+    return crack_openings(cycle, steps.records)
 
 
 def findings(meshes: BodyMeshes, watched) -> list[str]:

@@ -50,7 +50,7 @@ class Effect:
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
     ``check(data, scene, pair)``: raises SceneError where those files are wrong.
     ``warnings(data, model)``: sentences that a user should read before the run.
-    ``watched(data, cycle, records)``: values of consecutive steps that the effect's findings need, name to values (steps,).
+    ``watched(data, cycle, steps)``: values of consecutive steps (``dynamics.steps.Steps``) that the effect's findings need, name to values (steps,).
     ``findings(data, watched)``: sentences on where a run violates what the effect assumes, from the watched values of all steps.
     ``results(data, scene, cycle, steps)``: the effect's own variables at steps (time,), name to (dimensions, values).
     ``period(data, scene)``: mesh cycles after which what the effect does repeats; infinite where it never does. 1 unless given.

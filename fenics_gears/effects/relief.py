@@ -123,7 +123,7 @@ def _alike(tree: Tree) -> bool:
     return {**pinion, "bore_diameter": None} == {**wheel, "bore_diameter": None}
 
 
-def kinks_watched(section: str, removal: Callable, reliefs, cycle, records) -> dict[str, Any]:
+def kinks_watched(section: str, removal: Callable, reliefs, cycle, steps) -> dict[str, Any]:
     """The largest pressure (MPa) of consecutive steps, and the gear (1 or 2, 0 for neither) on whose kink of a linear relief it is.
 
     Both (steps,), zero but for the first step: they are of the steps that press a node hardest.
@@ -136,10 +136,10 @@ def kinks_watched(section: str, removal: Callable, reliefs, cycle, records) -> d
 
     from fenics_gears.contact.kink_pressure import kink_at_the_peak
 
-    solved = [(record.position.operator, record.solution.forces) for record in records]
+    solved = [(record.position.operator, record.solution.forces) for record in steps.records]
     hardest = sorted(solved, key=lambda each: each[1][: each[0].nodes].max(initial=0.0))[-STEPS_JUDGED:]
     gear, pressure = kink_at_the_peak(cycle, hardest, kinks)
-    first = np.zeros((2, len(records)))
+    first = np.zeros((2, len(steps)))
     first[:, 0] = pressure, 0 if gear is None else 1 + GEARS.index(gear)
     return {f"{section} pressure": first[0], f"{section} kink": first[1]}
 

@@ -7,7 +7,7 @@ import xarray as xr
 
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
-from fenics_gears.dynamics.march import Record, smallest_opening
+from fenics_gears.dynamics.steps import Record, smallest_openings
 from fenics_gears.results.side_by_side import SideBySide
 from fenics_gears.scene.data import Scene
 
@@ -15,15 +15,18 @@ Values = dict[str, np.ndarray]
 
 
 def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of the whole mesh at consecutive records, on drive and on coast flanks, and their reactions on both gears' centres."""
-    records, drive = nodes.records, nodes.drive
-    reactions = np.array([layout.rows @ record.solution.forces for layout, record in zip(nodes.layouts, records)]).reshape(-1, 2, 3)
+    """Forces of the whole mesh at consecutive steps, on drive and on coast flanks, and their reactions on both gears' centres."""
+    steps, drive = nodes.steps, nodes.drive
+    reactions = [nodes.summed(normal) for normal in nodes.of("rows_of_normals") * nodes.normal]
+    if nodes.tangential is not None:
+        reactions = np.add(reactions, [nodes.summed(tangential) for tangential in nodes.of("rows_of_tangents") * nodes.tangential])
+    reaction_x, reaction_y, reaction_couple = np.reshape(reactions, (2, 3, len(steps))).transpose(1, 2, 0)
     values = {
         "normal_force": nodes.summed(nodes.normal * drive),
-        "reaction_x": reactions[:, :, 0],
-        "reaction_y": reactions[:, :, 1],
-        "reaction_couple": reactions[:, :, 2],
-        "newton_iterations": np.array([record.solution.iterations for record in records]),
+        "reaction_x": reaction_x,
+        "reaction_y": reaction_y,
+        "reaction_couple": reaction_couple,
+        "newton_iterations": steps.iterations,
         "closed_nodes": nodes.summed(nodes.closed),
     }
     if scene.friction is not None:
@@ -33,7 +36,7 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
         if scene.friction is not None:
             values["coast_friction_force"] = nodes.summed(nodes.tangential * ~drive)
         for name, flank in (("drive_flank_opening", DRIVE), ("coast_flank_opening", COAST)):
-            values[name] = np.array([max(smallest_opening(record, flank), 0.0) for record in records])
+            values[name] = np.maximum(smallest_openings(steps)[:, flank], 0.0)
     return values
 
 
@@ -44,7 +47,7 @@ def largest_normal_force(result: xr.Dataset) -> float:
 
 
 def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of each tooth pair (records, slots), on drive and coast flanks; zero where a pair does not touch."""
+    """Forces of each tooth pair (steps, slots), on drive and coast flanks; zero where a pair does not touch."""
     if scene.tooth_elasticity is None:
         return (_rigid_pairs if scene.friction is None else _sharing_pairs)(scene, nodes)
     values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive)}
@@ -60,8 +63,8 @@ def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
     from fenics_gears.contact.rigid_cycle import pairs_that_touch
 
     sides = {"pair_normal_force": DRIVE} | ({"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {})
-    force = {name: np.zeros((len(nodes.records), nodes.slots)) for name in sides}
-    for i, record in enumerate(nodes.records):
+    force = {name: np.zeros((len(nodes.steps), nodes.slots)) for name in sides}
+    for i, record in enumerate(nodes.steps.records):
         operator, forces = record.position.operator, _normal(record)
         for node in np.flatnonzero(forces):
             flank = operator.pairs[operator.node_pair[node]].place.flank
@@ -85,7 +88,7 @@ def _normal(record: Record) -> np.ndarray:
 
 
 def node_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Pressure, traction and place of each contact node (records, slots, nodes); pressures are zero, places not a number where there is none."""
+    """Pressure, traction and place of each contact node (steps, slots, nodes); pressures are zero, places not a number where there is none."""
     pressure = nodes.normal / nodes.of("area")
     traction = None if scene.friction is None else nodes.tangential / nodes.of("area")
     values = {"contact_offset": nodes.over_nodes(nodes.of("offsets"), True, np.nan)}
@@ -98,8 +101,8 @@ def node_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def watched_contact(nodes: SideBySide) -> Values:
-    """What the run's warnings need of consecutive records: contact at the window's ends and on tips, rank of the compliance."""
-    operators = [record.position.operator for record in nodes.records]
+    """What the run's warnings need of consecutive steps: contact at the window's ends and on tips, rank of the compliance."""
+    operators = [position.operator for position in nodes.steps.positions]
     found = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),
         "dependent rows": np.array([operator.dependent_rows for operator in operators]),

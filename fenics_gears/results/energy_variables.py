@@ -8,47 +8,66 @@ from math import pi
 
 import numpy as np
 import xarray as xr
+from numba import njit
 
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.addresses import matrix_at
+from fenics_gears.contact.mesh_cycle import COMPLIANCE, Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load
-from fenics_gears.dynamics.march import Record, VaryingLoad
+from fenics_gears.dynamics.march import VaryingLoad
+from fenics_gears.dynamics.steps import Steps
 from fenics_gears.scene.data import Scene
 
 
-def energy_variables(scene: Scene, drivetrain: Drivetrain, records: list[Record]) -> dict:
+def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict:
     """Elastic energy of the teeth, and of shafts, bearings and motion where the scene has them (N mm)."""
     parts = {}
     if scene.tooth_elasticity is not None:
-        teeth = [0.5 * r.solution.forces @ r.position.operator.compliance @ r.solution.forces for r in records]
-        parts["energy_teeth"] = np.array(teeth)
+        parts["energy_teeth"] = energy_of_teeth(steps)
     translations = np.array([name in TRANSLATIONS for name in drivetrain.coordinates])
-    states = np.array([record.state.position for record in records]).reshape(len(records), len(translations))
+    positions, velocities = steps.states[:, 0], steps.states[:, 1]
     if scene.bearings is not None:
-        parts["energy_bearings"] = _quadratic(states * translations, drivetrain.stiffness)
+        parts["energy_bearings"] = _quadratic(positions * translations, drivetrain.stiffness)
     if scene.shafts is not None:
-        parts["energy_shafts"] = _quadratic(states * ~translations, drivetrain.stiffness)
+        parts["energy_shafts"] = _quadratic(positions * ~translations, drivetrain.stiffness)
     if scene.inertia is not None:
-        velocities = np.array([record.state.velocity for record in records]).reshape(states.shape)
         parts["energy_kinetic"] = _quadratic(velocities, drivetrain.mass)
-    parts["energy"] = sum(parts.values(), np.zeros(len(records)))
+    parts["energy"] = sum(parts.values(), np.zeros(len(steps)))
     return parts
 
 
+def energy_of_teeth(steps: Steps) -> np.ndarray:
+    """Half of p C p at each step (s,), N mm."""
+    return _energy_of_teeth(steps.table, steps.starts, steps.kinds, steps.forces)
+
+
+@njit(cache=True)
+def _energy_of_teeth(table, starts, kinds, forces):
+    energies = np.zeros(len(table))
+    for s in range(len(table)):
+        m = kinds * (starts[s + 1] - starts[s])
+        compliance, loads = matrix_at(table[s, COMPLIANCE], m, m), forces[kinds * starts[s] : kinds * starts[s + 1]]
+        loaded = np.flatnonzero(loads)
+        for i in loaded:
+            for j in loaded:
+                energies[s] += 0.5 * loads[i] * compliance[i, j] * loads[j]
+    return energies
+
+
 def _quadratic(states: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    return 0.5 * np.einsum("ti,ij,tj->t", states, matrix, states)
+    return 0.5 * np.sum(states @ matrix * states, axis=1)
 
 
 def work_variables(
-    scene: Scene, cycle: Cycle, drivetrain: Drivetrain, clock: Clock, loads: Sequence[VaryingLoad], records: list[Record], energy: np.ndarray
+    scene: Scene, cycle: Cycle, drivetrain: Drivetrain, clock: Clock, loads: Sequence[VaryingLoad], steps: Steps, energy: np.ndarray
 ) -> dict:
-    """Work since the first of consecutive records (N mm), which with the `energy` (time,) adds up to nothing but round-off:
+    """Work since the first of consecutive steps (N mm), which with the `energy` (time,) adds up to nothing but round-off:
 
     energy - energy[0] = work_input - work_output - work_damping - work_friction + work_contact_changes + energy_defect.
     """
-    work = account(drivetrain, clock, records, energy, loads)
-    carried = _carried(drivetrain, loads, records, 2.0 * pi / (scene.gears.wheel.teeth * cycle.steps))
+    work = account(drivetrain, clock, steps, energy, loads)
+    carried = _carried(drivetrain, loads, steps.numbers, 2.0 * pi / (scene.gears.wheel.teeth * cycle.steps))
     values = {
         "work_input": carried + work.rotation,
         "work_output": carried - work.load,
@@ -82,17 +101,16 @@ def transmitted(result: xr.Dataset) -> Transmitted:
     return Transmitted(at_pinion, at_wheel, False)
 
 
-def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], records: list[Record], angle: float) -> np.ndarray:
-    """Work (records,), N mm, that the nominal motion does against the loads; it turns the wheel by `angle` (rad) a step.
+def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], numbers: np.ndarray, angle: float) -> np.ndarray:
+    """Work (steps,), N mm, that the nominal motion does against the loads; it turns the wheel by `angle` (rad) a step.
 
     Both gears' arcs are as long. The wheel turns backwards, against a positive torque.
     """
-    steps = [record.step for record in records]
     turned = np.zeros(len(drivetrain.coordinates))
     wheel = drivetrain.coordinates.index("rotation_2")
     arc = drivetrain.radii[wheel] * angle
     turned[wheel] = -arc
     if "rotation_1" in drivetrain.coordinates:
         turned[drivetrain.coordinates.index("rotation_1")] = arc
-    done = -(mean_load(drivetrain, loads, steps) @ turned) * np.diff(steps)
-    return np.concatenate(([0.0], np.cumsum(done)))[: len(records)]
+    done = -(mean_load(drivetrain, loads, numbers) @ turned) * np.diff(numbers)
+    return np.concatenate(([0.0], np.cumsum(done)))[: len(numbers)]

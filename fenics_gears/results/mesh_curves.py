@@ -5,27 +5,40 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numba import njit
 
+from fenics_gears.contact.addresses import flags_at, integers_at, matrix_at, vector_at
 from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.contact.mesh_cycle import COMPLIANCE, GAP, JACOBIAN, NODE_PAIR, ON_DRIVE_FLANKS
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.pressure import read_off
+from fenics_gears.dynamics.steps import Steps
 from fenics_gears.results.side_by_side import SideBySide
 
 Curves = dict[str, np.ndarray]
 
 
-def stiffness_curves(nodes: SideBySide) -> Curves:
-    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive records of an elastic mesh."""
-    found = [mesh_stiffness(record.position.operator, record.solution) for record in nodes.records]
-    return {
-        "mesh_stiffness": np.array([each.secant for each in found]),
-        "mesh_stiffness_tangent": np.array([each.tangent for each in found]),
-        "loaded_pairs": np.array([each.pairs for each in found]),
-    }
+def stiffness_curves(steps: Steps) -> Curves:
+    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps of an elastic mesh."""
+    secant, tangent, pairs = _stiffness(steps.table, steps.starts, steps.kinds, steps.states[:, 0].copy(), steps.forces, steps.status)
+    return {"mesh_stiffness": secant, "mesh_stiffness_tangent": tangent, "loaded_pairs": pairs}
+
+
+@njit(cache=True)
+def _stiffness(table, starts, kinds, positions, forces, status):
+    found, k = np.zeros((3, len(table))), positions.shape[1]
+    for s in range(len(table)):
+        row, n = table[s], starts[s + 1] - starts[s]
+        m = kinds * n
+        found[:, s] = mesh_stiffness(
+            matrix_at(row[COMPLIANCE], m, m), matrix_at(row[JACOBIAN], m, k), vector_at(row[GAP], n), flags_at(row[ON_DRIVE_FLANKS], n),
+            integers_at(row[NODE_PAIR], n), status[starts[s] : starts[s + 1]], forces[kinds * starts[s] : kinds * starts[s + 1]], positions[s],
+        )  # fmt: skip
+    return found
 
 
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curves:
-    """The largest pressure of consecutive records, its tooth pair and its place, from their contact `fields`.
+    """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
     Pairs that press with a tip's sharp edge are left out and have a largest pressure of their own: linear elasticity has infinite pressure
     there, and the number grows as contact nodes come closer.

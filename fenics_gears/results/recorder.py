@@ -12,24 +12,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
-from fenics_gears.dynamics.march import Record, VaryingLoad
+from fenics_gears.dynamics.march import VaryingLoad
+from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import allocated, sizes, stored_arrays
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
-from fenics_gears.results.side_by_side import Layout, SideBySide
+from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
 
 if TYPE_CHECKING:
     from fenics_gears.results.root_stress_variables import RootStress
 
-# Steps that are evaluated at once.
-AT_ONCE = 128
-
 
 class Recorder:
-    """Takes each record of a march as it is made; `loads`: the varying ones, the model's unless given; `stress`: root stress, if asked for.
+    """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root stress, if asked for.
 
     `steps`: how many are recorded. `watched`: what the warnings need, by name (steps so far,). `first_number`: number of the pair that
     reaches the start of contact as the run begins.
@@ -45,21 +43,20 @@ class Recorder:
         self.arrays = allocated(stored_arrays(model.scene, self.size), self.size)
         self.steps = 0
         self._watched: list[dict[str, np.ndarray]] = []
-        self._waiting: list[Record] = []
-        self._last: Record | None = None
+        # Steps that are not evaluated yet, and the last that is, from which the account goes on.
+        self._waiting: list[Steps] = []
+        self._last: Steps | None = None
         self._worked: dict[str, float] = {}
-        self._layouts: dict[int, Layout] = {}
+        self._layouts = KnownLayouts(cycle)
 
-    def take(self, record: Record) -> None:
-        """The next step."""
-        self._waiting.append(record)
-        if len(self._waiting) == AT_ONCE:
-            self._evaluate()
+    def take(self, solved: Steps) -> None:
+        """The next steps."""
+        self._waiting.append(solved)
+        self._evaluate()
 
     def finish(self) -> None:
         """After the last step: evaluate the remaining records, and put the contact fields into the order of time."""
-        if self._waiting:
-            self._evaluate()
+        self._evaluate()
         stored = self.size["contact_time"]
         for name, (dims, _) in stored_arrays(self.model.scene, self.size).items():
             if dims[0] == "contact_time":
@@ -75,20 +72,23 @@ class Recorder:
         return {name: np.concatenate([each[name] for each in self._watched]) for name in names}
 
     def _evaluate(self) -> None:
-        records = self._waiting
+        while self._waiting:
+            self._evaluate_block(self._waiting[0])
+
+    def _evaluate_block(self, block: Steps) -> None:
         scene, cycle = self.model.scene, self.cycle
-        nodes = SideBySide(cycle, records, self._layouts, self.slots, self.first_number)
-        steps = np.array([record.step for record in records], dtype=float)
-        times = np.array([self.model.clock.time(step) for step in steps])
-        values = {"time": times, "mesh_phase": steps / cycle.steps, "pair_number": nodes.pair_number}
-        values |= self._centres(records) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
+        nodes = SideBySide(self._layouts, block, self.slots, self.first_number)
+        numbers = block.numbers
+        times = np.array([self.model.clock.time(step) for step in numbers])
+        values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
+        values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:
-            values |= stiffness_curves(nodes)
-        energies, worked = self._energies(records)
+            values |= stiffness_curves(block)
+        energies, worked = self._energies(block)
         values |= energies
         for effect in effects_on(scene):
             if any(variable.dims == ("time",) for variable in effect.variables) and effect.results is not None:
-                values |= {name: of for name, (_, of) in effect.results(getattr(scene, effect.section), scene, cycle, steps).items()}
+                values |= {name: of for name, (_, of) in effect.results(getattr(scene, effect.section), scene, cycle, numbers).items()}
         fields = {"contact_time": times, "contact_mesh_phase": values["mesh_phase"], "contact_pair_number": nodes.pair_number}
         watched = watched_contact(nodes)
         if scene.resolves_contact:
@@ -98,12 +98,13 @@ class Recorder:
             stresses = self.stress.values(nodes)
             fields["root_stress"] = stresses.pop("root_stress")
             values |= stresses
-        for found in from_effects(scene, "watched", cycle, records):
+        for found in from_effects(scene, "watched", cycle, block):
             watched |= found
-        self._keep(values, fields, len(records))
-        # Last of all: a march that is interrupted before this line evaluates these records again.
+        self._keep(values, fields, len(block))
+        # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched.append(watched)
-        self._waiting, self._last, self._worked, self.steps = [], records[-1], worked, self.steps + len(records)
+        del self._waiting[0]
+        self._last, self._worked, self.steps = block.between(len(block) - 1, len(block)), worked, self.steps + len(block)
 
     def _keep(self, values: dict[str, np.ndarray], fields: dict[str, np.ndarray], count: int) -> None:
         stored = self.size["contact_time"]
@@ -114,9 +115,9 @@ class Recorder:
             else:
                 array[self.steps : self.steps + count] = values[name]
 
-    def _centres(self, records: Sequence[Record]) -> dict[str, np.ndarray]:
+    def _centres(self, block: Steps) -> dict[str, np.ndarray]:
         scene, drivetrain = self.model.scene, self.model.drivetrain
-        states = np.array([record.state.position for record in records]).reshape(len(records), len(drivetrain.coordinates))
+        states = block.states[:, 0]
 
         def both(first: str, second: str) -> np.ndarray:
             return np.stack([drivetrain.value(states, first), drivetrain.value(states, second)], axis=1)
@@ -131,12 +132,12 @@ class Recorder:
             values["shaft_end_rotation"] = drivetrain.value(states, "shaft_end")
         return values
 
-    def _energies(self, records: Sequence[Record]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
-        """Energies and the work since the first step; and the work at the last record, from which the next records go on."""
-        model, before = self.model, [] if self._last is None else [self._last]
-        together = [*before, *records]
+    def _energies(self, block: Steps) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+        """Energies and the work since the first step; and the work at the last step, from which the next block goes on."""
+        model, before = self.model, 0 if self._last is None else 1
+        together = block if self._last is None else self._last.followed_by(block)
         energies = energy_variables(model.scene, model.drivetrain, together)
         work = work_variables(model.scene, self.cycle, model.drivetrain, model.clock, self.loads, together, energies["energy"])
         work = {name: value + self._worked.get(name, 0.0) for name, value in work.items()}
         worked = {name: value[-1] for name, value in work.items()}
-        return {name: value[len(before) :] for name, value in (energies | work).items()}, worked
+        return {name: value[before:] for name, value in (energies | work).items()}, worked

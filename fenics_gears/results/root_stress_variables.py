@@ -10,7 +10,7 @@ from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, flank_rows, sector
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.tooth_pair import COAST, ToothPair
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.steps import Record
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import GearPair
@@ -59,10 +59,10 @@ class RootStress:
         return rows.rows[rows.reach + ahead][:, flank * dofs : (flank + 1) * dofs]
 
     def values(self, nodes: SideBySide) -> dict[str, np.ndarray]:
-        """Root stress at consecutive records; not a number where a slot's pair is out of reach."""
+        """Root stress at consecutive steps; not a number where a slot's pair is out of reach."""
         points = self.rows[0].rows.shape[1] // 2
-        values = np.full((len(nodes.records), 2, nodes.slots, 2, points), np.nan)
-        for i, record in enumerate(nodes.records):
+        values = np.full((len(nodes.steps), 2, nodes.slots, 2, points), np.nan)
+        for i, record in enumerate(nodes.steps.records):
             teeth, stresses = self.at(record)
             for place, index in enumerate(teeth):
                 values[i, :, nodes.slot_of(i, index)] = stresses[:, place].reshape(2, 2, points)

@@ -12,15 +12,15 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator, displacement_jacobian, node_slices, over_nodes, per_node
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.window import flank_ends
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.steps import Steps
 
 
 class Layout:
     """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive flank; `at_end`:
-    whether it stands on an end of the window; `on_tip`: on the edge of the pinion's and of the wheel's tip; `rows` (6, n or 2 n): reaction
-    of both centres to a unit of each force: force (x, y), N, and torque, N mm.
+    whether it stands on an end of the window; `on_tip`: on the edge of the pinion's and of the wheel's tip; `rows_of_normals` (6, n) and
+    `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm.
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
@@ -34,7 +34,8 @@ class Layout:
         self.area = self.area * cycle.pair.face_width
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
         self.on_tip = _on_tips(cycle, pairs, counts) if cycle.traits.has_pressure else None
-        self.rows = _reaction_rows(operator, tangential)
+        rows, nodes = _reaction_rows(operator, tangential), operator.nodes
+        self.rows_of_normals, self.rows_of_tangents = rows[:, :nodes], rows[:, nodes:]
 
 
 def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
@@ -56,42 +57,70 @@ def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
     return -rows.T[:6] * units[:, None]
 
 
-class SideBySide:
-    """The contact nodes (N,) of consecutive records, one record's after the other's.
+class Layouts:
+    """The layouts of consecutive positions side by side (N,), joined once for each block of the mesh cycle."""
 
-    `step`: the record each node is of; `slot`: where its tooth pair is kept, pairs being numbered from `first_number` on for the pair of
-    index 0 in cycle 0; `layouts`: those that are known, by the address of their pairs; `normal` and `tangential`: its forces, N, the latter None without friction.
-    """
-
-    def __init__(self, cycle: Cycle, records: Sequence[Record], layouts: dict[int, Layout], slots: int, first_number: int):
-        self.cycle, self.records, self.slots, self.first_number = cycle, records, slots, first_number
-        self.layouts = [self._layout(layouts, record) for record in records]
-        counts = [len(layout.node) for layout in self.layouts]
-        self.step = np.repeat(np.arange(len(records)), counts)
-        self.cycles = np.array([record.step // cycle.steps for record in records], dtype=int)
-        forces = [record.solution.forces for record in records]
-        self.normal = np.concatenate([each[:count] for each, count in zip(forces, counts)])
-        tangential = any(len(each) > count for each, count in zip(forces, counts))
-        self.tangential = np.concatenate([each[count:] for each, count in zip(forces, counts)]) if tangential else None
-        self.number = self.cycles[self.step] - self.of("index") + first_number
-        self.slot = self.number % slots
-
-    def _layout(self, layouts: dict[int, Layout], record: Record) -> Layout:
-        operator = record.position.operator
-        found = layouts.get(id(operator.pairs))
-        if found is None:
-            found = layouts[id(operator.pairs)] = Layout(operator, self.cycle, len(record.solution.forces) > operator.nodes)
-        return found
+    def __init__(self, layouts: Sequence[Layout], kinds: int):
+        counts = [len(layout.node) for layout in layouts]
+        self.layouts, self.starts = layouts, np.cumsum([0, *counts])
+        self.step = np.repeat(np.arange(len(layouts)), counts)
+        # Where the normal forces stand among all forces, a step's normals before its tangents.
+        self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
+        self.tangential = self.normal + np.repeat(counts, counts)
+        self._joined: dict[str, np.ndarray] = {}
 
     def of(self, name: str) -> np.ndarray:
         """An array of the layouts' nodes, side by side."""
-        return np.concatenate([getattr(layout, name) for layout in self.layouts], axis=-1)
+        if name not in self._joined:
+            self._joined[name] = np.concatenate([getattr(layout, name) for layout in self.layouts], axis=-1)
+        return self._joined[name]
 
-    def slot_of(self, record: int, index: int) -> int:
-        """Slot of the tooth pair of that index at a record, given by its place."""
-        return int(self.cycles[record] - index + self.first_number) % self.slots
 
-    @cached_property
+class KnownLayouts:
+    """Layouts of the positions of a `cycle`, made when they are first met."""
+
+    def __init__(self, cycle: Cycle):
+        self.cycle = cycle
+        self._layouts: dict[int, Layout] = {}
+        self._joined: dict[tuple[int, ...], Layouts] = {}
+
+    def joined(self, steps: Steps) -> Layouts:
+        """The layouts of some steps."""
+        operators = [position.operator for position in steps.positions]
+        key = tuple(id(operator.pairs) for operator in operators)
+        if key not in self._joined:
+            self._joined[key] = Layouts([self._layout(operator, steps.kinds) for operator in operators], steps.kinds)
+        return self._joined[key]
+
+    def _layout(self, operator: ContactOperator, kinds: int) -> Layout:
+        found = self._layouts.get(id(operator.pairs))
+        if found is None:
+            found = self._layouts[id(operator.pairs)] = Layout(operator, self.cycle, kinds == 2)
+        return found
+
+
+class SideBySide:
+    """The contact nodes (N,) of consecutive steps, one step's after the other's.
+
+    `step`: the place of the step that each node is of; `slot`: where its tooth pair is kept, pairs being numbered from `first_number` on for the
+    pair of index 0 in cycle 0; `normal` and `tangential`: its forces, N, the latter None without friction.
+    """
+
+    def __init__(self, known: KnownLayouts, steps: Steps, slots: int, first_number: int):
+        self.cycle, self.steps, self.slots, self.first_number = known.cycle, steps, slots, first_number
+        self.layouts = known.joined(steps)
+        self.step, self.of = self.layouts.step, self.layouts.of
+        self.cycles = (steps.numbers // self.cycle.steps).astype(int)
+        self.normal = steps.forces[self.layouts.normal]
+        self.tangential = steps.forces[self.layouts.tangential] if steps.kinds == 2 else None
+        self.number = self.cycles[self.step] - self.of("index") + first_number
+        self.slot = self.number % slots
+
+    def slot_of(self, place: int, index: int) -> int:
+        """Slot of the tooth pair of that index at a step, given by its place."""
+        return int(self.cycles[place] - index + self.first_number) % self.slots
+
+    @property
     def drive(self) -> np.ndarray:
         """Whether each node (N,) is on a drive flank."""
         return self.of("drive")
@@ -99,31 +128,38 @@ class SideBySide:
     @cached_property
     def closed(self) -> np.ndarray:
         """Whether each node (N,) is closed."""
-        return np.concatenate([record.solution.status for record in self.records]) != OPEN
+        return self.steps.status != OPEN
 
     def summed(self, values: np.ndarray) -> np.ndarray:
-        """Sum of values (N,) over the nodes of each record."""
-        return np.bincount(self.step, values, minlength=len(self.records))
+        """Sum of values (N,) over the nodes of each step."""
+        return np.bincount(self.step, values, minlength=len(self.steps))
 
     def any(self, which: np.ndarray) -> np.ndarray:
-        """Whether any node of each record is among those, (N,)."""
-        return np.bincount(self.step[which], minlength=len(self.records)) > 0
+        """Whether any node of each step is among those, (N,)."""
+        return np.bincount(self.step[which], minlength=len(self.steps)) > 0
 
     def by_slot(self, values: np.ndarray) -> np.ndarray:
-        """Sum of values (N,) over the nodes of each tooth pair (records, slots)."""
-        place = self.step * self.slots + self.slot
-        return np.bincount(place, values, minlength=len(self.records) * self.slots).reshape(len(self.records), self.slots)
+        """Sum of values (N,) over the nodes of each tooth pair (steps, slots)."""
+        return np.bincount(self._slots, values, minlength=len(self.steps) * self.slots).reshape(len(self.steps), self.slots)
 
     def over_nodes(self, values: np.ndarray, drive: bool, absent: float) -> np.ndarray:
-        """Values (N,) of drive or coast flanks by record, slot and contact node of the pair; `absent` where there is no node."""
-        field = np.full((len(self.records), self.slots, self.cycle.grid.nodes), absent)
-        chosen = self.drive == drive
-        field[self.step[chosen], self.slot[chosen], self.of("node")[chosen]] = values[chosen]
+        """Values (N,) of drive or coast flanks by step, slot and contact node of the pair; `absent` where there is no node."""
+        field = np.full((len(self.steps), self.slots, self.cycle.grid.nodes), absent)
+        places = self._slots * self.cycle.grid.nodes + self.of("node")
+        if drive and self.drive.all():
+            field.reshape(-1)[places] = values
+        else:
+            chosen = self.drive == drive
+            field.reshape(-1)[places[chosen]] = values[chosen]
         return field
 
     @cached_property
+    def _slots(self) -> np.ndarray:
+        return self.step * self.slots + self.slot
+
+    @cached_property
     def pair_number(self) -> np.ndarray:
-        """Number of the tooth pair in each slot (records, slots); 0 where none is in reach."""
-        numbers = np.zeros((len(self.records), self.slots), dtype=np.int32)
+        """Number of the tooth pair in each slot (steps, slots); 0 where none is in reach."""
+        numbers = np.zeros((len(self.steps), self.slots), dtype=np.int32)
         numbers[self.step, self.slot] = self.number
         return numbers

@@ -9,8 +9,16 @@ import numpy as np
 from fenics_gears.contact.compliance_product import compliance_product
 from fenics_gears.contact.interpolation import flank_interpolation
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
-from fenics_gears.contact.step_solver import StepProblem, solve_step
-from fenics_gears.dynamics.contact_work import compile_contact_work
+from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place
+from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Motion, solve_steps
+from fenics_gears.dynamics.contact_work import contact_work
+from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
+from fenics_gears.results.energy_variables import energy_of_teeth
+from fenics_gears.results.mesh_curves import stiffness_curves
 
 
 def compile_kernels(tangential: bool) -> float:
@@ -26,17 +34,17 @@ def compile_kernels(tangential: bool) -> float:
         np.zeros((len(directions), 2, len(directions), 2)),
     )  # fmt: skip
     unknowns = 2 if tangential else 1
-    problem = StepProblem(
-        stiffness=np.eye(1),
-        load=np.ones(1),
-        compliance=np.eye(unknowns),
-        jacobian=np.eye(unknowns, 1),
-        gap=np.zeros(1),
-        slip_before=np.ones(1) if tangential else np.empty(0),
-        friction=0.1,
-        free_motion=np.empty(0),
-        tolerance=Tolerance.of_load(1.0),
-    )
+    node, row, tolerance = np.zeros(1), np.eye(unknowns, 1), Tolerance.of_load(1.0)
+    slip = np.ones(1) if tangential else np.empty(0)
+    problem = StepProblem(np.eye(1), np.ones(1), np.eye(unknowns), row, node, slip, 0.1, np.empty(0), tolerance)
     solve_step(problem, np.array([SLIP_FORWARD], dtype=np.int8))
-    compile_contact_work()
+    place = Place(0, DRIVE, (0.5, 0.5))
+    pair = PairNodes(place, node, node, node, node, node, node)
+    earlier = (node, np.zeros((1, unknowns)), np.zeros((1, 1))) if tangential else (None, None, None)
+    operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(unknowns), row, node, *earlier)
+    steps = Steps.to_solve(range(2), [Position(operator, np.zeros(1, dtype=int))] * 2, 1, NEWTON)
+    drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)
+    solve_steps(steps, 1, 2, Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, tolerance), np.ones(2), np.ones((2, 1)))
+    for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
+        evaluated(steps)
     return time.perf_counter() - begun

@@ -1,0 +1,170 @@
+"""The march through many steps in one call of compiled code, as far as Newton's method solves them; same equations as `march.Marcher.step`.
+
+A step that Newton does not solve at once is left to the plain march, which has the fallbacks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from fenics_gears.contact.addresses import integers_at, matrix_at, vector_at
+from fenics_gears.contact.laws import OPEN, Tolerance
+from fenics_gears.contact.mesh_cycle import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP
+from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, newton
+from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.steps import Steps
+
+STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
+POSITION, VELOCITY, ACCELERATION = range(3)
+MAX_ITERATIONS = 40
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What of the equations of motion is the same at every step: the `method` in time, matrices (k, k) of the drivetrain, friction, tolerance.
+
+    `free_motion` (k,): how a load moves the drivetrain where only contact holds it, else empty.
+    """
+
+    method: int
+    stiffness: np.ndarray
+    mass: np.ndarray
+    damping: np.ndarray
+    free_motion: np.ndarray
+    friction: float
+    tolerance: Tolerance
+
+    @classmethod
+    def of(cls, drivetrain: Drivetrain, method: int, friction: float, tolerance: Tolerance) -> Motion:
+        """That of a drivetrain."""
+        nothing = np.zeros_like(drivetrain.stiffness)
+        mass, damping = (nothing if matrix is None else np.ascontiguousarray(matrix) for matrix in (drivetrain.mass, drivetrain.damping))
+        free = drivetrain.free_motion if method == STATIC else np.empty(0)
+        return cls(method, np.ascontiguousarray(drivetrain.stiffness), mass, damping, free, friction, tolerance)
+
+
+def solve_steps(steps: Steps, first: int, end: int, motion: Motion, durations: np.ndarray, loads: np.ndarray) -> int:
+    """Solve the steps from place `first` on, each from the one before it, to before `end`; returns the first place that is not solved.
+
+    `durations` (s,), s, and `loads` (s, k), N, of all steps.
+    """
+    done = np.full(1, first)
+    m = motion
+    try:
+        _solve_steps(
+            done, end, steps.table, steps.starts, steps.kinds, m.method, m.stiffness, m.mass, m.damping, m.free_motion,
+            m.friction, m.tolerance.length, m.tolerance.force, durations, loads,
+            steps.states, steps.forces, steps.displacement, steps.status, steps.iterations,
+        )  # fmt: skip
+    except np.linalg.LinAlgError:
+        # Sets that leave the system singular: the step after the last one done.
+        pass
+    return int(done[0])
+
+
+@njit(cache=True)
+def _solve_steps(
+    done, end, table, starts, kinds, method, stiffness, mass, damping, free_motion, friction, length_tolerance, force_tolerance,
+    durations, loads, states, forces, displacement, status, iterations,
+):  # fmt: skip
+    effective, history, duration = stiffness, np.zeros((3, len(stiffness), len(stiffness))), -1.0
+    for s in range(done[0], end):
+        if durations[s] != duration and method != STATIC:
+            duration = durations[s]
+            effective = _matrices_of_step(method, duration, stiffness, mass, damping, history)
+        load = loads[s].copy()
+        if method != STATIC:
+            for kind in range(3):
+                _add_product(load, history[kind], states[s - 1, kind])
+        now = slice(kinds * starts[s], kinds * starts[s + 1])
+        nodes = status[starts[s] : starts[s + 1]]
+        _carry(nodes, status[starts[s - 1] : starts[s]], table[s, CARRIED])
+        slip_before = _slip_before(
+            table[s], len(nodes), kinds, states[s - 1, POSITION], forces[kinds * starts[s - 1] : kinds * starts[s]]
+        )
+        n, k = len(nodes), len(load)
+        residuals, sets = np.empty((MAX_ITERATIONS, 5)), np.empty((MAX_ITERATIONS, n), dtype=np.int8)
+        outcome, count, found, coordinates, moved = newton(
+            effective, load, matrix_at(table[s, COMPLIANCE], kinds * n, kinds * n), matrix_at(table[s, JACOBIAN], kinds * n, k),
+            vector_at(table[s, GAP], n), slip_before, friction, nodes, _turned(free_motion, loads[s]),
+            1.0, ALL_AT_ONCE, length_tolerance, force_tolerance, residuals, sets,
+        )  # fmt: skip
+        if outcome != CONVERGED:
+            return
+        forces[now], displacement[now], iterations[s] = found, moved, count
+        _advance(method, duration, states[s - 1], states[s], coordinates)
+        done[0] = s + 1
+
+
+@njit(cache=True)
+def _matrices_of_step(method, duration, stiffness, mass, damping, history):
+    """The effective stiffness of a step; and, in place, what position, velocity and acceleration at its start add to the load."""
+    if method == AVERAGE_ACCELERATION:
+        history[POSITION] = 4.0 / duration**2 * mass + 2.0 / duration * damping
+        history[VELOCITY] = 4.0 / duration * mass + damping
+        history[ACCELERATION] = mass
+    else:
+        history[POSITION] = mass / duration**2 + damping / duration
+        history[VELOCITY] = mass / duration
+    return stiffness + history[POSITION]
+
+
+@njit(cache=True)
+def _add_product(result, matrix, vector):
+    for i in range(len(result)):
+        for j in range(len(vector)):
+            result[i] += matrix[i, j] * vector[j]
+
+
+@njit(cache=True)
+def _carry(status, before, carried_address):
+    """Begin with the sets of the step before; nodes that are new are open."""
+    carried = integers_at(carried_address, len(status))
+    for node in range(len(status)):
+        status[node] = before[carried[node]] if carried[node] >= 0 else OPEN
+
+
+@njit(cache=True)
+def _slip_before(row, n, kinds, position, forces):
+    """w_old of [25] (n,): rigid slip less the tangential displacement that the same material points had; empty without friction."""
+    if row[RIGID_SLIP] == 0:
+        return np.empty(0)
+    slip = vector_at(row[RIGID_SLIP], n).copy()
+    jacobian, compliance = matrix_at(row[PREVIOUS_JACOBIAN], n, len(position)), matrix_at(row[PREVIOUS_COMPLIANCE], n, len(forces))
+    loaded = np.flatnonzero(forces)
+    for node in range(n):
+        displaced = 0.0
+        for c in range(len(position)):
+            displaced += jacobian[node, c] * position[c]
+        for column in loaded:
+            displaced -= compliance[node, column] * forces[column]
+        slip[node] -= displaced
+    return slip
+
+
+@njit(cache=True)
+def _turned(free_motion, load):
+    """The free motion in the sense in which the load moves the drivetrain."""
+    work = 0.0
+    for c in range(len(free_motion)):
+        work += free_motion[c] * load[c]
+    return -free_motion if work < 0.0 else free_motion
+
+
+@njit(cache=True)
+def _advance(method, duration, before, after, coordinates):
+    """The state (3, k) at the end of a step, from its position (k,), as `AverageAcceleration.advance` and `BackwardEuler.advance` have it."""
+    for c in range(len(coordinates)):
+        change = coordinates[c] - before[POSITION, c]
+        velocity, acceleration = before[VELOCITY, c], before[ACCELERATION, c]
+        if method == AVERAGE_ACCELERATION:
+            change *= 2.0 / duration
+            acceleration = 2.0 / duration * (change - 2.0 * velocity) - acceleration
+            velocity = change - velocity
+        elif method == BACKWARD_EULER:
+            acceleration = (change / duration - velocity) / duration
+            velocity = change / duration
+        after[POSITION, c], after[VELOCITY, c], after[ACCELERATION, c] = coordinates[c], velocity, acceleration

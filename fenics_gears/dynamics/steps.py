@@ -1,0 +1,179 @@
+"""Consecutive steps of a march as arrays: their contact nodes stand one step's after the other's, so that all are treated at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numba import njit
+
+from fenics_gears.contact.addresses import flags_at, vector_at
+from fenics_gears.contact.laws import OPEN
+from fenics_gears.contact.mesh_cycle import GAP, NODES, ON_DRIVE_FLANKS, Position
+from fenics_gears.contact.step_solver import StepSolution
+from fenics_gears.contact.tooth_pair import COAST, DRIVE
+from fenics_gears.dynamics.average_acceleration import State
+
+ARRAYS = ("numbers", "states", "forces", "displacement", "status", "iterations")
+
+
+@dataclass(frozen=True)
+class Record:
+    """One step: its number, the state and the contact solution.
+
+    `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is the step itself.
+    """
+
+    step: float
+    state: State
+    position: Position
+    solution: StepSolution
+    parts: tuple[Record, ...] = ()
+
+
+@dataclass
+class Steps:
+    """Steps (s,) of a march: their `numbers`, `positions` and the `methods` that solved them; n contact nodes at each, N at all.
+
+    `states` (s, 3, k): centre coordinates, mm, velocities and accelerations; `forces` and `displacement` (N,) or, with friction, (2 N,): a
+    step's as in StepSolution, then the next step's; `status` (N,); `iterations` (s,) of Newton's method. `parts`: by place, those of steps
+    that were divided.
+    """
+
+    numbers: np.ndarray
+    positions: list[Position]
+    states: np.ndarray
+    forces: np.ndarray
+    displacement: np.ndarray
+    status: np.ndarray
+    iterations: np.ndarray
+    methods: list[str]
+    parts: dict[int, tuple[Record, ...]] = field(default_factory=dict)
+
+    @classmethod
+    def to_solve(cls, numbers: Sequence[float], positions: list[Position], coordinates: int, method: str) -> Steps:
+        """Room for the solutions at these positions."""
+        count, nodes = len(positions), sum(int(position.in_memory[0][NODES]) for position in positions)
+        forces = nodes * (1 if not count or positions[0].operator.rigid_slip is None else 2)
+        return cls(
+            np.array(numbers, dtype=float), positions, np.zeros((count, 3, coordinates)), np.zeros(forces), np.zeros(forces),
+            np.zeros(nodes, dtype=np.int8), np.zeros(count, dtype=np.int64), [method] * count,
+        )  # fmt: skip
+
+    @classmethod
+    def of(cls, records: Sequence[Record]) -> Steps:
+        """The steps of some records."""
+        coordinates = len(records[0].state.position) if records else 0
+        steps = cls.to_solve([record.step for record in records], [record.position for record in records], coordinates, "")
+        for place, record in enumerate(records):
+            steps.put(place, record)
+        return steps
+
+    def put(self, place: int, record: Record) -> None:
+        """Take the solution of one step from its record."""
+        state, solution, (nodes, forces) = record.state, record.solution, self._slices(place)
+        self.positions[place], self.methods[place] = record.position, solution.method
+        self.states[place] = state.position, state.velocity, state.acceleration
+        self.forces[forces], self.displacement[forces], self.status[nodes] = solution.forces, solution.displacement, solution.status
+        self.iterations[place] = solution.iterations
+        if record.parts:
+            self.parts[place] = record.parts
+        self.__dict__.pop("table", None)
+
+    def record(self, place: int) -> Record:
+        """One step by itself; its arrays are parts of these."""
+        nodes, forces = self._slices(place)
+        solution = StepSolution(
+            self.forces[forces], self.states[place, 0], self.displacement[forces], self.status[nodes], int(self.iterations[place]), self.methods[place]
+        )
+        number = float(self.numbers[place])
+        return Record(
+            int(number) if number.is_integer() else number, State(*self.states[place]), self.positions[place], solution, self.parts.get(place, ())
+        )
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def between(self, first: int, end: int) -> Steps:
+        """The steps from place `first` to before `end`; arrays are parts of these."""
+        nodes, forces = slice(self.starts[first], self.starts[end]), slice(self.kinds * self.starts[first], self.kinds * self.starts[end])
+        parts = {place - first: parts for place, parts in self.parts.items() if first <= place < end}
+        return Steps(
+            self.numbers[first:end], self.positions[first:end], self.states[first:end], self.forces[forces], self.displacement[forces],
+            self.status[nodes], self.iterations[first:end], self.methods[first:end], parts,
+        )  # fmt: skip
+
+    def followed_by(self, other: Steps) -> Steps:
+        """These steps and others after them."""
+        parts = self.parts | {len(self) + place: parts for place, parts in other.parts.items()}
+        arrays = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in ARRAYS}
+        return Steps(**arrays, positions=self.positions + other.positions, methods=self.methods + other.methods, parts=parts)
+
+    def with_parts(self) -> tuple[Steps, np.ndarray]:
+        """All steps with the parts of those that were divided; and the places (s,) of the whole steps among them."""
+        if not self.parts:
+            return self, np.arange(len(self))
+        passed, whole = [], []
+        for place in range(len(self)):
+            # The first step's own parts lie before it.
+            passed += (self.parts.get(place) if place else None) or [self.record(place)]
+            whole.append(len(passed) - 1)
+        return Steps.of(passed), np.array(whole)
+
+    @property
+    def records(self) -> list[Record]:
+        """The steps one by one."""
+        return [self.record(place) for place in range(len(self))]
+
+    @property
+    def kinds(self) -> int:
+        """Forces of a contact node: 2 with friction, else 1."""
+        return 2 if len(self.forces) > len(self.status) else 1
+
+    @cached_property
+    def starts(self) -> np.ndarray:
+        """Where the contact nodes of each step begin, and where they end (s + 1,)."""
+        return np.concatenate(([0], np.cumsum(self.table[:, NODES])))
+
+    @cached_property
+    def table(self) -> np.ndarray:
+        """What compiled code needs of each step's contact operator (s, 10), by the names of `contact.mesh_cycle`: sizes and addresses."""
+        return np.array([position.in_memory[0] for position in self.positions], dtype=np.int64).reshape(len(self), -1)
+
+    def _slices(self, place: int) -> tuple[slice, slice]:
+        first, end = int(self.starts[place]), int(self.starts[place + 1])
+        return slice(first, end), slice(self.kinds * first, self.kinds * end)
+
+
+def smallest_openings(steps: Steps) -> np.ndarray:
+    """Distance (s, 2), mm, of the drive and of the coast flanks at the contact node nearest to contact; infinite where there is no such node."""
+    return _openings(steps.table, steps.starts, steps.kinds, steps.displacement)
+
+
+def drive_flanks_touch(steps: Steps) -> np.ndarray:
+    """Whether any node on the drive flanks is closed (s,)."""
+    return _touching(steps.table, steps.starts, steps.status)
+
+
+@njit(cache=True)
+def _openings(table, starts, kinds, displacement):
+    found = np.full((len(table), 2), np.inf)
+    for s in range(len(table)):
+        first, n = starts[s], starts[s + 1] - starts[s]
+        gap, drive = vector_at(table[s, GAP], n), flags_at(table[s, ON_DRIVE_FLANKS], n)
+        for node in range(n):
+            side = DRIVE if drive[node] else COAST
+            found[s, side] = min(found[s, side], gap[node] - displacement[kinds * first + node])
+    return found
+
+
+@njit(cache=True)
+def _touching(table, starts, status):
+    found = np.zeros(len(table), dtype=np.bool_)
+    for s in range(len(table)):
+        drive = flags_at(table[s, ON_DRIVE_FLANKS], starts[s + 1] - starts[s])
+        for node in range(len(drive)):
+            found[s] |= drive[node] and status[starts[s] + node] != OPEN
+    return found
