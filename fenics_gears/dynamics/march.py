@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -156,7 +155,7 @@ class Marcher:
             take(Steps.of([last]))
             blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
             for first, end in self._blocks(steps):
-                last = blocks(last, range(first, end), take, functools.partial(report, steps=steps))
+                last = blocks(last, range(first, end), take, lambda step: report(step, steps))
         except KeyboardInterrupt:
             march.interrupted = True
         except ContactNotConverged as failure:

@@ -27,6 +27,7 @@ from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import MOST_HALVINGS, EquationsOfMotion, Marcher
+from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.drivetrain import drivetrain
 
 # method: (seed, nodes, friction, free)
@@ -241,7 +242,7 @@ def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair,
     for march, marcher, steps in zip(records, (halves, whole), (20, 40)):
         for step in range(1, steps + 1):
             march.append(marcher.step(marcher.dynamic, march[-1], step))
-    divided, exact = (account(shafts, SteadyClock(step), march, np.zeros(len(march))) for march, step in zip(records, (1e-4, 5e-5)))
+    divided, exact = (account(shafts, SteadyClock(step), Steps.of(march), np.zeros(len(march))) for march, step in zip(records, (1e-4, 5e-5)))
     for name in ("rotation", "load", "damping", "friction", "changes"):
         expected = getattr(exact, name)[::2]
         assert getattr(divided, name) == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(exact.load).max()), name

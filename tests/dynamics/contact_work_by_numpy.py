@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.dynamics.contact_work import ContactWork
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.steps import Record
 
 
 def contact_work(last: Record, record: Record) -> ContactWork:

@@ -17,6 +17,7 @@ from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
+from fenics_gears.dynamics.steps import Steps
 from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.effects.speed_ramp import SpeedRamp
@@ -223,7 +224,8 @@ def test_the_energy_account_closes_over_divided_steps(paper_scene, paper_pair, s
     for step in range(1, 101):
         records.append(marcher._divided(marcher.scheme(step), records[-1], step, None, 1))
     assert all(len(record.parts) == 2 for record in records[1:])
-    work = account(shafts, clock, records, energy_variables(paper_scene, shafts, records)["energy"], loads)
+    steps = Steps.of(records)
+    work = account(shafts, clock, steps, energy_variables(paper_scene, shafts, steps)["energy"], loads)
     assert np.abs(work.defect).max() <= 1e-9 * np.abs(np.diff(work.load)).sum()
 
 

@@ -10,7 +10,8 @@ from tests.dynamics.contact_work_by_numpy import contact_work as by_numpy
 
 from fenics_gears import results
 from fenics_gears.dynamics.contact_work import contact_work
-from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.march import LONGEST_BLOCK, Marcher
+from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
@@ -18,7 +19,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.pairs import contact_times, lives
-from fenics_gears.results.recorder import AT_ONCE, Recorder
+from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion, Output
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
@@ -35,7 +36,7 @@ def marched(paper_scene):
     recorder = Recorder(model, cycle)
     marcher = Marcher(cycle, model.equations_of_motion)
     march = marcher.run(model.steps, model.steps + 1, observe=recorder.take)
-    assert model.steps > AT_ONCE
+    assert model.steps > LONGEST_BLOCK
     return model, cycle, march.records, results.dataset(recorder, march)
 
 
@@ -102,8 +103,9 @@ def test_a_file_of_before_slots_is_read_as_one_of_now(marched, tmp_path):
 def test_the_account_goes_on_from_block_to_block(marched):
     """Identity: energies and works gathered while marching are those of all records at once, and nothing is left but round-off."""
     model, cycle, records, result = marched
-    energies = energy_variables(model.scene, model.drivetrain, list(records))
-    works = work_variables(model.scene, cycle, model.drivetrain, model.clock, model.loads, list(records), energies["energy"])
+    steps = Steps.of(records)
+    energies = energy_variables(model.scene, model.drivetrain, steps)
+    works = work_variables(model.scene, cycle, model.drivetrain, model.clock, model.loads, steps, energies["energy"])
     for name, values in (energies | works).items():
         np.testing.assert_allclose(result[name].values, values, rtol=1e-9, atol=1e-9 * np.abs(result["work_input"].values).max())
     assert np.abs(result["energy_defect"].values).max() <= 1e-10 * np.abs(result["work_input"].values).max()
@@ -111,12 +113,12 @@ def test_the_account_goes_on_from_block_to_block(marched):
 
 def test_compiled_contact_work_is_that_of_whole_arrays(marched):
     """Brute force: rotation, friction and changes of every step against the same splitting by whole arrays."""
-    records = list(marched[2])
-    for last, record in zip(records, records[1:]):
-        one, other = contact_work(last, record), by_numpy(last, record)
+    records = marched[2]
+    works = contact_work(Steps.of(records))
+    for step, other in enumerate(by_numpy(*ends) for ends in zip(records, records[1:])):
         scale = abs(other.rotation) + abs(other.friction) + 1e-6
         for name in ("rotation", "friction", "changes"):
-            assert getattr(one, name) == pytest.approx(getattr(other, name), abs=1e-10 * scale)
+            assert getattr(works, name)[step] == pytest.approx(getattr(other, name), abs=1e-10 * scale)
 
 
 @pytest.mark.parametrize("coast", [False, True])
