@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
@@ -36,22 +37,19 @@ class AverageAcceleration:
         self.step = step
         self.inert = drivetrain.mass is not None
         self.stiffness = drivetrain.stiffness
-        self._load = drivetrain.load
         if not self.inert:
             return
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
-        self.stiffness = drivetrain.stiffness + 4.0 / step**2 * mass + 2.0 / step * damping
-        # F + M (4/dt^2 x + 4/dt x' + x'') + D (2/dt x + x') as one product with the stacked state.
-        self._history = np.hstack(
-            [4.0 / step**2 * mass + 2.0 / step * damping, 4.0 / step * mass + damping, mass]
-        )
+        # What position, velocity and acceleration at the start of the step add to the load.
+        self._history = np.array([4.0 / step**2 * mass + 2.0 / step * damping, 4.0 / step * mass + damping, mass])
+        self.stiffness = drivetrain.stiffness + self._history[0]
 
-    def load(self, state: State) -> np.ndarray:
-        """Right-hand side (k,), N, of the step that starts from `state`."""
+    def load(self, state: State, outer: np.ndarray) -> np.ndarray:
+        """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""
         if not self.inert:
-            return self._load
-        return self._load + self._history @ np.concatenate((state.position, state.velocity, state.acceleration))
+            return outer
+        return with_history(outer, self._history, np.array([state.position, state.velocity, state.acceleration]))
 
     def advance(self, state: State, position: np.ndarray) -> State:
         """The state at the end of the step, from its position (k,), mm."""
@@ -63,3 +61,14 @@ class AverageAcceleration:
             change - state.velocity,
             2.0 / self.step * (change - 2.0 * state.velocity) - state.acceleration,
         )
+
+
+@njit(cache=True)
+def with_history(load, history, states):
+    """A load (k,) with what the states (3, k) at the start of a step add, by matrices `history` (3, k, k)."""
+    result = load.copy()
+    for kind in range(len(history)):
+        for i in range(len(load)):
+            for j in range(len(load)):
+                result[i] += history[kind, i, j] * states[kind, j]
+    return result

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.dynamics.average_acceleration import State
+from fenics_gears.dynamics.average_acceleration import State, with_history
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
 
@@ -30,14 +30,13 @@ class BackwardEuler:
         self.step = step
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
-        self.stiffness = drivetrain.stiffness + mass / step**2 + damping / step
-        self._load = drivetrain.load
-        # M (x/dt^2 + x'/dt) + D x/dt as one product with the stacked state.
-        self._history = np.hstack([mass / step**2 + damping / step, mass / step])
+        # What position, velocity and acceleration at the start of the step add to the load.
+        self._history = np.array([mass / step**2 + damping / step, mass / step, np.zeros_like(mass)])
+        self.stiffness = drivetrain.stiffness + self._history[0]
 
-    def load(self, state: State) -> np.ndarray:
-        """Right-hand side (k,), N, of the step that starts from `state`."""
-        return self._load + self._history @ np.concatenate((state.position, state.velocity))
+    def load(self, state: State, outer: np.ndarray) -> np.ndarray:
+        """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""
+        return with_history(outer, self._history, np.array([state.position, state.velocity, state.acceleration]))
 
     def advance(self, state: State, position: np.ndarray) -> State:
         """The state at the end of the step, from its position (k,), mm."""

@@ -14,6 +14,7 @@ from fenics_gears.contact.addresses import integers_at, matrix_at, vector_at
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mesh_cycle import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, newton
+from fenics_gears.dynamics.average_acceleration import with_history
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps
 
@@ -75,17 +76,18 @@ def _solve_steps(
         if durations[s] != duration and method != STATIC:
             duration = durations[s]
             effective = _matrices_of_step(method, duration, stiffness, mass, damping, history)
-        load = loads[s].copy()
-        if method != STATIC:
-            for kind in range(3):
-                _add_product(load, history[kind], states[s - 1, kind])
+        load = loads[s] if method == STATIC else with_history(loads[s], history, states[s - 1])
         now = slice(kinds * starts[s], kinds * starts[s + 1])
         nodes = status[starts[s] : starts[s + 1]]
         _carry(nodes, status[starts[s - 1] : starts[s]], table[s, CARRIED])
-        slip_before = _slip_before(
-            table[s], len(nodes), kinds, states[s - 1, POSITION], forces[kinds * starts[s - 1] : kinds * starts[s]]
-        )
         n, k = len(nodes), len(load)
+        slip_before = np.empty(0)
+        if table[s, RIGID_SLIP] != 0:
+            before = forces[kinds * starts[s - 1] : kinds * starts[s]]
+            slip_before = slip_at_start(
+                vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k),
+                matrix_at(table[s, PREVIOUS_COMPLIANCE], n, len(before)), states[s - 1, POSITION], before,
+            )  # fmt: skip
         residuals, sets = np.empty((MAX_ITERATIONS, 5)), np.empty((MAX_ITERATIONS, n), dtype=np.int8)
         outcome, count, found, coordinates, moved = newton(
             effective, load, matrix_at(table[s, COMPLIANCE], kinds * n, kinds * n), matrix_at(table[s, JACOBIAN], kinds * n, k),
@@ -113,13 +115,6 @@ def _matrices_of_step(method, duration, stiffness, mass, damping, history):
 
 
 @njit(cache=True)
-def _add_product(result, matrix, vector):
-    for i in range(len(result)):
-        for j in range(len(vector)):
-            result[i] += matrix[i, j] * vector[j]
-
-
-@njit(cache=True)
 def _carry(status, before, carried_address):
     """Begin with the sets of the step before; nodes that are new are open."""
     carried = integers_at(carried_address, len(status))
@@ -128,19 +123,18 @@ def _carry(status, before, carried_address):
 
 
 @njit(cache=True)
-def _slip_before(row, n, kinds, position, forces):
-    """w_old of [25] (n,): rigid slip less the tangential displacement that the same material points had; empty without friction."""
-    if row[RIGID_SLIP] == 0:
-        return np.empty(0)
-    slip = vector_at(row[RIGID_SLIP], n).copy()
-    jacobian, compliance = matrix_at(row[PREVIOUS_JACOBIAN], n, len(position)), matrix_at(row[PREVIOUS_COMPLIANCE], n, len(forces))
-    loaded = np.flatnonzero(forces)
-    for node in range(n):
+def slip_at_start(rigid_slip, previous_jacobian, previous_compliance, position, forces):
+    """w_old of [25] (n,), mm: rigid slip less the tangential displacement that the same material points had a step before.
+
+    Arrays as of ContactOperator; `position` (k,) and `forces` of the step before.
+    """
+    slip, loaded = rigid_slip.copy(), np.flatnonzero(forces)
+    for node in range(len(slip)):
         displaced = 0.0
         for c in range(len(position)):
-            displaced += jacobian[node, c] * position[c]
+            displaced += previous_jacobian[node, c] * position[c]
         for column in loaded:
-            displaced -= compliance[node, column] * forces[column]
+            displaced -= previous_compliance[node, column] * forces[column]
         slip[node] -= displaced
     return slip
 

@@ -21,7 +21,7 @@ from fenics_gears.contact.step_solver import HALVED, METHODS, NEWTON, StepProble
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.clock import Clock, SteadyClock
-from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, STATIC, Motion, solve_steps
+from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, STATIC, Motion, slip_at_start, solve_steps
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Record, Steps, drive_flanks_touch, smallest_openings
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales
@@ -309,10 +309,9 @@ class Marcher:
         operator = position.operator
         slip_before = NO_SLIP
         if operator.rigid_slip is not None:
-            # w_old of [25]: rigid slip less the tangential displacement that the same material points had.
-            displaced = operator.previous_jacobian @ last.state.position
-            displaced -= operator.previous_compliance @ last.solution.forces
-            slip_before = operator.rigid_slip - displaced
+            # Rigid flanks have no compliance: zeros that are no array in one piece.
+            compliance = np.ascontiguousarray(operator.previous_compliance)
+            slip_before = slip_at_start(operator.rigid_slip, operator.previous_jacobian, compliance, last.state.position, last.solution.forces)
         carried = position.carried_from
         status = np.zeros(operator.nodes, dtype=np.int8)
         known = carried >= 0
@@ -338,7 +337,7 @@ class Marcher:
 
     def _solve(self, scheme, state: State, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
         """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there is one."""
-        operator, load = position.operator, sum((load(step) for load in self.loads), scheme.load(state))
+        operator, load = position.operator, scheme.load(state, self.load(step))
         problem = StepProblem(
             scheme.stiffness, load, operator.compliance, operator.jacobian, operator.gap, slip_before,
             self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words,

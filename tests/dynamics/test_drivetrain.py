@@ -45,7 +45,7 @@ def test_load_history_is_the_papers(paper_scene, paper_pair):
     shafts, step = drivetrain(scene, paper_pair), 5e-5
     rng = np.random.default_rng(0)
     state = State(*rng.normal(size=(3, 7)))
-    load = AverageAcceleration(shafts, step).load(state)
+    load = AverageAcceleration(shafts, step).load(state, shafts.load)
     history = 4 * state.position / step**2 + 4 * state.velocity / step + state.acceleration
     assert load[:2] == pytest.approx(scene.inertia.mass * history[:2], rel=1e-12)
     inertia = scene.inertia.moment_of_inertia / paper_pair.pinion.base_radius**2

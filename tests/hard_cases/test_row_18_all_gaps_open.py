@@ -65,7 +65,7 @@ def test_free_flight_of_the_whole_drivetrain(paper_scene, paper_pair, stand_in_f
     state, worst, scheme = record.state, 0.0, marcher.dynamic
     for step in range(1, 101):
         record = marcher.step(scheme, record, step)
-        state = scheme.advance(state, np.linalg.solve(scheme.stiffness, scheme.load(state)))
+        state = scheme.advance(state, np.linalg.solve(scheme.stiffness, scheme.load(state, shafts.load)))
         assert np.all(record.solution.forces == 0.0)
         worst = max(worst, float(np.abs(record.state.position - state.position).max() / np.abs(state.position).max()))
     measured("flight of the whole drivetrain against that without gears, 100 steps", worst, "1e-11")
