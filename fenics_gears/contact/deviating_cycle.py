@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -50,4 +49,4 @@ class DeviatingCycle(Cycle):
         gap = position.operator.gap
         for deviation in self.deviations:
             gap = gap + deviation(step, position)
-        return replace(position, operator=replace(position.operator, gap=gap))
+        return position.with_gap(gap)

@@ -46,6 +46,15 @@ class Position:
         ])  # fmt: skip
         return np.array([operator.nodes, *found], dtype=np.int64), held
 
+    def with_gap(self, gap: np.ndarray) -> Position:
+        """The same position with other gaps (n,), mm; what is known of it already is not found again."""
+        operator, (row, held) = replace(self.operator, gap=gap), self.in_memory
+        operator.__dict__.update(node_pair=self.operator.node_pair, on_drive_flanks=self.operator.on_drive_flanks)
+        changed, row = replace(self, operator=operator), row.copy()
+        row[GAP] = gap.ctypes.data
+        changed.__dict__["in_memory"] = row, [*held, gap]
+        return changed
+
 
 # The reach of teeth, the size of a result and the cycle itself all ask for the same places.
 @lru_cache(maxsize=4096)

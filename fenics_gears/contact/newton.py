@@ -21,6 +21,8 @@ from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
 ROUND_OFF = 1e-12
+# Unknowns up to which elimination in compiled code is faster than LAPACK.
+SMALL_SYSTEM = 40
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the first
 # node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a P-matrix
 # (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
@@ -76,7 +78,7 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
         right_side[size + c] = load[c]
-    solution = np.linalg.solve(matrix, right_side)
+    solution = _solved(matrix, right_side)
     forces[:] = 0.0
     for a in range(n_closed):
         node = closed[a]
@@ -86,6 +88,36 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
     for a in range(n_stick):
         forces[n + stick[a]] = solution[n_closed + a] * unit
     coordinates[:] = solution[size:]
+
+
+@njit(cache=True)
+def _solved(matrix, right_side):
+    """Solution of a linear system, in place of both; small ones without LAPACK, whose call costs more than they do."""
+    size = len(right_side)
+    if size > SMALL_SYSTEM:
+        return np.linalg.solve(matrix, right_side)
+    for column in range(size):
+        pivot, largest = column, abs(matrix[column, column])
+        for row in range(column + 1, size):
+            if abs(matrix[row, column]) > largest:
+                pivot, largest = row, abs(matrix[row, column])
+        if largest == 0.0:
+            raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
+        if pivot != column:
+            for other in range(column, size):
+                matrix[column, other], matrix[pivot, other] = matrix[pivot, other], matrix[column, other]
+            right_side[column], right_side[pivot] = right_side[pivot], right_side[column]
+        for row in range(column + 1, size):
+            factor = matrix[row, column] / matrix[column, column]
+            if factor != 0.0:
+                for other in range(column + 1, size):
+                    matrix[row, other] -= factor * matrix[column, other]
+                right_side[row] -= factor * right_side[column]
+    for column in range(size - 1, -1, -1):
+        for other in range(column + 1, size):
+            right_side[column] -= matrix[column, other] * right_side[other]
+        right_side[column] /= matrix[column, column]
+    return right_side
 
 
 @njit(cache=True)
@@ -171,16 +203,18 @@ def measure(residual, stiffness, load, compliance, jacobian, gap, slip_before, f
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
             elif status[j] != OPEN and forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible:
                 residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
+    balance, terms = -load, np.abs(load)
     for c in range(len(load)):
-        balance, terms = -load[c], abs(load[c])
         for d in range(len(load)):
-            balance += stiffness[c, d] * coordinates[d]
-            terms += abs(stiffness[c, d] * coordinates[d])
-        for i in range(len(forces)):
-            if forces[i] != 0.0:
-                balance += jacobian[i, c] * forces[i]
-                terms += abs(jacobian[i, c] * forces[i])
-        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance) - ROUND_OFF * terms)
+            balance[c] += stiffness[c, d] * coordinates[d]
+            terms[c] += abs(stiffness[c, d] * coordinates[d])
+    for i in range(len(forces)):
+        if forces[i] != 0.0:
+            for c in range(len(load)):
+                balance[c] += jacobian[i, c] * forces[i]
+                terms[c] += abs(jacobian[i, c] * forces[i])
+    for c in range(len(load)):
+        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance[c]) - ROUND_OFF * terms[c])
 
 
 @njit(cache=True)
@@ -212,6 +246,14 @@ def first_node(gap, displacement, jacobian, free_motion):
         if approach > 0.0 and (gap[j] - displacement[j]) / approach < distance:
             first, distance = j, (gap[j] - displacement[j]) / approach
     return first if first >= 0 else np.argmax(displacement[: len(gap)] - gap)
+
+
+@njit(cache=True)
+def _same(one, other):
+    for j in range(len(one)):
+        if one[j] != other[j]:
+            return False
+    return True
 
 
 @njit(cache=True)
@@ -247,7 +289,7 @@ def newton(
             changed = np.any(new != status)
         repeated = not changed
         for earlier in range(iteration + 1):
-            repeated = repeated or np.all(sets[earlier] == new)
+            repeated = repeated or _same(sets[earlier], new)
         if repeated:
             outcome = CYCLED if changed else SINGULAR
             if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):

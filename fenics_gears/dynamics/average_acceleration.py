@@ -42,7 +42,7 @@ class AverageAcceleration:
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
         # What position, velocity and acceleration at the start of the step add to the load.
-        self._history = np.array([4.0 / step**2 * mass + 2.0 / step * damping, 4.0 / step * mass + damping, mass])
+        self._history = np.array([4.0 / (step * step) * mass + 2.0 / step * damping, 4.0 / step * mass + damping, mass])
         self.stiffness = drivetrain.stiffness + self._history[0]
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:

@@ -31,7 +31,7 @@ class BackwardEuler:
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
         # What position, velocity and acceleration at the start of the step add to the load.
-        self._history = np.array([mass / step**2 + damping / step, mass / step, np.zeros_like(mass)])
+        self._history = np.array([mass / (step * step) + damping / step, mass / step, np.zeros_like(mass)])
         self.stiffness = drivetrain.stiffness + self._history[0]
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:

@@ -105,11 +105,11 @@ def _solve_steps(
 def _matrices_of_step(method, duration, stiffness, mass, damping, history):
     """The effective stiffness of a step; and, in place, what position, velocity and acceleration at its start add to the load."""
     if method == AVERAGE_ACCELERATION:
-        history[POSITION] = 4.0 / duration**2 * mass + 2.0 / duration * damping
+        history[POSITION] = 4.0 / (duration * duration) * mass + 2.0 / duration * damping
         history[VELOCITY] = 4.0 / duration * mass + damping
         history[ACCELERATION] = mass
     else:
-        history[POSITION] = mass / duration**2 + damping / duration
+        history[POSITION] = mass / (duration * duration) + damping / duration
         history[VELOCITY] = mass / duration
     return stiffness + history[POSITION]
 

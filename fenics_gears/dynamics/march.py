@@ -38,7 +38,7 @@ VaryingLoad = Callable[[float], np.ndarray]
 # A step is divided in two at most this often: the shortest part is 1/64 of a step.
 MOST_HALVINGS = 6
 # Steps are handed on in blocks of at most so many.
-LONGEST_BLOCK = 128
+LONGEST_BLOCK = 512
 
 
 @dataclass(frozen=True)

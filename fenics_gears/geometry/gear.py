@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, pi, sin, tan
 
 import numpy as np
@@ -35,7 +36,7 @@ class Gear:
         """Radius (mm) of the circle that rolls on the generating rack."""
         return 0.5 * self.teeth * self.module
 
-    @property
+    @cached_property
     def base_radius(self) -> float:
         """Radius (mm) of the circle whose involute the flank is."""
         return self.reference_radius * cos(self.pressure_angle)
@@ -60,7 +61,7 @@ class Gear:
         """Distance (mm) between neighbouring flanks along the line of action."""
         return self.angular_pitch * self.base_radius
 
-    @property
+    @cached_property
     def tooth_half_angle_at_base(self) -> float:
         """Angle (rad) at the gear's centre between the tooth's centreline and the start of its involute."""
         shift = 2.0 * self.profile_shift * tan(self.pressure_angle)
@@ -92,7 +93,7 @@ class Gear:
         half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
         return half_tip_land * cos(self.pressure_angle) / (1.0 - sin(self.pressure_angle))
 
-    @property
+    @cached_property
     def form_roll_angle(self) -> float:
         """Roll angle (rad) where the fillet ends and the involute begins; negative means undercut.
 
@@ -117,7 +118,7 @@ class Gear:
             )
         return self.radius(roll)
 
-    @property
+    @cached_property
     def tip_roll_angle(self) -> float:
         """Roll angle (rad) at the tip circle."""
         return float(self.roll_angle(self.tip_radius))

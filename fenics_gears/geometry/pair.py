@@ -7,6 +7,7 @@ drives, so that contact runs from the wheel's tip (path_start) to the pinion's t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import acos, floor, sqrt, tan
 
 from fenics_gears.geometry.gear import Gear
@@ -41,17 +42,17 @@ class GearPair:
         """Teeth of the pinion over teeth of the wheel: rotation of the wheel over that of the pinion, without its sign."""
         return self.pinion.teeth / self.wheel.teeth
 
-    @property
+    @cached_property
     def base_pitch(self) -> float:
         """Distance (mm) between neighbouring tooth pairs along the line of action."""
         return self.pinion.base_pitch
 
-    @property
+    @cached_property
     def operating_pressure_angle(self) -> float:
         """Angle (rad) between the line of action and the perpendicular to the line of centres."""
         return acos((self.pinion.base_radius + self.wheel.base_radius) / self.centre_distance)
 
-    @property
+    @cached_property
     def line_of_action_length(self) -> float:
         """Distance (mm) from T1 to T2, where the line of action touches the base circles."""
         return sqrt(self.centre_distance**2 - (self.pinion.base_radius + self.wheel.base_radius) ** 2)
@@ -66,17 +67,17 @@ class GearPair:
         """Distance (mm) from T2 to the pitch point, ``e`` of the paper."""
         return self.line_of_action_length - self.pitch_point
 
-    @property
+    @cached_property
     def path_start(self) -> float:
         """Position (mm) where contact begins, at the wheel's tip."""
         return self.line_of_action_length - self.wheel.base_radius * self.wheel.tip_roll_angle
 
-    @property
+    @cached_property
     def path_end(self) -> float:
         """Position (mm) where contact ends, at the pinion's tip."""
         return self.pinion.base_radius * self.pinion.tip_roll_angle
 
-    @property
+    @cached_property
     def contact_ratio(self) -> float:
         """Length of the path of contact in base pitches."""
         return (self.path_end - self.path_start) / self.base_pitch

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
+from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
@@ -17,10 +18,10 @@ Values = dict[str, np.ndarray]
 def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of the whole mesh at consecutive steps, on drive and on coast flanks, and their reactions on both gears' centres."""
     steps, drive = nodes.steps, nodes.drive
-    reactions = [nodes.summed(normal) for normal in nodes.of("rows_of_normals") * nodes.normal]
+    reactions = _summed(nodes.of("rows_of_normals"), nodes.normal, nodes.layouts.starts)
     if nodes.tangential is not None:
-        reactions = np.add(reactions, [nodes.summed(tangential) for tangential in nodes.of("rows_of_tangents") * nodes.tangential])
-    reaction_x, reaction_y, reaction_couple = np.reshape(reactions, (2, 3, len(steps))).transpose(1, 2, 0)
+        reactions += _summed(nodes.of("rows_of_tangents"), nodes.tangential, nodes.layouts.starts)
+    reaction_x, reaction_y, reaction_couple = reactions.reshape(2, 3, len(steps)).transpose(1, 2, 0)
     values = {
         "normal_force": nodes.summed(nodes.normal * drive),
         "reaction_x": reaction_x,
@@ -38,6 +39,17 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
         for name, flank in (("drive_flank_opening", DRIVE), ("coast_flank_opening", COAST)):
             values[name] = np.maximum(smallest_openings(steps)[:, flank], 0.0)
     return values
+
+
+@njit(cache=True)
+def _summed(rows, forces, starts):
+    """Sums (rows, s) of rows (rows, N) times forces (N,) over the nodes of each step."""
+    sums = np.zeros((len(rows), len(starts) - 1))
+    for row in range(len(rows)):
+        for s in range(len(starts) - 1):
+            for node in range(starts[s], starts[s + 1]):
+                sums[row, s] += rows[row, node] * forces[node]
+    return sums
 
 
 def largest_normal_force(result: xr.Dataset) -> float:

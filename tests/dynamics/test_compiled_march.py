@@ -1,0 +1,98 @@
+"""The compiled march against the plain one, step by step in Python: the same numbers to the last bit, the same methods and counts."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.hard_cases.random_scenes import valid_scenes
+from tests.hard_cases.test_any_scene import on_stand_ins
+
+from fenics_gears import load_scene
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.friction import Friction
+from fenics_gears.effects.speed_ramp import SpeedRamp
+from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.results import dataset
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.scene.data import Motion
+from fenics_gears.simulation.elastic_route import mesh_cycle
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.system.progress import SilentProgress
+
+DEMOS = sorted(path for path in (Path(__file__).parents[2] / "demos").rglob("*.toml") if "[gears" in path.read_text(encoding="utf-8"))
+SCENES = {
+    "friction": lambda scene: scene,
+    "quasi-static": lambda scene: frictionless(quasi_static(scene)),
+    "coast flanks, undamped, from contact to contact": lambda scene: replace(scene, coast_flanks=CoastFlanks(), damping=None, motion=Motion(150.0, 6, 1)),
+    "backward Euler": lambda scene: replace(scene, motion=Motion(2e5, 3, 1)),
+    "steps that change": lambda scene: replace(scene, speed_ramp=SpeedRamp(250.0), motion=Motion(150.0, 4, 1)),
+    "friction beyond Newton": lambda scene: replace(quasi_static(scene), friction=Friction(1.2)),
+    "springs": lambda scene: replace(scene, accuracy=replace(COARSE, model="ISO 6336-1")),
+}
+
+
+def marched(model: Model, cycle, plain: bool):
+    """The march, its result and the words of its failure, if it failed."""
+    recorder = Recorder(model, cycle)
+    try:
+        march, failure = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, 1, observe=recorder.take), ""
+    except ContactNotConverged as failed:
+        march, failure = failed.partial, str(failed)
+    return march, dataset(recorder, march), failure
+
+
+def assert_the_same(model: Model, cycle) -> set[str]:
+    """Compare both marches; returns the methods that solved steps."""
+    (one, fast, failed), (other, slow, failed_too) = (marched(model, cycle, plain) for plain in (False, True))
+    assert (one.steps, one.steps_by_method, one.newton_iterations) == (other.steps, other.steps_by_method, other.newton_iterations)
+    assert (one.separations, one.locked, failed) == (other.separations, other.locked, failed_too)
+    for name, variable in fast.variables.items():
+        np.testing.assert_array_equal(variable.values, slow.variables[name].values, name)
+    return {method for method, count in one.steps_by_method.items() if count}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_scenes(paper_scene, name):
+    """Two routes to the same number: every effect that changes the equations of a step."""
+    model = model_of(SCENES[name](coarse_scene(paper_scene)))
+    _, cycle = prepared(model, SilentProgress(), user_cache())
+    assert not cycle.traits.own_solver
+    methods = assert_the_same(model, cycle)
+    assert len(methods) > 1 if "beyond" in name else methods
+
+
+def random_scene_is_the_same(scene):
+    """Both marches of a scene on stand-in gears."""
+    model = model_of(scene)
+    assert_the_same(model, mesh_cycle(model, on_stand_ins(model)))
+
+
+@settings(max_examples=8, deadline=None, derandomize=True)
+@given(valid_scenes().filter(lambda scene: scene.tooth_elasticity is not None))
+def test_random_scenes(scene):
+    """Two routes to the same number, whatever the scene."""
+    random_scene_is_the_same(scene)
+
+
+@pytest.mark.nightly
+@settings(max_examples=200, deadline=None)
+@given(valid_scenes().filter(lambda scene: scene.tooth_elasticity is not None))
+def test_many_random_scenes(scene):
+    """Two routes to the same number, whatever the scene."""
+    random_scene_is_the_same(scene)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("path", DEMOS, ids=lambda path: path.stem)
+def test_demos(path):
+    """Two routes to the same number, on every scene of the demonstrations that is not a study."""
+    model = model_of(load_scene(path))
+    _, cycle = prepared(model, SilentProgress(), user_cache())
+    if not cycle.traits.own_solver:
+        assert_the_same(model, cycle)
