@@ -19,11 +19,29 @@ GAUSS_WEIGHTS = 0.5 * GAUSS_WEIGHTS
 
 @dataclass(frozen=True)
 class FlankInterpolation:
-    """Row `j` of `weights` takes flank dof nodes `first[j]:last[j]` to the average over hat `j`; (n, nodes of flank)."""
+    """Row `j` of `near` takes flank dof nodes `first[j]:last[j]` to the average over hat `j`, from its first column on; `flank_nodes` of the flank."""
 
-    weights: np.ndarray
+    near: np.ndarray
     first: np.ndarray
     last: np.ndarray
+    flank_nodes: int
+
+    @classmethod
+    def of(cls, weights: np.ndarray, first: np.ndarray, last: np.ndarray) -> FlankInterpolation:
+        """From weights (n, nodes of flank) that are zero but for the nodes `first[j]:last[j]` of each row."""
+        # A node sees a few flank nodes: whole rows would take several times what the compliance between contact nodes does.
+        columns = np.arange(max(np.max(last - first, initial=0), 1))
+        inside = columns < (last - first)[:, None]
+        near = np.where(inside, np.take_along_axis(weights, np.where(inside, first[:, None] + columns, 0), axis=1), 0.0)
+        return cls(near, first, last, weights.shape[1])
+
+    @property
+    def weights(self) -> np.ndarray:
+        """Weights of all of the flank's nodes (n, nodes of flank)."""
+        whole = np.zeros((len(self.near), self.flank_nodes))
+        for row, near, first, last in zip(whole, self.near, self.first, self.last):
+            row[first:last] = near[: last - first]
+        return whole
 
 
 def hat_integrals(offsets: np.ndarray) -> np.ndarray:
@@ -113,7 +131,7 @@ def flank_interpolation(
 ) -> FlankInterpolation:
     """Hat-averaged trace of the flank's elements for contact nodes at `offsets` (n,), mm, roll angles `rolls` (n,), rad."""
     vertex_arc = 0.5 * base_radius * flank_rolls[::element_order] ** 2
-    return FlankInterpolation(
+    return FlankInterpolation.of(
         *_averaging_weights(
             offsets, rolls, base_radius, contact_roll, sense, vertex_arc, element_order, GAUSS_POINTS, GAUSS_WEIGHTS
         )
@@ -154,7 +172,7 @@ class Points:
         weights = np.zeros((len(rolls), len(flank_rolls)))
         for ahead, shape in enumerate(shapes):
             weights[np.arange(len(rolls)), first + ahead] = shape
-        return FlankInterpolation(weights, first, first + element_order + 1)
+        return FlankInterpolation.of(weights, first, first + element_order + 1)
 
 
 # By their names in a scene.

@@ -164,8 +164,8 @@ class CompliancePairing:
                     n_a, n_b = pair_a.interpolation[gear], pair_b.interpolation[gear]
                     compliance_product(
                         self._block(gear, pair_a, pair_b),
-                        n_a.weights, n_a.first, n_a.last, response_directions(gear, pair_a),
-                        n_b.weights, n_b.first, n_b.last, load_directions(gear, pair_b),
+                        n_a.near, n_a.first, n_a.last, response_directions(gear, pair_a),
+                        n_b.near, n_b.first, n_b.last, load_directions(gear, pair_b),
                         part,
                     )  # fmt: skip
                 result[:, rows[a], :, columns[b]] = part

@@ -29,8 +29,8 @@ def compile_kernels(tangential: bool) -> float:
     directions = np.eye(2)[: 2 if tangential else 1]
     compliance_product(
         np.eye(10),
-        interpolation.weights, interpolation.first, interpolation.last, directions,
-        interpolation.weights, interpolation.first, interpolation.last, directions,
+        interpolation.near, interpolation.first, interpolation.last, directions,
+        interpolation.near, interpolation.first, interpolation.last, directions,
         np.zeros((len(directions), 2, len(directions), 2)),
     )  # fmt: skip
     unknowns = 2 if tangential else 1
