@@ -17,6 +17,7 @@ from fenics_gears.commands import accuracy, cache, check, effects, export, impor
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
+from fenics_gears.system.memory import MEMORY_VARIABLE
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -28,6 +29,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _reported(lambda: tests.run_tests(arguments[1:]))
     options = _parser().parse_args(arguments)
     _configure_logging(options.verbose)
+    if "memory" in options:
+        os.environ[MEMORY_VARIABLE] = options.memory
     return _reported(lambda: options.command(options))
 
 
@@ -65,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     loudness = shared.add_mutually_exclusive_group()
     loudness.add_argument("-v", "--verbose", action="store_true", default=argparse.SUPPRESS, help="say what is being done in detail")
     loudness.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors")
+    shared.add_argument("--memory", metavar="SIZE", default=argparse.SUPPRESS, help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free)')
     parser = argparse.ArgumentParser(
         prog="gears",
         description="Spur gear pairs as flexible multi-body systems with frictional contact.",

@@ -23,6 +23,7 @@ class DeviatingCycle(Cycle):
     def __init__(self, cycle: Cycle, deviations: Sequence[Deviation]):
         super().__init__(cycle.pair, cycle.grid, cycle.steps, cycle.coast_flanks, cycle.corner)
         self.cycle, self.deviations, self.traits = cycle, tuple(deviations), cycle.traits
+        self.kept = cycle.kept
 
     @property
     def bodies(self) -> tuple:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,6 +46,11 @@ class Position:
             operator.rigid_slip, operator.previous_jacobian, operator.previous_compliance,
         ])  # fmt: skip
         return np.array([operator.nodes, *found], dtype=np.int64), held
+
+    @property
+    def bytes(self) -> int:
+        """Size of the arrays of the contact operator."""
+        return sum(array.nbytes for array in self.in_memory[1])
 
     def with_gap(self, gap: np.ndarray) -> Position:
         """The same position with other gaps (n,), mm; what is known of it already is not found again."""
@@ -126,6 +132,21 @@ class CycleTraits:
     own_solver: bool = False
 
 
+@dataclass
+class Kept:
+    """How much memory kept positions may take and take, bytes; those beyond are made again each time the cycle comes round."""
+
+    most: float = inf
+    taken: float = 0.0
+
+    def takes(self, size: float) -> bool:
+        """Whether there is room for this many bytes more, which are then counted."""
+        if self.taken + size > self.most:
+            return False
+        self.taken += size
+        return True
+
+
 class Cycle:
     """Contact equations over one mesh cycle of `steps` positions of a gear pair, each built when it is first asked for.
 
@@ -141,6 +162,7 @@ class Cycle:
         self.pair, self.grid, self.steps, self.coast_flanks, self.corner = pair, grid, steps, coast_flanks, corner
         self._pairs: dict[int, tuple[PairNodes, ...]] = {}
         self._positions: dict[int, Position] = {}
+        self.kept = Kept()
 
     @property
     def bodies(self) -> tuple:
@@ -150,9 +172,13 @@ class Cycle:
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
         index = step % self.steps
-        if index not in self._positions:
-            self._positions[index] = self._build(index, index - 1)
-        return self._positions[index]
+        found = self._positions.get(index)
+        if found is None:
+            found = self._build(index, index - 1)
+            # The first ones stay: marches go round and round, and would find none of the last ones again.
+            if self.kept.takes(found.bytes):
+                self._positions[index] = found
+        return found
 
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not kept.

@@ -140,6 +140,7 @@ class WholeBodyCycle(Cycle):
         flanks = Flanks(self._flanks.pair, compliance, self._flanks.removal)
         pairing = CompliancePairing(flanks, kept=self._blocks)
         made = MeshCycle(flanks, self.grid, self.steps, self._coordinates, self._tangential, self.corner, pairing)
+        made.kept = self.kept
         same_nodes = next((each for each in self._cycles.values() if self._same_nodes(each.flanks.compliance, compliance)), None)
         if same_nodes is not None:
             made.share_pairs(same_nodes)

@@ -39,6 +39,8 @@ VaryingLoad = Callable[[float], np.ndarray]
 MOST_HALVINGS = 6
 # Steps are handed on in blocks of at most so many.
 LONGEST_BLOCK = 512
+# Of the memory that contact operators may take.
+SHARE_OF_A_BLOCK = 0.25
 
 
 @dataclass(frozen=True)
@@ -168,7 +170,9 @@ class Marcher:
     def _blocks(self, steps: int) -> Iterator[tuple[int, int]]:
         """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of one, but at the end."""
         cycle = self.cycle.steps
-        length = cycle * (LONGEST_BLOCK // cycle) or ceil(cycle / ceil(cycle / LONGEST_BLOCK))
+        # Positions of a block are held together, also those that are not kept.
+        longest = int(min(LONGEST_BLOCK, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
+        length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         first = 1
         while first <= steps:
             left_of_cycle = cycle - (first - 1) % cycle

@@ -11,7 +11,6 @@ import io
 import json
 import logging
 import os
-import re
 import tempfile
 import time
 from dataclasses import dataclass
@@ -19,14 +18,13 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.errors import SceneError
+from fenics_gears.system.memory import size_in_bytes
 from fenics_gears.system.sealed import seal, unsealed
 
 LOGGER = logging.getLogger(__name__)
 DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"
 FORMAT = "fenics_gears cache 2"
 SIZE_VARIABLE, DEFAULT_SIZE = "FENICS_GEARS_CACHE_SIZE", "2 GB"
-BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
 # An incomplete file older than this (s) was left by a run that was killed.
 LONGEST_WRITING = 24 * 3600.0
 
@@ -47,17 +45,7 @@ def user_cache() -> Cache:
         from platformdirs import user_cache_dir
 
         directory = user_cache_dir("fenics_gears")
-    return Cache(Path(directory), _bytes(os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE))
-
-
-def _bytes(size: str) -> float:
-    found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*([MGT]B)\s*", size)
-    if not found:
-        raise SceneError(
-            f'{SIZE_VARIABLE} = {size!r} is no size of a cache. Allowed: a number of {", ".join(BYTES)} from 0 MB on, such as "{DEFAULT_SIZE}"; '
-            f"without the variable it is {DEFAULT_SIZE}."
-        )
-    return float(found[1]) * BYTES[found[2]]
+    return Cache(Path(directory), size_in_bytes(os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE, SIZE_VARIABLE, DEFAULT_SIZE))
 
 
 @dataclass(frozen=True)

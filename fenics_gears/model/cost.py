@@ -42,11 +42,15 @@ MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
 
 @dataclass(frozen=True)
 class ExpectedCost:
-    """Seconds of condensing (None where nothing is condensed) and of marching, bytes of memory; unknowns (words, number) of the gears."""
+    """Seconds of condensing (None where nothing is condensed) and of marching; unknowns (words, number) of the gears.
+
+    Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes round.
+    """
 
     condensing: float | None
     marching: float
     memory: float
+    operators: float = 0.0
     unknowns: tuple[tuple[str, float], ...] = ()
 
 
@@ -86,9 +90,9 @@ def expected_cost(model: Model) -> ExpectedCost:
     reach = _expected_reach(model)
     gears = [_condensed(model, name, reach) for name in ("pinion", "wheel")]
     cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
-    condensing, marching, memory = cost(model, gears)
+    condensing, marching, held, operators = cost(model, gears)
     unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
-    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + model.stored_bytes + memory, unknowns)
+    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + model.stored_bytes + held + operators, operators, unknowns)
 
 
 @dataclass(frozen=True)
@@ -146,22 +150,22 @@ def _marching(model: Model, rows: float) -> float:
     return _positions(model) * (PAIR * pairs + NODES_SQUARE * nodes**2) + model.steps * (step + ROWS_SQUARE * rows**2)
 
 
-def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float]:
-    """Seconds of condensing and of marching, bytes."""
+def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:
+    """Seconds of condensing and of marching, bytes that are held all the time and those of the contact operators."""
     rows = contact_rows(model)
     condensing = sum(
         GEAR + UNKNOWN * gear.unknowns + gear.inverses * FLANK_CUBE * gear.flank_dofs**3 + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
     held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
-    return condensing, _marching(model, rows), operator_bytes(_positions(model), rows, model.scene.friction is not None) + held
+    return condensing, _marching(model, rows), held, operator_bytes(_positions(model), rows, model.scene.friction is not None)
 
 
-def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float]:
+def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:
     """The same where every loaded sector is meshed anew at every position."""
     order = 2 if model.resolution.element.endswith("2") else 1
     positions, nodes, pairs = model.resolution.steps_per_mesh_cycle, model.resolution.contact_grid.nodes, loaded_pairs(model)
     rows = 2.0 * pairs * (order * (nodes - 1) + 1)
     condensing = positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears)
     marching = model.steps * (5.0 * STEP + ROW_CUBE * rows**3)
-    return condensing, marching, BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2
+    return condensing, marching, BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2, 0.0

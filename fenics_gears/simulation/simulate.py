@@ -9,6 +9,8 @@ import xarray as xr
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.errors import ComputationError
+from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
@@ -16,6 +18,7 @@ from fenics_gears.results.validity import worst_first
 from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
 from fenics_gears.simulation.routes import Preparation, prepared, route_of
 from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress, SilentProgress
 
 
@@ -32,17 +35,32 @@ def simulate(
     `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
     of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
-    computation; ComputationError when a stage fails, with what was done before as its attribute `partial`.
+    computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with what was done before as
+    its attribute `partial`.
     """
     progress, cache = progress or SilentProgress(), cache or user_cache()
     model = model_of(scene)
+    for_operators = memory_for_operators(model)
     gears, cycle = (preparation or functools.partial(prepared, comm=comm))(model, progress, cache)
+    cycle.kept.most = for_operators
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
     recorder = Recorder(model, cycle, stress=_root_stress(model, cycle, progress, cache))
     march = _marched(recorder, gears, compiled, progress)
     result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
     return _with_dynamic_factors(recorder, result, progress)
+
+
+def memory_for_operators(model: Model) -> float:
+    """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without keeping any."""
+    allowed, cost = allowed_memory(), expected_cost(model)
+    held = cost.memory - cost.operators
+    if held > allowed:
+        raise ComputationError(
+            f"The run would take {held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB are allowed. Nothing was computed. "
+            "Larger flank elements and fewer mesh cycles take less; `--memory` or FENICS_GEARS_MEMORY allow more."
+        )
+    return allowed - held
 
 
 def _root_stress(model: Model, cycle, progress: Progress, cache: Cache):

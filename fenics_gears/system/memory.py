@@ -1,0 +1,57 @@
+"""Memory that a run may take: as much as `--memory` or FENICS_GEARS_MEMORY says, else a share of what the machine has free."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+from fenics_gears.errors import SceneError
+
+MEMORY_VARIABLE = "FENICS_GEARS_MEMORY"
+BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
+# Of what is free when a run starts; other programs need some too.
+SHARE_OF_FREE = 0.6
+# Where neither the kernel nor a container says what is free.
+UNKNOWN = 8e9
+
+
+def size_in_bytes(size: str, name: str, example: str) -> float:
+    """Bytes of a size such as "8 GB"; raises SceneError, which names where it was given."""
+    found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*([MGT]B)\s*", size)
+    if not found:
+        raise SceneError(f'{name} = {size!r} is no size. Allowed: a number of {", ".join(BYTES)} from 0 MB on, such as "{example}".')
+    return float(found[1]) * BYTES[found[2]]
+
+
+def allowed_memory() -> float:
+    """Bytes that a run may take; processes of an MPI job on one machine share what is free. Raises SceneError for a size that is none."""
+    given = os.environ.get(MEMORY_VARIABLE)
+    if given:
+        return size_in_bytes(given, MEMORY_VARIABLE, "8 GB")
+    return SHARE_OF_FREE * free_memory() / int(os.environ.get("OMPI_COMM_WORLD_LOCAL_SIZE", "1"))
+
+
+def free_memory() -> float:
+    """Bytes that programs can still take on this machine, or in this container."""
+    return min(_of_machine(), _of_container())
+
+
+def _of_machine() -> float:
+    try:
+        found = re.search(r"^MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"), re.MULTILINE)
+    except OSError:
+        return UNKNOWN
+    return 1024.0 * int(found[1]) if found else UNKNOWN
+
+
+def _of_container() -> float:
+    """By the control group's limit; infinite where there is none."""
+    for limit, used in (("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")):
+        try:
+            limit, used = ((Path("/sys/fs/cgroup") / name).read_text(encoding="ascii").strip() for name in (limit, used))
+        except OSError:
+            continue
+        if limit.isdecimal():
+            return max(float(limit) - float(used), 0.0)
+    return float("inf")
