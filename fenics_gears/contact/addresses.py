@@ -8,6 +8,9 @@ import numpy as np
 from numba import carray, njit, types
 from numba.extending import intrinsic
 
+# What `Position.in_memory` holds of a contact operator.
+NODES, COMPLIANCE, JACOBIAN, GAP, ON_DRIVE_FLANKS, NODE_PAIR, CARRIED, RIGID_SLIP, PREVIOUS_JACOBIAN, PREVIOUS_COMPLIANCE = range(10)
+
 
 def _pointer_to(kind):
     @intrinsic

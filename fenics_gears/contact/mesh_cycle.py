@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.addresses import addresses
+from fenics_gears.contact.addresses import GAP, addresses
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator, node_slices
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
@@ -26,10 +26,6 @@ if TYPE_CHECKING:
     from fenics_gears.contact.corner import CornerContact
 
 
-# What `Position.in_memory` holds.
-NODES, COMPLIANCE, JACOBIAN, GAP, ON_DRIVE_FLANKS, NODE_PAIR, CARRIED, RIGID_SLIP, PREVIOUS_JACOBIAN, PREVIOUS_COMPLIANCE = range(10)
-
-
 @dataclass(frozen=True)
 class Position:
     """The contact operator of one phase, and for each node the one it was a step before, (n,), -1 where it is new."""
@@ -39,7 +35,7 @@ class Position:
 
     @cached_property
     def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """For compiled code: number of contact nodes, then addresses of the operator's arrays (10,), by the names below; and those arrays."""
+        """For compiled code: number of contact nodes, then addresses of the operator's arrays (10,), by the names in `contact.addresses`; and those arrays."""
         operator = self.operator
         found, held = addresses([
             operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair, self.carried_from,

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import integers_at, matrix_at, vector_at
+from fenics_gears.contact.addresses import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP, integers_at, matrix_at, vector_at
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mesh_cycle import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, newton
 from fenics_gears.dynamics.average_acceleration import with_history
 from fenics_gears.dynamics.drivetrain import Drivetrain

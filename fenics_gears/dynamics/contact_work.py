@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import integers_at, matrix_at, vector_at
-from fenics_gears.contact.mesh_cycle import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP
+from fenics_gears.contact.addresses import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP, integers_at, matrix_at, vector_at
 from fenics_gears.dynamics.steps import Steps
 
 

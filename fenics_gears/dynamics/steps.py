@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import flags_at, vector_at
+from fenics_gears.contact.addresses import GAP, NODES, ON_DRIVE_FLANKS, flags_at, vector_at
 from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh_cycle import GAP, NODES, ON_DRIVE_FLANKS, Position
+from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.step_solver import StepSolution
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.dynamics.average_acceleration import State

@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 from numba import njit
 
-from fenics_gears.contact.addresses import matrix_at
-from fenics_gears.contact.mesh_cycle import COMPLIANCE, Cycle
+from fenics_gears.contact.addresses import COMPLIANCE, matrix_at
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load

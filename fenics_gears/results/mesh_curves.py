@@ -7,9 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import flags_at, integers_at, matrix_at, vector_at
+from fenics_gears.contact.addresses import COMPLIANCE, GAP, JACOBIAN, NODE_PAIR, ON_DRIVE_FLANKS, flags_at, integers_at, matrix_at, vector_at
 from fenics_gears.contact.laws import NO_FORCE
-from fenics_gears.contact.mesh_cycle import COMPLIANCE, GAP, JACOBIAN, NODE_PAIR, ON_DRIVE_FLANKS
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.pressure import read_off
 from fenics_gears.dynamics.steps import Steps

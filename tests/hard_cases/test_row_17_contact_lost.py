@@ -163,7 +163,7 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(paper_sce
         k, worst, alone = len(position), 0.0, record.state
         for number in range(1, count + 1):
             record = marcher.step(marcher.dynamic, record, number)
-            load = marcher.dynamic.load(alone, shafts.load) - shafts.load
+            load = marcher.dynamic.load(alone, 0.0 * shafts.load)
             alone = marcher.dynamic.advance(alone, np.linalg.solve(marcher.dynamic.stiffness, load))
             worst = max(worst, np.abs(record.state.position - alone.position).max() / np.abs(position).max())
             assert not record.solution.status.any()
