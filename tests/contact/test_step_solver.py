@@ -37,7 +37,7 @@ NEEDED = [
     ("r x 10", (66111, 2, 0.6, False)),
     ("r x 10", (92521, 1, 0.6, True)),
     ("r x 0.1", (22492, 2, 2.0, False)),
-    ("r x 0.1", (28180, 2, 0.3, True)),
+    ("r x 0.1", (320, 2, 0.3, True)),
     ("friction from zero", (4570, 1, 0.6, False)),
     ("friction from zero", (62202, 1, 0.3, True)),
     ("one change at a time", (21300, 2, 2.0, False)),
