@@ -21,7 +21,7 @@ class Factor:
         index = PETSc.IntType
         csr = (matrix.indptr.astype(index), matrix.indices.astype(index), matrix.data)
         self._matrix = PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
-        self._matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        self._matrix.setOption(PETSc.Mat.Option.SPD, True)
         self._preconditioner = PETSc.PC().create(PETSc.COMM_SELF)
         self._preconditioner.setOperators(self._matrix)
         self._preconditioner.setType("cholesky")

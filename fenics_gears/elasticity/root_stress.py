@@ -68,7 +68,7 @@ def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dic
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_rows
     from fenics_gears.elasticity.recovery import GearRecovery
-    from fenics_gears.elasticity.sector_interior import dofs_of
+    from fenics_gears.elasticity.condensation import dofs_of
     from fenics_gears.elasticity.sector_mesh import sector_mesh
 
     mesh = sector_mesh(gear, sizes, element.quadrilateral)

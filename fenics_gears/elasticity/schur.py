@@ -19,7 +19,7 @@ def schur_complement(matrix, dofs) -> np.ndarray:
     matrix: symmetric PETSc matrix of one process, positive definite on the other dofs.
     Raises ComputationError when the factorisation fails.
     """
-    matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+    matrix.setOption(PETSc.Mat.Option.SPD, True)
     indices = PETSc.IS().createGeneral(np.asarray(dofs, dtype=PETSc.IntType), matrix.comm)
     preconditioner = PETSc.PC().create(matrix.comm)
     preconditioner.setOperators(matrix)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.condensation import by_radius, without
+from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
 from fenics_gears.elasticity.element_nodes import element_nodes
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.factor import Factor
@@ -79,8 +79,3 @@ class SectorInterior:
         matrix.destroy()
         order = dofs_of(nodes_at(space, self.nodes.points))
         return assembled[order][:, order]
-
-
-def dofs_of(nodes: np.ndarray) -> np.ndarray:
-    """Dofs (2 k,) of nodes (k,)."""
-    return (2 * np.asarray(nodes)[:, None] + [0, 1]).ravel()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import ufl
 from scipy.spatial import cKDTree
@@ -50,8 +52,9 @@ def displacement_space(mesh: BodyMesh, element: Element):
     return adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells), element.order)
 
 
+@cache
 def compile_ahead(element: Element) -> None:
-    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time."""
+    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time; once in a process."""
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     cell = BodyMesh(square[: element.corners], np.arange(element.corners)[None], {})
     with adapter.quiet_compiler():

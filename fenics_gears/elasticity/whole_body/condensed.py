@@ -21,7 +21,7 @@ from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.roll_angles import node_roll_angles
-from fenics_gears.elasticity.sector_interior import dofs_of
+from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
 from fenics_gears.errors import ComputationError

@@ -31,13 +31,13 @@ def strip(depth: float) -> BodyMesh:
         np.column_stack([0.0 * up, HEIGHT - up]),
     ]
     boundary = np.vstack(corners)
-    sources = [SizeSource(boundary, step, 0.0, 0.3)]
+    sources = [SizeSource((boundary,), step, 0.0, 0.3)]
     if depth == 0.0:
         points, (cells,) = filled(boundary, SizeField(tuple(sources), step), 1.0, recombine=False)
         return BodyMesh(points, oriented(points, cells), {})
     mouth = int(np.argmin(np.linalg.norm(boundary - [0.5 * LENGTH, HEIGHT], axis=1)))
     line = boundary[mouth] - np.linspace(0.0, depth, 200)[:, None] * [0.0, 1.0]
-    sources.append(SizeSource(line[-1:], depth / 40.0, depth / 20.0, 0.35))
+    sources.append(SizeSource((line[-1:],), depth / 40.0, depth / 20.0, 0.35))
     field = SizeField(tuple(sources), step)
     slit = along(line, divided(line, field.at(line), 4))[1:]
     points, (cells,) = filled(boundary, field, 1.0, recombine=False, slit=slit, mouth=mouth)
