@@ -14,8 +14,10 @@ import os
 import re
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 
@@ -58,6 +60,18 @@ def _bytes(size: str) -> float:
             f"without the variable it is {DEFAULT_SIZE}."
         )
     return float(found[1]) * BYTES[found[2]]
+
+
+def kept(cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, dict]]) -> tuple[dict[str, np.ndarray], dict]:
+    """Arrays that follow from inputs, and the times (s) that they took: read from the cache, else by ``compute()`` and then stored in it."""
+    clock = perf_counter()
+    arrays = None if cache is None else cache.load(key := content_key(inputs))
+    if arrays is not None:
+        return arrays, {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
+    arrays, timings = compute()
+    if cache is not None:
+        cache.store(key, arrays)
+    return arrays, {"from_cache": False, **timings}
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
@@ -46,7 +46,7 @@ def root_stress_rows(
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=coast_flank).in_modules_of(gear)
     similar = gear.of_module_one
-    key = content_key({
+    inputs = {
         "kind": "root stress",
         "version": [ALGORITHM_VERSION, ROWS_VERSION],
         "gear": asdict(similar),
@@ -54,12 +54,8 @@ def root_stress_rows(
         "element": chosen.name,
         "sizes": asdict(sizes),
         "reach": reach,
-    })
-    arrays = cache.load(key) if cache is not None else None
-    if arrays is None:
-        arrays = _computed(similar, material, chosen, sizes, reach)
-        if cache is not None:
-            cache.store(key, arrays)
+    }
+    arrays, _ = kept(cache, inputs, lambda: (_computed(similar, material, chosen, sizes, reach), {}))
     # A stress is a force over a length, which is in modules there.
     return RootStressRows(arrays["unit_rows"] / gear.module, arrays["tangent_angle"])
 

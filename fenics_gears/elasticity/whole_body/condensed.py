@@ -8,23 +8,23 @@ is the interfaces' own stiffness. For a gear of equal sectors that is `elasticit
 from __future__ import annotations
 
 from dataclasses import asdict
+from hashlib import sha256
 from time import perf_counter
 
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.condensation import by_radius, condense
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.factor import Factor
-from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
+from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.ring import definite_inverse, rotation
 from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
-from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
@@ -39,17 +39,17 @@ def whole_body_compliance(
 
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a stage fails.
     """
-    chosen, clock = element_named(element), perf_counter()
+    chosen = element_named(element)
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)
-    arrays, timings = None, {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0}
-    if cache is not None:
-        key = _key(mesh, gear, material, chosen, tooth_offsets)
-        arrays = cache.load(key)
-    if arrays is None:
-        arrays, timings = _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets)
-        if cache is not None:
-            cache.store(key, arrays)
-    counts = {name: int(arrays[name]) for name in ("unknowns", "condensed_unknowns")}
+    inputs = {
+        "version": [ALGORITHM_VERSION, WHOLE_BODY_VERSION],
+        "whole body": _digest(mesh),
+        "gear": asdict(gear),
+        "poissons_ratio": material.poissons_ratio,
+        "element": chosen.name,
+        "tooth_offsets": tooth_offsets,
+    }
+    arrays, timings = kept(cache, inputs, lambda: _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets))
     return WholeBodyCompliance(
         roll_angles=tuple(arrays[f"roll_angle_{tooth}"] for tooth in range(gear.teeth)),
         element_order=chosen.order,
@@ -60,25 +60,13 @@ def whole_body_compliance(
         openings={
             tooth: arrays[f"opening_{tooth}"] / material.youngs_modulus for tooth in range(gear.teeth) if f"opening_{tooth}" in arrays
         },
-        timings={**timings, **counts, "time_condense": perf_counter() - clock - timings["time_compile"]},
+        timings={**timings, **{name: int(arrays[name]) for name in COUNTS}},
     )
 
 
-def _key(mesh: BodyMesh, gear: Gear, material: Material, element: Element, tooth_offsets: int) -> str:
-    import hashlib
-
-    # By the bytes of points and cells: as text the mesh would take megabytes.
-    content = hashlib.sha256()
-    for array in (mesh.points, mesh.cells.astype(np.int64)):
-        content.update(np.ascontiguousarray(array).tobytes())
-    return content_key({
-        "version": [ALGORITHM_VERSION, WHOLE_BODY_VERSION],
-        "whole body": content.hexdigest(),
-        "gear": asdict(gear),
-        "poissons_ratio": material.poissons_ratio,
-        "element": element.name,
-        "tooth_offsets": tooth_offsets,
-    })
+def _digest(mesh: BodyMesh) -> str:
+    """Hash of points and cells by their bytes: as text the mesh would take megabytes."""
+    return sha256(mesh.points.tobytes() + mesh.cells.astype(np.int64).tobytes()).hexdigest()
 
 
 def _block_name(tooth: int, ahead: int) -> str:
@@ -86,7 +74,7 @@ def _block_name(tooth: int, ahead: int) -> str:
 
 
 def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int):
-    body = divided_body(mesh, gear, element)
+    clock, body = perf_counter(), divided_body(mesh, gear, element)
     condensed = [_condensed(part, body, element, poissons_ratio) for part in body.parts]
     own, to_interface = zip(*(_surface_of(each) for each in condensed))
     joined = _Interface(body, condensed, to_interface)
@@ -100,7 +88,7 @@ def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Elemen
     arrays["unknowns"] = np.array(2 * len(body.nodes.points))
     arrays["condensed_unknowns"] = np.array(2 * (len(body.interface) + sum(len(part.flank) for part in body.parts)))
     compiling = sum(each.timings["time_compile"] for each in condensed)
-    return arrays, {"from_cache": False, "time_mesh": 0.0, "time_compile": compiling}
+    return arrays, {"time_mesh": 0.0, "time_compile": compiling, "time_condense": perf_counter() - clock - compiling}
 
 
 def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float):
@@ -116,13 +104,7 @@ def _surface(part) -> np.ndarray:
 def _surface_of(part) -> tuple[np.ndarray, np.ndarray]:
     """A part's S_FF^-1 and X, its interface and hub held."""
     surface = _surface(part)
-    own = part.stiffness[np.ix_(surface, surface)]
-    try:
-        np.linalg.cholesky(own)
-    except np.linalg.LinAlgError:
-        raise ComputationError("whole body: the stiffness of a flank is not positive definite; is its tooth held by the body?") from None
-    inverse = np.linalg.inv(own)
-    inverse = 0.5 * (inverse + inverse.T)
+    inverse = definite_inverse(part.stiffness[np.ix_(surface, surface)], "a tooth's flank")
     return inverse, inverse @ part.stiffness[np.ix_(surface, part.dofs("interface"))]
 
 
