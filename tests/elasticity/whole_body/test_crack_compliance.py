@@ -24,7 +24,7 @@ from fenics_gears.elasticity.whole_body.outline import whole_body
 from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh
 
 P2 = ELEMENTS["P2"]
-SIZES = element_sizes(PINION, P2, 0.4)
+SIZES = element_sizes(PINION, P2, 0.6, 2.0)
 PLANE_MODULUS = STEEL.youngs_modulus / (1.0 - STEEL.poissons_ratio**2)
 # Roll angles (rad) about which the flank is loaded, from below the pitch point to the highest point of single tooth contact.
 PLACES = (0.3, 0.4, 0.5)
