@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mesh_data import BodyMesh, distinct, sides_of
 
 # Cells of straight sides into which the nodes of a second-order cell divide it.
 SUBCELLS = {
@@ -36,13 +37,13 @@ class ElementNodes:
         """First-order cells (j, 3) or (j, 4) over all nodes."""
         return np.vstack([self.cells[:, part] for part in SUBCELLS[self.corners, self.order]])
 
-    @property
+    @cached_property
     def boundary_sides(self) -> np.ndarray:
         """Sides (j, 2), or (j, 3) with the middle last, that belong to one cell only."""
-        ends = self.cells[:, : self.corners]
-        sides = np.stack([ends, np.roll(ends, -1, axis=1)], axis=-1).reshape(-1, 2)
-        _, first, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
-        outer = first[count == 1]
+        sides = sides_of(self.cells[:, : self.corners])
+        _, number = distinct(sides)
+        outer = np.flatnonzero(np.bincount(number)[number] == 1)
+        outer = outer[np.argsort(number[outer])]
         if self.order == 1:
             return sides[outer]
         return np.column_stack([sides[outer], self.cells[:, self.corners : 2 * self.corners].reshape(-1)[outer]])
@@ -52,8 +53,7 @@ def element_nodes(mesh: BodyMesh, element: Element) -> ElementNodes:
     """The nodes of a body meshed with an element."""
     if element.order == 1:
         return ElementNodes(mesh.points, mesh.cells, element.corners, 1)
-    sides = np.stack([mesh.cells, np.roll(mesh.cells, -1, axis=1)], axis=-1).reshape(-1, 2)
-    unique, of_cell = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
+    unique, of_cell = distinct(sides_of(mesh.cells))
     points = [mesh.points, mesh.points[unique].mean(axis=1)]
     cells = [mesh.cells, len(mesh.points) + of_cell.reshape(mesh.cells.shape)]
     if element.quadrilateral:

@@ -62,9 +62,9 @@ def root_stress_rows(
 
 def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dict[str, np.ndarray]:
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from fenics_gears.elasticity.condensation import dofs_of
     from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_rows
     from fenics_gears.elasticity.recovery import GearRecovery
-    from fenics_gears.elasticity.condensation import dofs_of
     from fenics_gears.elasticity.sector_mesh import sector_mesh
 
     mesh = sector_mesh(gear, sizes, element.quadrilateral)

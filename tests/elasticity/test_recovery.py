@@ -12,12 +12,12 @@ from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears.contact.flank_forces import unmirrored
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.geometry.involute import arc_length, canonical_normal, canonical_point, roll_angle_at_arc_length

@@ -51,13 +51,13 @@ def divided_body(mesh: BodyMesh, gear: Gear, element: Element) -> DividedBody:
     nodes = element_nodes(mesh, element)
     owner = part_of_cells(mesh, gear)
     hub = nodes_on(nodes, mesh.edges["hub"])
-    touched = np.unique(np.column_stack([nodes.cells.ravel(), np.repeat(owner, nodes.cells.shape[1])]), axis=0)
-    shared = np.flatnonzero(np.bincount(touched[:, 0], minlength=len(nodes.points)) > 1)
+    touched, by = np.divmod(np.unique(gear.teeth * nodes.cells + owner[:, None]), gear.teeth)
+    shared = np.flatnonzero(np.bincount(touched, minlength=len(nodes.points)) > 1)
     interface = np.setdiff1d(shared, hub)
     cracks = crack_nodes(nodes)
     parts = []
     for tooth in range(gear.teeth):
-        own = touched[touched[:, 1] == tooth, 0]
+        own = touched[by == tooth]
         flank = nodes_on(nodes, mesh.edges[f"flank {tooth}"])
         flank = flank[np.argsort(np.linalg.norm(nodes.points[flank], axis=1))]
         faces = np.setdiff1d(np.intersect1d(own, cracks.both), np.concatenate([interface, hub, flank]))
