@@ -9,7 +9,7 @@ import numpy as np
 
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.schur import schur_complement
+from fenics_gears.elasticity.mumps import schur_complement
 from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, nodes_in_cells, stiffness_matrix
 
 

@@ -97,7 +97,7 @@ def _computed(gear: Gear, element: Element, sizes: ElementSizes, poissons_ratio:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius
-    from fenics_gears.elasticity.roll_angles import node_roll_angles
+    from fenics_gears.elasticity.element_nodes import node_roll_angles
     from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
 
     clock = perf_counter()

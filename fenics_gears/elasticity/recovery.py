@@ -10,14 +10,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import block_diag
 
-from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.nodal_stress import nodal_stress
-from fenics_gears.elasticity.ring import cyclic, rotation, sector_cuts
-from fenics_gears.elasticity.sector_interior import SectorInterior, dofs_of
+from fenics_gears.elasticity.ring import cyclic, rotation, turned_nodes
+from fenics_gears.elasticity.sector_interior import SectorInterior
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
@@ -47,7 +48,7 @@ class GearRecovery:
         self.gear, self.material, self.element = gear, material, element
         self.interior = SectorInterior(mesh, element, material.poissons_ratio)
         self.nodal_stress = nodal_stress(self.interior.nodes, material.poissons_ratio)
-        self._same, self._ahead = self._cut_stiffness(mesh)
+        self._same, self._ahead = cyclic(self._link())
 
     def __enter__(self) -> GearRecovery:
         return self
@@ -130,12 +131,13 @@ class GearRecovery:
             harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
         return np.fft.irfft(harmonics, n=self.gear.teeth, axis=0)
 
-    def _cut_stiffness(self, mesh: BodyMesh) -> tuple[np.ndarray, np.ndarray]:
-        points = self.interior.nodes.points
-        groups = {name: points[getattr(self.interior, name)] for name in ("lower", "upper", "hub")}
-        sector = condense(mesh, self.element, self.material.poissons_ratio, groups)
-        cuts, turn = sector_cuts(sector, self.gear.teeth)
-        return cyclic(turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn)
+    def _link(self) -> np.ndarray:
+        """Stiffness (4 c, 4 c) of one sector between its cuts, the upper one's dofs in the frame of the next sector."""
+        cut = 2 * len(self.interior.lower)
+        motion = block_diag(np.eye(cut), turned_nodes(self.gear.teeth, cut // 2))
+        moved = self.interior.between_cuts(motion[:cut], motion[cut:], np.zeros((2 * len(self.interior.nodes.points), 2 * cut)))
+        link = motion.T @ (self.interior.stiffness[dofs_of(np.concatenate([self.interior.lower, self.interior.upper]))] @ moved)
+        return 0.5 * (link + link.T)
 
     def _hub_force(self, unit: np.ndarray) -> np.ndarray:
         """Sum over the sectors of the hub's forces on them, (3,)."""

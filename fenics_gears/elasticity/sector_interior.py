@@ -9,8 +9,8 @@ from scipy.spatial import cKDTree
 from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
 from fenics_gears.elasticity.element_nodes import element_nodes
 from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.factor import Factor
 from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.errors import ComputationError
 

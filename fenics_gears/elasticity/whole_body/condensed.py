@@ -16,12 +16,12 @@ from scipy import sparse
 
 from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of
+from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.elements import Element, element_named
-from fenics_gears.elasticity.factor import Factor
 from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.ring import definite_inverse, rotation
-from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
 from fenics_gears.geometry.gear import Gear

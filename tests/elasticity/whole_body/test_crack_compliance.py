@@ -14,10 +14,10 @@ import pytest
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 from tests.coarse_sector import PINION, STEEL
 
+from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.recovery import GearRecovery
-from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
