@@ -74,7 +74,7 @@ def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dic
         sides = ("flank", "coast") if sizes.both_flanks else ("flank",)
         flank = np.concatenate([dofs_of(recovery.interior.flank_nodes(side)) for side in sides])
         # A tooth m pitches ahead of the loaded one: the loaded one is m pitches behind the tooth whose stress is wanted.
-        responses = recovery.unit_responses(np.nan_to_num(wanted).T, [-m for m in range(-reach, reach + 1)])
+        responses = recovery.unit_displacement({0: np.nan_to_num(wanted).T}, [-m for m in range(-reach, reach + 1)])
     rows = np.stack([response[flank].T for response in responses])
     rows[:, ~np.isfinite(wanted).all(axis=1)] = np.nan
     return {"unit_rows": rows, "tangent_angle": curve.tangent_angle}
