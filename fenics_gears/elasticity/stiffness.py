@@ -78,7 +78,7 @@ def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
 
 
 def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.ndarray:
-    """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2): told apart where several are in one place.
+    """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2), which distinguish nodes in one place.
 
     Raises ComputationError where there is no such cell or node.
     """

@@ -67,7 +67,7 @@ def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
 
 
 def test_cache_gives_both_flanks_back(pinion, steel, both, tmp_path):
-    """Exact identity: what is kept without its lower triangles comes back bit for bit."""
+    """Exact identity: what is kept comes back bit for bit."""
     computed, kept = (flank_compliance(pinion, steel, Discretisation("P2", 0.4), BOTH, Cache(tmp_path)) for _ in range(2))
     assert kept.timings["from_cache"] and not computed.timings["from_cache"]
     for offset in (0, 1, -2):
