@@ -50,8 +50,12 @@ def flank_compliance(
     for name in {"blocks", "across"} & arrays.keys():
         arrays[name] *= 1.0 / material.youngs_modulus
     counts = {name: int(arrays.pop(name)) for name in COUNTS}
-    kind = BothFlanksCompliance if sizes.both_flanks else FlankCompliance
-    found = kind(element_order=chosen.order, timings={**counts, **timings}, **arrays)
+    found: FlankCompliance
+    if sizes.both_flanks:
+        first = int(arrays.pop("first_across"))
+        found = BothFlanksCompliance(element_order=chosen.order, timings={**counts, **timings}, first_across=first, **arrays)
+    else:
+        found = FlankCompliance(element_order=chosen.order, timings={**counts, **timings}, **arrays)
     return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
 
 
