@@ -61,7 +61,7 @@ def cracked_sector_mesh(gear: Gear, sizes: ElementSizes, crack: RootCrack) -> Bo
     start = _vertex_moved_to(boundary, mouth)
     depth = crack.depth / gear.module
     _check_ligament(boundary.points, start, mouth + np.linspace(0.1, 1.0, 10)[:, None] * depth * direction, crack, gear)
-    tip = SizeSource((mouth + depth * direction)[None], depth / TIP_ELEMENTS, 2.0 * depth / TIP_ELEMENTS, TIP_GROWTH)
+    tip = SizeSource(((mouth + depth * direction)[None],), depth / TIP_ELEMENTS, 2.0 * depth / TIP_ELEMENTS, TIP_GROWTH)
     field = SizeField((*field.sources, tip), field.largest)
     line = mouth + np.linspace(0.0, depth, SLIT_SAMPLES)[:, None] * direction
     slit = along(line, divided(line, field.at(line), 4))[1:]

@@ -54,7 +54,7 @@ def conditions(scene: Scene) -> dict[str, Scene]:
 
 def relief(pair: GearPair, design: Design) -> TipRelief:
     """The relief of both gears as a scene has it; a length of 1 begins at HPSTC."""
-    ends = ((pair.pinion.tip_roll_angle, pair.pinion_hpstc_roll_angle), (pair.wheel.tip_roll_angle, pair.wheel_hpstc_roll_angle))
+    ends = ((pair.pinion.tip_roll_angle, pair.hpstc_roll_angles[0]), (pair.wheel.tip_roll_angle, pair.hpstc_roll_angles[1]))
     return TipRelief(*(Relief(design.depth / MICROMETRES, tip - design.length * (tip - single), design.shape) for tip, single in ends))
 
 

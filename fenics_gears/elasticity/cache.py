@@ -13,8 +13,10 @@ import logging
 import os
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 
@@ -46,6 +48,18 @@ def user_cache() -> Cache:
 
         directory = user_cache_dir("fenics_gears")
     return Cache(Path(directory), size_in_bytes(os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE, SIZE_VARIABLE, DEFAULT_SIZE))
+
+
+def kept(cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, dict]]) -> tuple[dict[str, np.ndarray], dict]:
+    """Arrays that follow from inputs, and the times (s) that they took: read from the cache, else by ``compute()`` and then stored in it."""
+    clock = perf_counter()
+    arrays = None if cache is None else cache.load(key := content_key(inputs))
+    if arrays is not None:
+        return arrays, {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
+    arrays, timings = compute()
+    if cache is not None:
+        cache.store(key, arrays)
+    return arrays, {"from_cache": False, **timings}
 
 
 @dataclass(frozen=True)

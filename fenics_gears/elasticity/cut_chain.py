@@ -8,7 +8,7 @@ A run is its stiffness (2 c, 2 c) over its clockwise and its counter-clockwise c
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import log2
 
 import numpy as np
@@ -51,14 +51,24 @@ def chain_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
 
     The cuts 0 ... reach are kept; the sectors between them are single, those the long way round one run.
     """
-    cut, rest = len(link) // 2, run_of(link, teeth - reach)
-    stiffness = np.zeros(((reach + 1) * cut,) * 2)
-    dofs = np.arange(len(stiffness)).reshape(reach + 1, cut)
-    for lower, upper, run in [*((each, each + 1, link) for each in range(reach)), (reach, 0, rest)]:
-        ends = np.concatenate([dofs[lower], dofs[upper]])
-        stiffness[np.ix_(ends, ends)] += run
-    columns = _solved(stiffness, np.eye(len(stiffness), cut))
-    return lambda offset: columns[dofs[offset]] if offset >= 0 else columns[dofs[-offset]].T
+    cut = len(link) // 2
+    stiffness = closed_ring([link] * reach + [run_of(link, teeth - reach)], cut)
+    columns = _solved(stiffness, np.eye(len(stiffness), cut)).reshape(reach + 1, cut, cut)
+    return lambda offset: columns[offset] if offset >= 0 else columns[-offset].T
+
+
+def closed_ring(parts: Sequence[np.ndarray], cut: int) -> np.ndarray:
+    """Stiffness of two or more parts that go once around the gear: over the lower cut of each part, then over their other dofs.
+
+    parts: counter-clockwise, each over its lower cut (`cut` dofs), its upper cut in the frame of the part ahead, and other dofs, if any.
+    """
+    inner = np.cumsum([cut * len(parts)] + [len(part) - 2 * cut for part in parts])
+    total = np.zeros((inner[-1],) * 2)
+    for number, part in enumerate(parts):
+        ahead = (number + 1) % len(parts)
+        dofs = np.r_[number * cut : (number + 1) * cut, ahead * cut : (ahead + 1) * cut, inner[number] : inner[number + 1]]
+        total[np.ix_(dofs, dofs)] += part
+    return total
 
 
 def chain_is_quicker(teeth: int, reach: int) -> bool:

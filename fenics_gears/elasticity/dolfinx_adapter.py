@@ -149,19 +149,6 @@ def block_diagonal(blocks: np.ndarray):
     return PETSc.Mat().createAIJ((count * size,) * 2, csr=(rows, columns.ravel(), blocks.ravel()), comm=MPI.COMM_SELF)
 
 
-def assemble_vector(form) -> np.ndarray:
-    """Assembled entries of a compiled linear form, (dofs,)."""
-    vector = fem.petsc.assemble_vector(form)
-    entries = vector.array.copy()
-    vector.destroy()
-    return entries
-
-
-def assemble_scalar(form) -> float:
-    """Value of a compiled functional on this rank."""
-    return float(fem.assemble_scalar(form))
-
-
 def function(space, values=None):
     """Function of a space, zero or with the given dof values, (dofs,)."""
     result = fem.Function(space)

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mesh_data import BodyMesh, distinct, sides_of
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
 
 # Cells of straight sides into which the nodes of a second-order cell divide it.
 SUBCELLS = {
@@ -36,13 +39,13 @@ class ElementNodes:
         """First-order cells (j, 3) or (j, 4) over all nodes."""
         return np.vstack([self.cells[:, part] for part in SUBCELLS[self.corners, self.order]])
 
-    @property
+    @cached_property
     def boundary_sides(self) -> np.ndarray:
         """Sides (j, 2), or (j, 3) with the middle last, that belong to one cell only."""
-        ends = self.cells[:, : self.corners]
-        sides = np.stack([ends, np.roll(ends, -1, axis=1)], axis=-1).reshape(-1, 2)
-        _, first, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
-        outer = first[count == 1]
+        sides = sides_of(self.cells[:, : self.corners])
+        _, number = distinct(sides)
+        outer = np.flatnonzero(np.bincount(number)[number] == 1)
+        outer = outer[np.argsort(number[outer])]
         if self.order == 1:
             return sides[outer]
         return np.column_stack([sides[outer], self.cells[:, self.corners : 2 * self.corners].reshape(-1)[outer]])
@@ -52,11 +55,27 @@ def element_nodes(mesh: BodyMesh, element: Element) -> ElementNodes:
     """The nodes of a body meshed with an element."""
     if element.order == 1:
         return ElementNodes(mesh.points, mesh.cells, element.corners, 1)
-    sides = np.stack([mesh.cells, np.roll(mesh.cells, -1, axis=1)], axis=-1).reshape(-1, 2)
-    unique, of_cell = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
+    unique, of_cell = distinct(sides_of(mesh.cells))
     points = [mesh.points, mesh.points[unique].mean(axis=1)]
     cells = [mesh.cells, len(mesh.points) + of_cell.reshape(mesh.cells.shape)]
     if element.quadrilateral:
         points.append(mesh.points[mesh.cells].mean(axis=1))
         cells.append(len(mesh.points) + len(unique) + np.arange(len(mesh.cells))[:, None])
     return ElementNodes(np.vstack(points), np.hstack(cells), element.corners, 2)
+
+
+def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray:
+    """Roll angles (n,), rad, of the flank's nodes from its element vertices (k, 2), form circle to tip.
+
+    A node between two vertices stands midway in arc length.
+    """
+    radius = np.linalg.norm(vertices, axis=1)
+    # Round-off may put the first vertex a hair below the base circle, where the form circle can lie.
+    vertex_angles = gear.roll_angle(np.maximum(radius, gear.base_radius))
+    if order == 1:
+        return vertex_angles
+    length = arc_length(gear.base_radius, vertex_angles)
+    nodes = np.empty(2 * len(length) - 1)
+    nodes[::2] = vertex_angles
+    nodes[1::2] = roll_angle_at_arc_length(gear.base_radius, 0.5 * (length[1:] + length[:-1]))
+    return nodes

@@ -98,9 +98,9 @@ def element_sizes(gear: Gear, element: Element, flank: float, body: float | None
 
 @dataclass(frozen=True)
 class SizeSource:
-    """A set of points (n, 2) around which elements have a size; it grows from ``plateau`` outwards. mm."""
+    """Curves, points (n, 2) each, around which elements have a size; it grows from ``plateau`` outwards. mm."""
 
-    points: np.ndarray
+    curves: tuple[np.ndarray, ...]
     size: float
     plateau: float
     growth: float
@@ -115,9 +115,13 @@ class SizeField:
 
     def at(self, points) -> np.ndarray:
         """Element size (n,) at points (n, 2), mm."""
-        size = np.full(len(points), self.largest)
+        size, distances = np.full(len(points), self.largest), {}
         for source in self.sources:
-            distance = cKDTree(source.points).query(points)[0]
+            for curve in source.curves:
+                # Sources share curves, and the search takes most of the time.
+                if id(curve) not in distances:
+                    distances[id(curve)] = cKDTree(curve).query(points)[0]
+            distance = np.min([distances[id(curve)] for curve in source.curves], axis=0)
             size = np.minimum(size, source.size + source.growth * np.maximum(distance - source.plateau, 0.0))
         return size
 
@@ -128,7 +132,7 @@ class SizeField:
         """
         lookup, fields = cKDTree(points), []
         for source in self.sources:
-            distance, nearest = lookup.query(source.points)
+            distance, nearest = lookup.query(np.vstack(source.curves))
             own = np.unique(nearest[distance < 1e-9 * self.largest])
             if not len(own):
                 continue

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
 from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.element_sizes import arc_lengths
@@ -58,14 +57,9 @@ def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStres
     parts = []
     for side in (0, 1):
         nodes, place = _root_nodes(curve, interior, side)
-        at_points = sparse.csr_matrix(_interpolation(place, curve.length))
-        tangents = curve.tangents if side == 0 else curve.outline.coast(curve.tangents)
-        along = sparse.csr_matrix(np.vstack([
-            tangents[:, 0] ** 2, tangents[:, 1] ** 2, 2.0 * tangents[:, 0] * tangents[:, 1]
-        ]).T)
-        components = [sparse.kron(at_points, [[1.0 if i == k else 0.0 for i in range(3)]]) for k in range(3)]
-        combined = sum(sparse.diags(along[:, k].toarray().ravel()) @ components[k] for k in range(3))
-        parts.append((combined @ stress.rows(nodes)).toarray())
+        x, y = (curve.tangents if side == 0 else curve.outline.coast(curve.tangents)).T
+        weights = _interpolation(place, curve.length)[:, :, None] * np.column_stack([x**2, y**2, 2.0 * x * y])[:, None]
+        parts.append(weights.reshape(len(weights), -1) @ stress.rows(nodes))
     return np.vstack(parts)
 
 

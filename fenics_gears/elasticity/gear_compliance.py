@@ -7,18 +7,19 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompliance, Reach
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
+from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
 # To be raised by one whenever the same inputs give other numbers.
-ALGORITHM_VERSION = 8
+ALGORITHM_VERSION = 9
 
-KEPT_COUNTS = ("unknowns", "condensed_unknowns")
+COUNTS = ("unknowns", "condensed_unknowns")
+
 
 def flank_compliance(
     gear: Gear, material: Material, discretisation: Discretisation, reach: Reach, cache: Cache | None = None
@@ -35,25 +36,26 @@ def flank_compliance(
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)
     _check(gear, material, reach)
     similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
-    clock = perf_counter()
     coupled = _coupled(reach, discretisation.elastic_teeth)
-    key = content_key({
+    inputs = {
         "version": ALGORITHM_VERSION,
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "element": chosen.name,
         "sizes": asdict(sizes),
         "reach": asdict(coupled),
-    })
-    arrays = cache.load(key) if cache is not None else None
-    if arrays is not None:
-        unit = _from_arrays(arrays, chosen.order)
-        timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
+    }
+    arrays, timings = kept(cache, inputs, lambda: _computed(similar, chosen, sizes, material.poissons_ratio, coupled))
+    # In place: the arrays are large, and nothing else refers to them.
+    for name in {"blocks", "across"} & arrays.keys():
+        arrays[name] *= 1.0 / material.youngs_modulus
+    counts = {name: int(arrays.pop(name)) for name in COUNTS}
+    found: FlankCompliance
+    if sizes.both_flanks:
+        first = int(arrays.pop("first_across"))
+        found = BothFlanksCompliance(element_order=chosen.order, timings={**counts, **timings}, first_across=first, **arrays)
     else:
-        unit, timings = _computed(similar, chosen, sizes, material.poissons_ratio, coupled)
-        if cache is not None:
-            cache.store(key, _as_arrays(unit))
-    found = replace(_scaled(unit, 1.0 / material.youngs_modulus), timings={**unit.timings, **timings})
+        found = FlankCompliance(element_order=chosen.order, timings={**counts, **timings}, **arrays)
     return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
 
 
@@ -95,85 +97,31 @@ def _check(gear: Gear, material: Material, reach: Reach) -> None:
         raise SceneError(f"youngs_modulus is {material.youngs_modulus} MPa, must be positive and finite")
 
 
-def _as_arrays(body: FlankCompliance) -> dict[str, np.ndarray]:
-    """Arrays for the cache of a compliance for Young's modulus 1 MPa."""
-    arrays = {
-        "roll_angle": body.roll_angle,
-        "same_tooth": packed(body.blocks[:1]),
-        "other_teeth": body.blocks[1:],
-        **{name: np.array(body.timings[name]) for name in KEPT_COUNTS},
-    }
-    if not isinstance(body, BothFlanksCompliance):
-        return arrays
-    return {**arrays, "across": packed(body.across), "first_across": np.array(body.first_across)}
-
-
-def _from_arrays(arrays: dict[str, np.ndarray], order: int) -> FlankCompliance:
-    blocks = np.concatenate([unpacked(arrays["same_tooth"]), arrays["other_teeth"]])
-    counts = {name: int(arrays[name]) for name in KEPT_COUNTS}
-    if "across" not in arrays:
-        return FlankCompliance(arrays["roll_angle"], order, blocks, counts)
-    return BothFlanksCompliance(arrays["roll_angle"], order, blocks, counts, across=unpacked(arrays["across"]), first_across=int(arrays["first_across"]))
-
-
-def packed(matrices: np.ndarray) -> np.ndarray:
-    """The lower triangles (k, n (n + 1) / 2), row by row, of symmetric matrices (k, n, n)."""
-    rows, columns = np.tril_indices(matrices.shape[1])
-    return matrices[:, rows, columns]
-
-
-def unpacked(triangles: np.ndarray) -> np.ndarray:
-    """The symmetric matrices (k, n, n), bit for bit, of what `packed` gave.
-
-    >>> unpacked(packed(np.array([[[1.0, 2.0], [2.0, 5.0]]]))).tolist()
-    [[[1.0, 2.0], [2.0, 5.0]]]
-    """
-    size = int(np.sqrt(2 * triangles.shape[1]))
-    rows, columns = np.tril_indices(size)
-    result = np.empty((len(triangles), size, size))
-    result[:, rows, columns] = result[:, columns, rows] = triangles
-    return result
-
-
-def _scaled(body: FlankCompliance, factor: float) -> FlankCompliance:
-    """The compliance times a number, in place: the arrays are large, and nothing else refers to them."""
-    np.multiply(body.blocks, factor, out=body.blocks)
-    if isinstance(body, BothFlanksCompliance):
-        np.multiply(body.across, factor, out=body.across)
-    return body
-
-
-def _computed(gear, element, sizes, poissons_ratio, reach):
-    """Compliance for Young's modulus 1 MPa, and the times that it took."""
+def _computed(gear: Gear, element: Element, sizes: ElementSizes, poissons_ratio: float, reach: Reach) -> tuple[dict, dict]:
+    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius
-    from fenics_gears.elasticity.roll_angles import node_roll_angles
+    from fenics_gears.elasticity.element_nodes import node_roll_angles
     from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
 
     clock = perf_counter()
     mesh = (half_sector_mesh if sizes.both_flanks else sector_mesh)(gear, sizes, element.quadrilateral)
     meshed = perf_counter()
-    sector, parts, joining = (_both_flanks if sizes.both_flanks else _drive_flank)(gear, element, mesh, poissons_ratio, reach)
-    compiling = sector.timings["time_compile"]
+    sector, parts = (_both_flanks if sizes.both_flanks else _drive_flank)(gear, element, mesh, poissons_ratio, reach)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), element.order)
     timings = {
         **sector.timings,
-        "from_cache": False,
         "time_mesh": meshed - clock,
-        "time_condense": perf_counter() - meshed - compiling,
-        "time_ring": joining,
+        "time_condense": perf_counter() - meshed - sector.timings["time_compile"],
     }
-    kind = BothFlanksCompliance if sizes.both_flanks else FlankCompliance
-    return kind(roll_angle=rolls, element_order=element.order, timings=sector.timings, **parts), timings
+    return {"roll_angle": rolls, **parts, **{name: np.array(sector.timings[name]) for name in COUNTS}}, timings
 
 
 def _drive_flank(gear, element, mesh, poissons_ratio, reach: Reach):
     from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 
     sector = condensed_sector(mesh, element, poissons_ratio)
-    clock = perf_counter()
-    blocks = ring_compliance(sector, gear.teeth, reach.same)
-    return sector, {"blocks": blocks}, perf_counter() - clock
+    return sector, {"blocks": ring_compliance(sector, gear.teeth, reach.same)}
 
 
 def _both_flanks(gear, element, mesh, poissons_ratio, reach: Reach):
@@ -181,6 +129,5 @@ def _both_flanks(gear, element, mesh, poissons_ratio, reach: Reach):
     from fenics_gears.elasticity.mirrored_ring import both_flanks_compliance, condensed_half
 
     sector = condensed_half(mesh, element, poissons_ratio)
-    clock = perf_counter()
     blocks, across = both_flanks_compliance(sector, centreline_direction(mesh), gear.teeth, reach)
-    return sector, {"blocks": blocks, "across": across, "first_across": reach.across[0]}, perf_counter() - clock
+    return sector, {"blocks": blocks, "across": across, "first_across": np.array(reach.across[0])}

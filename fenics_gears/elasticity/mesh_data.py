@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from fenics_gears.errors import ComputationError
 
@@ -66,6 +68,33 @@ def oriented(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
     return turned
 
 
+def sides_of(cells: np.ndarray) -> np.ndarray:
+    """Sides (cells times corners, 2) of cells, one cell's after the other's, as they run counter-clockwise."""
+    return np.stack([cells, np.roll(cells, -1, axis=1)], axis=-1).reshape(-1, 2)
+
+
+def distinct(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Sides (k, 2) each once, ascending, the smaller point first; and the number of each given side (j, 2) among them (j,)."""
+    # By one number for each side: numpy takes ten times as long to sort rows.
+    size = sides.max(initial=0) + 1
+    numbers, places = np.unique(np.sort(sides, axis=1) @ [size, 1], return_inverse=True)
+    return np.stack(np.divmod(numbers, size), axis=-1), places.ravel()
+
+
+def boundary_sides(cells: np.ndarray) -> np.ndarray:
+    """Sides (k, 2) that belong to one cell only, the smaller point first."""
+    sides, of_cells = distinct(sides_of(cells))
+    return sides[np.bincount(of_cells) == 1]
+
+
+def joined_cells(cells: np.ndarray) -> np.ndarray:
+    """Number of the connected piece (cells,) that each cell belongs to; cells hold together along whole sides."""
+    sides, of_cells = distinct(sides_of(cells))
+    owner = np.repeat(np.arange(len(cells)), cells.shape[1])
+    incidence = coo_matrix((np.ones(len(owner)), (owner, of_cells)), shape=(len(cells), len(sides))).tocsr()
+    return connected_components(incidence @ incidence.T, directed=False)[1]
+
+
 def split_to_quadrilaterals(
     points: np.ndarray, polygons: list[np.ndarray], exact: dict[tuple[int, int], np.ndarray]
 ) -> tuple[np.ndarray, np.ndarray, dict[tuple[int, int], int]]:
@@ -75,12 +104,7 @@ def split_to_quadrilaterals(
     edge (smaller index first) lies if not midway. Returns the points, the cells and the new
     point of each edge.
     """
-    sides = np.vstack([
-        np.sort(np.stack([cells, np.roll(cells, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-        for cells in polygons
-    ])
-    unique_sides, side_of = np.unique(sides, axis=0, return_inverse=True)
-    side_of = side_of.ravel()
+    unique_sides, side_of = distinct(np.vstack([sides_of(cells) for cells in polygons]))
     middle = points[unique_sides].mean(axis=1)
     middle_index = {tuple(side): len(points) + i for i, side in enumerate(unique_sides.tolist())}
     for side, position in exact.items():

@@ -6,18 +6,19 @@ cuts of all sectors; from its two cuts the inside of each sector follows by the 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import block_diag
 
-from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.nodal_stress import nodal_stress
-from fenics_gears.elasticity.ring import cyclic, rotation, sector_cuts
-from fenics_gears.elasticity.sector_interior import SectorInterior, dofs_of
+from fenics_gears.elasticity.ring import cyclic, rotation, turned_nodes
+from fenics_gears.elasticity.sector_interior import SectorInterior
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
@@ -47,7 +48,7 @@ class GearRecovery:
         self.gear, self.material, self.element = gear, material, element
         self.interior = SectorInterior(mesh, element, material.poissons_ratio)
         self.nodal_stress = nodal_stress(self.interior.nodes, material.poissons_ratio)
-        self._same, self._ahead = self._cut_stiffness(mesh)
+        self._same, self._ahead = cyclic(self._link())
 
     def __enter__(self) -> GearRecovery:
         return self
@@ -69,54 +70,41 @@ class GearRecovery:
 
         f: nodes of a flank, in the order of the flank compliance and in each tooth's own frame; the coast flank's after the drive flank's.
         """
-        sides = [dofs_of(self.interior.flank_nodes(side)) for side in ("flank", "coast")]
         loads = np.zeros((self.gear.teeth, 2 * len(self.interior.nodes.points)))
+        drive, coast = (dofs_of(self.interior.flank_nodes(side)) for side in ("flank", "coast"))
         for tooth, force in forces.items():
-            drive = len(sides[0])
-            np.add.at(loads[tooth % self.gear.teeth], sides[0], force[:drive])
-            if len(force) > drive:
-                np.add.at(loads[tooth % self.gear.teeth], sides[1], force[drive:])
+            own = loads[tooth % self.gear.teeth]
+            np.add.at(own, drive, force[: len(drive)])
+            if len(force) > len(drive):
+                np.add.at(own, coast, force[len(drive) :])
         return loads
 
     def recovered(self, forces: dict[int, np.ndarray]) -> RecoveredBody:
         """Displacement and stress of the whole gear under forces on flanks, as in `flank_loads`."""
         loads = self.flank_loads(forces)
-        unit = self.unit_displacement(loads)
-        hub_force = self._hub_force(unit)
+        loaded = {int(tooth): loads[tooth][:, None] for tooth in np.flatnonzero(loads.any(axis=1))} or {0: loads[0][:, None]}
+        unit = self.unit_displacement(loaded, range(self.gear.teeth))[:, :, 0]
         displacement = unit.reshape(self.gear.teeth, -1, 2) / self.material.youngs_modulus
         # Strains are displacements over the gear's own lengths, which the mesh has in modules.
-        return RecoveredBody(displacement, self._stress(unit) / self.gear.module, hub_force)
+        return RecoveredBody(displacement, self._stress(unit) / self.gear.module, self._hub_force(unit))
 
-    def unit_displacement(self, loads: np.ndarray) -> np.ndarray:
-        """Displacement (teeth, 2 n) under loads (teeth, 2 n), Young's modulus 1 MPa, the hub held."""
-        teeth = self.gear.teeth
-        loaded = np.flatnonzero(loads.any(axis=1))
-        on_lower, on_upper = self.interior.at_held_cuts(loads[loaded].T)
-        cut_loads = np.zeros((teeth, len(on_lower), 1))
-        np.add.at(cut_loads, loaded, on_lower.T[:, :, None])
-        np.add.at(cut_loads, (loaded + 1) % teeth, self._turned(on_upper.T, -1)[:, :, None])
-        lower = self.cut_motion(cut_loads)[:, :, 0]
-        upper = self._turned(np.roll(lower, -1, axis=0), 1)
-        return self.interior.between_cuts(lower.T, upper.T, loads.T).T
-
-    def unit_responses(self, loads: np.ndarray, sectors: Sequence[int]) -> list[np.ndarray]:
-        """Displacement (2 n, k) of some sectors under each of the loads (2 n, k) on sector 0, Young's modulus 1 MPa, the hub held."""
-        on_lower, on_upper = self.interior.at_held_cuts(loads)
-        cut_loads = np.zeros((self.gear.teeth, *on_lower.shape))
-        cut_loads[0] += on_lower
-        cut_loads[1 % self.gear.teeth] += self._turned(on_upper.T, -1).T
-        motion = self.cut_motion(cut_loads)
-        found = []
-        for sector in sectors:
-            lower, ahead = motion[sector % self.gear.teeth], motion[(sector + 1) % self.gear.teeth]
-            inside = loads if sector % self.gear.teeth == 0 else np.zeros_like(loads)
-            found.append(self.interior.between_cuts(lower, self._turned(ahead.T, 1).T, inside))
-        return found
+    def unit_displacement(self, loads: dict[int, np.ndarray], sectors: Iterable[int]) -> np.ndarray:
+        """Displacement (sectors, 2 n, k) of some sectors under loads (2 n, k) on some, by number; Young's modulus 1 MPa, the hub held."""
+        teeth, cases = self.gear.teeth, next(iter(loads.values())).shape[1]
+        on_lower, on_upper = (_by_sector(each, cases) for each in self.interior.at_held_cuts(np.hstack([*loads.values()])))
+        cut_loads = np.zeros((teeth, *on_lower.shape[1:]))
+        cut_loads[[*loads]] += on_lower
+        cut_loads[[(sector + 1) % teeth for sector in loads]] += self._turned(on_upper, -1)
+        motion, chosen = self.cut_motion(cut_loads), np.array([*sectors]) % teeth
+        upper = self._turned(motion[(chosen + 1) % teeth], 1)
+        unloaded = np.zeros_like(next(iter(loads.values())))
+        inside = np.hstack([loads.get(sector, unloaded) for sector in chosen.tolist()])
+        return _by_sector(self.interior.between_cuts(np.hstack(motion[chosen]), np.hstack(upper), inside), cases)
 
     def _turned(self, vectors: np.ndarray, pitches: int) -> np.ndarray:
-        """Interleaved plane vectors (..., 2 k) turned counter-clockwise by pitches."""
+        """Interleaved plane vectors (sectors, 2 c, k) turned counter-clockwise by pitches."""
         turn = rotation(pitches * self.gear.angular_pitch)
-        return (vectors.reshape(*vectors.shape[:-1], vectors.shape[-1] // 2, 2) @ turn.T).reshape(vectors.shape)
+        return np.einsum("xa,scak->scxk", turn, vectors.reshape(len(vectors), -1, 2, vectors.shape[-1])).reshape(vectors.shape)
 
     def cut_motion(self, loads: np.ndarray) -> np.ndarray:
         """Displacement (teeth, 2 c, k) of the sectors' lower cuts under loads (teeth, 2 c, k) on them, Young's modulus 1 MPa.
@@ -130,12 +118,13 @@ class GearRecovery:
             harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
         return np.fft.irfft(harmonics, n=self.gear.teeth, axis=0)
 
-    def _cut_stiffness(self, mesh: BodyMesh) -> tuple[np.ndarray, np.ndarray]:
-        points = self.interior.nodes.points
-        groups = {name: points[getattr(self.interior, name)] for name in ("lower", "upper", "hub")}
-        sector = condense(mesh, self.element, self.material.poissons_ratio, groups)
-        cuts, turn = sector_cuts(sector, self.gear.teeth)
-        return cyclic(turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn)
+    def _link(self) -> np.ndarray:
+        """Stiffness (4 c, 4 c) of one sector between its cuts, the upper one's dofs in the frame of the next sector."""
+        cut = 2 * len(self.interior.lower)
+        motion = block_diag(np.eye(cut), turned_nodes(self.gear.teeth, cut // 2))
+        moved = self.interior.between_cuts(motion[:cut], motion[cut:], np.zeros((2 * len(self.interior.nodes.points), 2 * cut)))
+        link = motion.T @ (self.interior.stiffness[dofs_of(np.concatenate([self.interior.lower, self.interior.upper]))] @ moved)
+        return 0.5 * (link + link.T)
 
     def _hub_force(self, unit: np.ndarray) -> np.ndarray:
         """Sum over the sectors of the hub's forces on them, (3,)."""
@@ -169,6 +158,11 @@ class GearRecovery:
         angle = np.arctan2(*(points[cut[0]][::-1]))
         ends = np.arctan2(points[hub][:, 1], points[hub][:, 0])
         return hub[[np.argmin(np.abs(np.angle(np.exp(1j * (ends - angle)))))]]
+
+
+def _by_sector(columns: np.ndarray, cases: int) -> np.ndarray:
+    """Columns (m, sectors cases) as (sectors, m, cases)."""
+    return columns.reshape(len(columns), -1, cases).swapaxes(0, 1)
 
 
 def gear_recovery(gear: Gear, material: Material, discretisation: Discretisation, coast_flank: bool = False) -> GearRecovery:

@@ -11,13 +11,14 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
+from scipy.linalg import block_diag
 
+from fenics_gears.elasticity.cut_chain import closed_ring, eliminated, run_of
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.ring import check_congruent, condensed_sector
+from fenics_gears.elasticity.ring import centre_motion, condensed_sector, rotation, sector_cuts
 from fenics_gears.elasticity.sector_boundary import flank_through
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.elasticity.superelement import Superelement, closed, joined, of_sector, run_of
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.involute import canonical_point
@@ -43,7 +44,8 @@ class RemeshedGear:
         self.gear, self.material, self.element, self.sizes = gear, material, element, sizes
         self.timings = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0, "sectors_meshed": 0}
         self._unloaded = self._sector(None, NO_NODES)
-        self._runs: dict[int, Superelement] = {}
+        self._cut = len(self._unloaded) // 2
+        self._runs: dict[int, np.ndarray] = {}
 
     def stiffness(self, teeth: tuple[LoadedTooth, ...]) -> np.ndarray:
         """Stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, over all teeth's nodes and the centre (dx, dy, phi).
@@ -52,16 +54,18 @@ class RemeshedGear:
         with the node between each two of them; dofs x, y interleaved, in the frame in which the angles are counted.
         Raises ComputationError when a stage fails.
         """
-        sectors = [self._loaded(tooth).turned(tooth.angle) for tooth in teeth]
-        clock = perf_counter()
-        pitch, whole = self.gear.angular_pitch, None
         ends = [tooth.angle for tooth in teeth[1:]] + [teeth[0].angle + 2.0 * np.pi]
-        for tooth, sector, end in zip(teeth, sectors, ends):
-            whole = sector if whole is None else joined(whole, sector)
-            between = round((end - tooth.angle) / pitch) - 1
-            if between:
-                whole = joined(whole, self._run(between).turned(tooth.angle + pitch))
-        result = self.material.youngs_modulus * closed(whole)
+        between = [round((end - tooth.angle) / self.gear.angular_pitch) - 1 for tooth, end in zip(teeth, ends)]
+        sectors = [self._loaded(tooth) for tooth in teeth]
+        clock = perf_counter()
+        parts = [part for sector, count in zip(sectors, between) for part in (sector, self._run(count)) if part is not None]
+        ring = closed_ring(parts, self._cut)
+        held = eliminated(ring, np.arange(len(parts) * self._cut, len(ring)), np.arange(len(parts) * self._cut))
+        points = [self.contact_points(tooth.rolls) @ rotation(tooth.angle).T for tooth in teeth]
+        turn = block_diag(*(np.kron(np.eye(len(own)), rotation(tooth.angle)) for own, tooth in zip(points, teeth)))
+        # Only motion relative to the hub deforms the gear: with the centre's motion taken off, the hub is held.
+        relative = turn.T @ np.hstack([np.eye(len(turn)), -centre_motion(np.vstack(points))])
+        result = self.material.youngs_modulus * relative.T @ held @ relative
         self.timings["time_condense"] += perf_counter() - clock
         return result
 
@@ -74,24 +78,27 @@ class RemeshedGear:
         points[::2], points[1::2] = vertices, 0.5 * (vertices[1:] + vertices[:-1])
         return points
 
-    def _loaded(self, tooth: LoadedTooth) -> Superelement:
+    def _loaded(self, tooth: LoadedTooth) -> np.ndarray:
         rolls = flank_through(self.gear, self.sizes.flank, tooth.rolls)
         # A wanted vertex may have been moved by round-off onto the flank's end.
         wanted = rolls[np.abs(rolls[:, None] - tooth.rolls).argmin(axis=0)]
         return self._sector(rolls, self.contact_points(wanted))
 
-    def _run(self, count: int) -> Superelement:
-        if count not in self._runs:
-            self._runs[count] = run_of(self._unloaded, count, self.gear.angular_pitch)
-        return self._runs[count]
+    def _run(self, count: int) -> np.ndarray | None:
+        """So many unloaded sectors joined; None for none."""
+        if count and count not in self._runs:
+            self._runs[count] = run_of(self._unloaded, count)
+        return self._runs.get(count)
 
-    def _sector(self, rolls: np.ndarray | None, points: np.ndarray) -> Superelement:
+    def _sector(self, rolls: np.ndarray | None, points: np.ndarray) -> np.ndarray:
+        """Stiffness of a sector, its hub held, over its lower cut, its upper cut in the frame of the next sector, and flank nodes at points."""
         clock = perf_counter()
         mesh = sector_mesh(self.gear, self.sizes, self.element.quadrilateral, rolls)
         meshed = perf_counter()
         sector = condensed_sector(mesh, self.element, self.material.poissons_ratio, points)
-        check_congruent(sector, self.gear.teeth)
-        result = of_sector(sector)
+        cuts, turn = sector_cuts(sector, self.gear.teeth)
+        dofs, turn = np.concatenate([cuts, sector.dofs("flank")]), block_diag(turn, np.eye(2 * len(points)))
+        result = turn.T @ sector.stiffness[np.ix_(dofs, dofs)] @ turn
         compiling = sector.timings["time_compile"]
         self.timings["time_mesh"] += meshed - clock
         self.timings["time_compile"] += compiling

@@ -53,7 +53,7 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
     """
     cuts, turn = sector_cuts(sector, teeth)
     coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
-    flank_compliance = np.linalg.inv(sector.between("flank", "flank"))
+    flank_compliance = definite_inverse(sector.between("flank", "flank"), "a flank")
     to_cuts = flank_compliance @ coupling
     # One sector between its cuts, its flank free.
     link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
@@ -46,7 +46,7 @@ def root_stress_rows(
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=coast_flank).in_modules_of(gear)
     similar = gear.of_module_one
-    key = content_key({
+    inputs = {
         "kind": "root stress",
         "version": [ALGORITHM_VERSION, ROWS_VERSION],
         "gear": asdict(similar),
@@ -54,21 +54,17 @@ def root_stress_rows(
         "element": chosen.name,
         "sizes": asdict(sizes),
         "reach": reach,
-    })
-    arrays = cache.load(key) if cache is not None else None
-    if arrays is None:
-        arrays = _computed(similar, material, chosen, sizes, reach)
-        if cache is not None:
-            cache.store(key, arrays)
+    }
+    arrays, _ = kept(cache, inputs, lambda: (_computed(similar, material, chosen, sizes, reach), {}))
     # A stress is a force over a length, which is in modules there.
     return RootStressRows(arrays["unit_rows"] / gear.module, arrays["tangent_angle"])
 
 
 def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dict[str, np.ndarray]:
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from fenics_gears.elasticity.condensation import dofs_of
     from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_rows
     from fenics_gears.elasticity.recovery import GearRecovery
-    from fenics_gears.elasticity.sector_interior import dofs_of
     from fenics_gears.elasticity.sector_mesh import sector_mesh
 
     mesh = sector_mesh(gear, sizes, element.quadrilateral)
@@ -78,7 +74,7 @@ def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dic
         sides = ("flank", "coast") if sizes.both_flanks else ("flank",)
         flank = np.concatenate([dofs_of(recovery.interior.flank_nodes(side)) for side in sides])
         # A tooth m pitches ahead of the loaded one: the loaded one is m pitches behind the tooth whose stress is wanted.
-        responses = recovery.unit_responses(np.nan_to_num(wanted).T, [-m for m in range(-reach, reach + 1)])
+        responses = recovery.unit_displacement({0: np.nan_to_num(wanted).T}, [-m for m in range(-reach, reach + 1)])
     rows = np.stack([response[flank].T for response in responses])
     rows[:, ~np.isfinite(wanted).all(axis=1)] = np.nan
     return {"unit_rows": rows, "tangent_angle": curve.tangent_angle}

@@ -84,13 +84,14 @@ def sector_boundary(
     halved = 4 if sizes.both_flanks else 2
 
     radii = _cut_radii(gear, field, hub_angles)
+    root_nodes = _on_circle(gear.root_radius, nodes(root, 12), root)
     pieces = {
         "upper cut": radii[:, None] * _directions(hub_angles[1:]),
-        "root": _on_circle(gear.root_radius, nodes(root, 12), root),
+        "root": root_nodes,
         "flank": flank,
         "tip": _on_circle(gear.tip_radius, nodes(tip, multiple=halved), tip),
         "coast": coast if sizes.both_flanks else nodes(coast, 4),
-        "coast root": outline.coast(_on_circle(gear.root_radius, nodes(root, 12), root))[::-1],
+        "coast root": outline.coast(root_nodes)[::-1],
         "lower cut": radii[::-1, None] * _directions(hub_angles[:1]),
         "hub": _on_circle(gear.bore_radius, nodes(hub, multiple=halved), hub),
     }
@@ -106,19 +107,18 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
     largest = 0.5 * (gear.root_radius - gear.bore_radius)
     body, fillet, coast_size = (min(size, largest) for size in (sizes.body, sizes.fillet, sizes.coast))
     roots = np.vstack([root, outline.coast(root)])
-    tooth = np.vstack([flank, roots, coast])
 
     def working(side: np.ndarray) -> SizeSource:
-        return SizeSource(side, min(sizes.flank, body), sizes.depth * sizes.flank, growth)
+        return SizeSource((side,), min(sizes.flank, body), sizes.depth * sizes.flank, growth)
 
     return SizeField(
         sources=(
             working(flank),
-            SizeSource(roots, fillet, fillet, growth),
-            working(coast) if sizes.both_flanks else SizeSource(coast, coast_size, coast_size, growth),
-            SizeSource(tooth, body, BODY_REACH * gear.module, growth),
+            SizeSource((roots,), fillet, fillet, growth),
+            working(coast) if sizes.both_flanks else SizeSource((coast,), coast_size, coast_size, growth),
+            SizeSource((flank, roots, coast), body, BODY_REACH * gear.module, growth),
             # In a slender wedge elements may not outgrow the sector's own width.
-            SizeSource(hub, min(largest, hub_size), 0.0, min(growth, gear.angular_pitch)),
+            SizeSource((hub,), min(largest, hub_size), 0.0, min(growth, gear.angular_pitch)),
         ),
         largest=largest,
     )

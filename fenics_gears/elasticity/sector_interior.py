@@ -6,11 +6,11 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.condensation import by_radius, without
+from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
 from fenics_gears.elasticity.element_nodes import element_nodes
 from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.factor import Factor
 from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.errors import ComputationError
 
@@ -19,7 +19,7 @@ class SectorInterior:
     """A meshed sector, Young's modulus 1 MPa, unit thickness; nodes are those of `nodes` (ElementNodes), dofs interleaved x, y.
 
     lower, upper: (c,) nodes of the cuts by radius, without those on the hub; hub: (h,). stiffness: (2 n, 2 n) sparse, of all nodes.
-    Release the factor by `close`, or use it in a `with`.
+    Release the factor by `close`.
     """
 
     def __init__(self, mesh: BodyMesh, element: Element, poissons_ratio: float):
@@ -34,12 +34,6 @@ class SectorInterior:
         self.free = dofs_of(np.setdiff1d(np.arange(len(self.nodes.points)), held))
         self._factor = Factor(self.stiffness[self.free][:, self.free], "a tooth sector for its stresses")
         self._to_lower, self._to_upper = (self.stiffness[self.free][:, dofs_of(cut)] for cut in (self.lower, self.upper))
-
-    def __enter__(self) -> SectorInterior:
-        return self
-
-    def __exit__(self, *failure) -> None:
-        self.close()
 
     def close(self) -> None:
         """Give the factor's memory back."""
@@ -79,8 +73,3 @@ class SectorInterior:
         matrix.destroy()
         order = dofs_of(nodes_at(space, self.nodes.points))
         return assembled[order][:, order]
-
-
-def dofs_of(nodes: np.ndarray) -> np.ndarray:
-    """Dofs (2 k,) of nodes (k,)."""
-    return (2 * np.asarray(nodes)[:, None] + [0, 1]).ravel()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import ufl
 from scipy.spatial import cKDTree
@@ -50,8 +52,9 @@ def displacement_space(mesh: BodyMesh, element: Element):
     return adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells), element.order)
 
 
+@cache
 def compile_ahead(element: Element) -> None:
-    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time."""
+    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time; once in a process."""
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     cell = BodyMesh(square[: element.corners], np.arange(element.corners)[None], {})
     with adapter.quiet_compiler():
@@ -75,7 +78,7 @@ def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
 
 
 def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.ndarray:
-    """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2): told apart where several are in one place.
+    """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2), which distinguish nodes in one place.
 
     Raises ComputationError where there is no such cell or node.
     """

@@ -41,9 +41,8 @@ class FlankDeviations:
 
 def flank_deviations(errors: FlankErrors, pair: GearPair) -> tuple[FlankDeviations, FlankDeviations]:
     """Deviations of pinion and wheel."""
-    starts = pair.pinion_sap_roll_angle, pair.wheel_sap_roll_angle
-    gears = (pair.pinion, errors.pinion), (pair.wheel, errors.wheel)
-    return tuple(_of_gear(gear, own, errors, number, starts[number]) for number, (gear, own) in enumerate(gears))
+    gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
+    return tuple(_of_gear(gear, own, errors, number, start) for number, (gear, own, start) in enumerate(gears))
 
 
 def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, start: float) -> FlankDeviations:
@@ -60,9 +59,10 @@ def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, star
         return np.zeros(gear.teeth) if tolerance is None else drawn(tolerance)
 
     pitch = values(own.pitch, lambda limits: drawn_pitch(limits, draws(PITCH)))
+    # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
+    index = np.cumsum(pitch - pitch.mean())
     return FlankDeviations(
-        # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
-        index=_closed(np.cumsum(pitch - pitch.mean())),
+        index=index - index[-1],
         slope=values(own.profile_slope, lambda limits: limits.profile_slope * draws(SLOPE)),
         form=values(own.profile_form, lambda limits: limits.profile_form * draws(FORM)),
         waviness=own.waviness,
@@ -78,8 +78,3 @@ def drawn_pitch(limits: FlankTolerance, draws: np.ndarray) -> np.ndarray:
     pitch = draws - draws.mean()
     cumulative = np.ptp(np.cumsum(pitch))
     return pitch * min(limits.single_pitch / np.abs(pitch).max(), limits.cumulative_pitch / cumulative)
-
-
-def _closed(index: np.ndarray) -> np.ndarray:
-    """The cumulative deviation less its last value, which is zero but for round-off."""
-    return index - index[-1]

@@ -109,34 +109,19 @@ class GearPair:
         return (self.line_of_action_length - position) / self.wheel.base_radius
 
     @property
-    def pinion_hpstc_roll_angle(self) -> float:
-        """Roll angle (rad) at the pinion's highest point of single tooth contact."""
-        return self.pinion_roll_angle(self.hpstc)
+    def hpstc_roll_angles(self) -> tuple[float, float]:
+        """Roll angles (rad) of pinion and wheel at their highest points of single tooth contact."""
+        return self.pinion_roll_angle(self.hpstc), self.wheel_roll_angle(self.lpstc)
 
     @property
-    def wheel_hpstc_roll_angle(self) -> float:
-        """Roll angle (rad) at the wheel's highest point of single tooth contact."""
-        return self.wheel_roll_angle(self.lpstc)
+    def lpstc_roll_angles(self) -> tuple[float, float]:
+        """Roll angles (rad) of pinion and wheel at their lowest points of single tooth contact."""
+        return self.pinion_roll_angle(self.lpstc), self.wheel_roll_angle(self.hpstc)
 
     @property
-    def pinion_lpstc_roll_angle(self) -> float:
-        """Roll angle (rad) at the pinion's lowest point of single tooth contact."""
-        return self.pinion_roll_angle(self.lpstc)
-
-    @property
-    def wheel_lpstc_roll_angle(self) -> float:
-        """Roll angle (rad) at the wheel's lowest point of single tooth contact."""
-        return self.wheel_roll_angle(self.hpstc)
-
-    @property
-    def pinion_sap_roll_angle(self) -> float:
-        """Roll angle (rad) of the pinion's lowest contact point, where the path of contact starts."""
-        return self.pinion_roll_angle(self.path_start)
-
-    @property
-    def wheel_sap_roll_angle(self) -> float:
-        """Roll angle (rad) of the wheel's lowest contact point, where the path of contact ends."""
-        return self.wheel_roll_angle(self.path_end)
+    def sap_roll_angles(self) -> tuple[float, float]:
+        """Roll angles (rad) of pinion and wheel at their starts of active profile: the pinion's is in contact first, the wheel's last."""
+        return self.pinion_roll_angle(self.path_start), self.wheel_roll_angle(self.path_end)
 
     @property
     def backlash(self) -> float:
@@ -159,14 +144,10 @@ class GearPair:
         return bases * sqrt(1.0 + inverse_involute((both_teeth - 0.5 * self.base_pitch) / bases) ** 2)
 
     @property
-    def pinion_tip_clearance(self) -> float:
-        """Distance (mm) from the pinion's tip circle to the wheel's root circle."""
-        return self.centre_distance - self.pinion.tip_radius - self.wheel.root_radius
-
-    @property
-    def wheel_tip_clearance(self) -> float:
-        """Distance (mm) from the wheel's tip circle to the pinion's root circle."""
-        return self.centre_distance - self.wheel.tip_radius - self.pinion.root_radius
+    def tip_clearances(self) -> tuple[float, float]:
+        """Distances (mm) from the tip circles of pinion and wheel to the mate's root circle."""
+        pinion, wheel = self.pinion, self.wheel
+        return self.centre_distance - pinion.tip_radius - wheel.root_radius, self.centre_distance - wheel.tip_radius - pinion.root_radius
 
 
 def gear_pair(data: GearPairData) -> GearPair:

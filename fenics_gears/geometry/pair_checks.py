@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 # Tip thickness in modules below which design practice calls a tooth pointed.
 THIN_TIP = 0.2
+# Each gear and its mate.
+NAMES = (("pinion", "wheel"), ("wheel", "pinion"))
 
 
 def check_pair(pair: GearPair) -> None:
@@ -32,7 +34,8 @@ def check_pair(pair: GearPair) -> None:
 def design_warnings(pair: GearPair) -> list[str]:
     """Warnings of unusual design that can be computed all the same."""
     found = []
-    for name, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
+    for name, _ in NAMES:
+        gear = getattr(pair, name)
         if gear.tip_thickness < THIN_TIP * gear.module:
             found.append(
                 f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
@@ -64,10 +67,7 @@ def _check_backlash(pair: GearPair) -> None:
 
 
 def _check_tip_clearance(pair: GearPair) -> None:
-    for name, other, clearance in (
-        ("pinion", "wheel", pair.pinion_tip_clearance),
-        ("wheel", "pinion", pair.wheel_tip_clearance),
-    ):
+    for (name, other), clearance in zip(NAMES, pair.tip_clearances):
         if clearance < -ROUNDING:
             refuse(
                 name,
@@ -87,10 +87,8 @@ def _check_contact_ratio(pair: GearPair) -> None:
 
 
 def _check_interference(pair: GearPair) -> None:
-    for name, other, gear, lowest in (
-        ("pinion", "wheel", pair.pinion, pair.pinion_sap_roll_angle),
-        ("wheel", "pinion", pair.wheel, pair.wheel_sap_roll_angle),
-    ):
+    for (name, other), lowest in zip(NAMES, pair.sap_roll_angles):
+        gear = getattr(pair, name)
         if lowest * gear.base_radius < gear.form_roll_angle * gear.base_radius - ROUNDING:
             largest_tip = 2.0 * _largest_mating_tip_radius(pair, other, gear)
             refuse(
@@ -102,11 +100,8 @@ def _check_interference(pair: GearPair) -> None:
 
 
 def _check_fillet_clearance(pair: GearPair) -> None:
-    for name, other, gear, mate in (
-        ("pinion", "wheel", pair.pinion, pair.wheel),
-        ("wheel", "pinion", pair.wheel, pair.pinion),
-    ):
-        clearance = fillet_clearance(gear, mate, pair.centre_distance)
+    for name, other in NAMES:
+        clearance = fillet_clearance(getattr(pair, name), getattr(pair, other), pair.centre_distance)
         if clearance < -ROUNDING:
             refuse(
                 name,
@@ -117,6 +112,6 @@ def _check_fillet_clearance(pair: GearPair) -> None:
 
 
 def _largest_mating_tip_radius(pair: GearPair, other: str, gear: Gear) -> float:
-    mate = pair.wheel if other == "wheel" else pair.pinion
+    mate = getattr(pair, other)
     roll = (pair.line_of_action_length - gear.form_roll_angle * gear.base_radius) / mate.base_radius
     return float(mate.radius(roll))

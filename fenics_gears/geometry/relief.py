@@ -59,8 +59,7 @@ def tip_reliefs(pair: GearPair, reliefs: TipRelief) -> tuple[ReliefCurve | None,
 
     Raises GeometryError as ``relief_curve`` does.
     """
-    usual_starts = pair.pinion_hpstc_roll_angle, pair.wheel_hpstc_roll_angle
-    return _curves(pair, reliefs, "tip_relief", (pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle), usual_starts)
+    return _curves(pair, reliefs, "tip_relief", (pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle), pair.hpstc_roll_angles)
 
 
 def root_reliefs(pair: GearPair, reliefs: RootRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
@@ -68,16 +67,12 @@ def root_reliefs(pair: GearPair, reliefs: RootRelief) -> tuple[ReliefCurve | Non
 
     Raises GeometryError as ``relief_curve`` does.
     """
-    usual_starts = pair.pinion_lpstc_roll_angle, pair.wheel_lpstc_roll_angle
-    return _curves(pair, reliefs, "root_relief", (pair.pinion.form_roll_angle, pair.wheel.form_roll_angle), usual_starts)
+    return _curves(pair, reliefs, "root_relief", (pair.pinion.form_roll_angle, pair.wheel.form_roll_angle), pair.lpstc_roll_angles)
 
 
 def _curves(pair: GearPair, reliefs: TipRelief | RootRelief, section: str, ends, usual_starts):
-    sides = [_Side(getattr(pair, name), name, section, *angles) for name, *angles in zip(("pinion", "wheel"), ends, usual_starts)]
-    pinion, wheel = (
-        None if relief is None else relief_curve(relief, side) for relief, side in zip((reliefs.pinion, reliefs.wheel), sides)
-    )
-    return pinion, wheel
+    sides = (_Side(getattr(pair, name), name, section, *angles) for name, *angles in zip(("pinion", "wheel"), ends, usual_starts))
+    return tuple(None if relief is None else relief_curve(relief, side) for relief, side in zip((reliefs.pinion, reliefs.wheel), sides))
 
 
 def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:

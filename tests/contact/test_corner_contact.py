@@ -73,7 +73,7 @@ def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_
         for sign in (1.0, -1.0):
             moved = np.zeros((2, 3))
             moved[gear, axis] = sign * step / (radii[gear] if axis == 2 else 1.0)
-            gaps.append(distance(placed(paper_pair, corner.edges, place, moved=moved)))
+            gaps.append(distance(placed(paper_pair, corner.edges, place, 8001, moved)))
         expected[column] = -(gaps[0] - gaps[1]) / (2.0 * step)
     assert row[:6] == pytest.approx(expected, abs=2e-5)
     assert abs(row[1]) > 0.02  # off the line of action indeed

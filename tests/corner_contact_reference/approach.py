@@ -13,6 +13,7 @@ from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.pair import GearPair
@@ -30,13 +31,13 @@ def teeth_alone(scene: Scene, accuracy: Accuracy = Accuracy()) -> Scene:
     )  # fmt: skip
 
 
-def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int) -> MeshCycle:
+def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache: Cache | None = None) -> MeshCycle:
     """Contact operators of a scene's teeth alone on finite elements, the wheel's rotation the only unknown."""
     model = model_of(scene)
     grid, resolution = model.resolution.contact_grid, model.resolution
     reach = tooth_reach(model.pair, grid, steps, corner=corner)
     compliances = tuple(
-        flank_compliance(gear, scene.gears.material, Discretisation(resolution.element, resolution.flank_element_size), reach)
+        flank_compliance(gear, scene.gears.material, Discretisation(resolution.element, resolution.flank_element_size), reach, cache)
         for gear in (model.pair.pinion, model.pair.wheel)
     )
     return rigid_hub_cycle(Flanks(model.pair, compliances), grid, steps, corner)

@@ -23,11 +23,11 @@ def name(row) -> str:
 
 
 @pytest.fixture(scope="module")
-def cycles(paper_scene):
+def cycles(paper_scene, suite_cache):
     """Contact operators at the default accuracy with sharp and with rounded tip edges, and without corner contact."""
     scene, pair = teeth_alone(paper_scene), gear_pair(paper_scene.gears)
     corners = {radius: corner_contact(pair, radius) for radius in sorted({row.case.edge_radius for row in USUAL})}
-    return {radius: elastic_cycle(scene, corner, STEPS) for radius, corner in (*corners.items(), (None, None))}
+    return {radius: elastic_cycle(scene, corner, STEPS, suite_cache) for radius, corner in (*corners.items(), (None, None))}
 
 
 @pytest.mark.parametrize("row", USUAL, ids=name)

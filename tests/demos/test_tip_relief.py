@@ -33,8 +33,8 @@ def test_long_and_short_are_what_the_field_means(benches):
     """Exact geometry: long begins at HPSTC; short leaves one base pitch of the path of contact to true involutes."""
     pair = benches["μ = 0"].pair
     long, short = (relief(pair, Design(30.0, length)) for length in (LONG, SHORT))
-    assert long.pinion.start_roll_angle == pytest.approx(pair.pinion_hpstc_roll_angle, rel=1e-12)
-    assert long.wheel.start_roll_angle == pytest.approx(pair.wheel_hpstc_roll_angle, rel=1e-12)
+    assert long.pinion.start_roll_angle == pytest.approx(pair.hpstc_roll_angles[0], rel=1e-12)
+    assert long.wheel.start_roll_angle == pytest.approx(pair.hpstc_roll_angles[1], rel=1e-12)
     pinion_end = pair.pinion.base_radius * short.pinion.start_roll_angle
     wheel_end = pair.line_of_action_length - pair.wheel.base_radius * short.wheel.start_roll_angle
     assert pinion_end - wheel_end == pytest.approx(pair.base_pitch, rel=1e-12)

@@ -149,7 +149,7 @@ def moved(name, change):
 
 def excess_per_unit(name, roll, tooth, pair):
     """Material in excess on the pinion's flank for a unit of a deviation, by its definition."""
-    start, end = pair.pinion_sap_roll_angle, pair.pinion.tip_roll_angle
+    start, end = pair.sap_roll_angles[0], pair.pinion.tip_roll_angle
     along = (roll - start) / (end - start)
     turned = 37 * (roll + tooth * pair.pinion.angular_pitch) + 0.4
     return {

@@ -31,7 +31,7 @@ def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
     fractions = np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
     for shape, power in ((LINEAR, 1), (PARABOLIC, 2)):
         relief = Relief(DEPTH, None, shape)
-        gears = (paper_pair.pinion, paper_pair.pinion_lpstc_roll_angle), (paper_pair.wheel, paper_pair.wheel_lpstc_roll_angle)
+        gears = (paper_pair.pinion, paper_pair.lpstc_roll_angles[0]), (paper_pair.wheel, paper_pair.lpstc_roll_angles[1])
         for curve, (gear, start) in zip(root_reliefs(paper_pair, RootRelief(relief, relief)), gears):
             rolls = start + fractions * (gear.form_roll_angle - start)
             assert curve(rolls) == pytest.approx(DEPTH * np.maximum(fractions, 0.0) ** power, abs=1e-16)
@@ -199,7 +199,7 @@ def test_relief_of_either_flank_of_a_contact_is_felt_alike(paper_scene, paper_pa
     plain = simulate(scene)
     tip = simulate(replace(scene, tip_relief=TipRelief(tips, tips)))
     # The wheel's roll angles fall as the pinion's rise; its tip meets the pinion's start of active profile.
-    start, sap, form = paper_pair.pinion_lpstc_roll_angle, paper_pair.pinion_sap_roll_angle, paper_pair.pinion.form_roll_angle
+    start, sap, form = paper_pair.lpstc_roll_angles[0], paper_pair.sap_roll_angles[0], paper_pair.pinion.form_roll_angle
     depth = shallow * (start - form) / (start - sap)
     root = simulate(replace(scene, root_relief=RootRelief(Relief(depth, None), None)))
     on_plain, on_tip, on_root = (result.transmission_error.values * paper_pair.wheel.base_radius for result in (plain, tip, root))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fenics_gears.elasticity.roll_angles import node_roll_angles
+from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)

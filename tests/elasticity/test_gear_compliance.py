@@ -23,7 +23,7 @@ from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.geometry.involute import arc_length, canonical_normal
 
-COARSE, REACH = Discretisation("P2", 0.5), Reach(1)
+COARSE, REACH = Discretisation("P2", 0.5, 2.5), Reach(1)
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
@@ -109,6 +109,15 @@ def test_damaged_cache_entry_is_computed_again(pinion, steel, tmp_path):
     assert flank_compliance(pinion, steel, COARSE, REACH, cache).timings["from_cache"]
 
 
+@pytest.fixture(scope="module")
+def own_cache(pinion, steel, tmp_path_factory):
+    """A cache that has the coarse pinion."""
+    cache = Cache(tmp_path_factory.mktemp("cache"))
+    flank_compliance(pinion, steel, COARSE, REACH, cache)
+    assert flank_compliance(pinion, steel, COARSE, REACH, cache).timings["from_cache"]
+    return cache
+
+
 @pytest.mark.parametrize(
     ("kind", "change"),
     [
@@ -120,13 +129,11 @@ def test_damaged_cache_entry_is_computed_again(pinion, steel, tmp_path):
         ("material", {"poissons_ratio": 0.29}),
     ],
 )
-def test_every_input_has_its_own_cache_entry(kind, change, pinion, steel, tmp_path):
+def test_every_input_has_its_own_cache_entry(kind, change, pinion, steel, own_cache):
     """Whatever changes the numbers changes the key."""
-    cache = Cache(tmp_path)
-    flank_compliance(pinion, steel, COARSE, REACH, cache)
     inputs = {"gear": pinion, "material": steel, "discretisation": COARSE, "reach": REACH}
     inputs[kind] = replace(inputs[kind], **change)
-    assert not flank_compliance(**inputs, cache=cache).timings["from_cache"]
+    assert not flank_compliance(**inputs, cache=own_cache).timings["from_cache"]
 
 
 @pytest.mark.parametrize(

@@ -12,17 +12,18 @@ from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears.contact.flank_forces import unmirrored
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.elasticity.sector_interior import dofs_of
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.geometry.involute import arc_length, canonical_normal, canonical_point, roll_angle_at_arc_length
 
-SIZE = 0.4
+# The identities hold on any mesh.
+COARSE = {name: Discretisation(name, 0.9, 3.0) for name in ELEMENTS}
 RANDOM = np.random.default_rng(7)
 
 
@@ -32,17 +33,19 @@ def forces_on(recovery, flanks: int = 1) -> dict[int, np.ndarray]:
     return {0: RANDOM.normal(size=count), 1: RANDOM.normal(size=count)}
 
 
-@pytest.mark.parametrize("name", ELEMENTS)
-@pytest.mark.parametrize("flanks", [1, 2], ids=["drive flank", "both flanks"])
-def test_flanks_move_as_their_compliance_says(name, flanks):
-    """Exact identity: u_f = A f on the loaded teeth, their neighbours ahead and behind; the compliance is condensed another way."""
-    discretisation = Discretisation(name, SIZE)
-    compliance = flank_compliance(PINION, STEEL, discretisation, Reach(2, (-2, 2) if flanks == 2 else None))
-    with gear_recovery(PINION, STEEL, discretisation, coast_flank=flanks == 2) as recovery:
-        forces = forces_on(recovery, flanks)
-        moved = recovery.recovered(forces).displacement
-        sides = ("flank", "coast")[:flanks]
-        nodes = np.concatenate([recovery.interior.flank_nodes(side) for side in sides])
+@pytest.fixture(scope="module", params=ELEMENTS)
+def loaded(request):
+    """A gear of each element, random forces on its drive flanks, and its body under them."""
+    with gear_recovery(PINION, STEEL, COARSE[request.param]) as recovery:
+        forces = forces_on(recovery)
+        yield recovery, forces, recovery.recovered(forces)
+
+
+def check_flanks(recovery, forces, body, flanks: int):
+    """Check u_f = A f on the loaded teeth, their neighbours ahead and behind."""
+    reach = Reach(2, (-2, 2) if flanks == 2 else None)
+    compliance = flank_compliance(PINION, STEEL, COARSE[recovery.element.name], reach)
+    nodes = np.concatenate([recovery.interior.flank_nodes(side) for side in ("flank", "coast")[:flanks]])
     drive = 2 * compliance.nodes
 
     def mirrored(vector):
@@ -50,29 +53,39 @@ def test_flanks_move_as_their_compliance_says(name, flanks):
         return np.concatenate([vector[:drive], unmirrored(PINION, vector[drive:])])
 
     for tooth in (-1, 0, 1, 2):
-        expected = sum(compliance.block(tooth - loaded) @ mirrored(force) for loaded, force in forces.items())
-        found = mirrored(moved[tooth % PINION.teeth][nodes].ravel())
+        expected = sum(compliance.block(tooth - each) @ mirrored(force) for each, force in forces.items())
+        found = mirrored(body.displacement[tooth % PINION.teeth][nodes].ravel())
         assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
 
 
-def test_a_gear_that_nothing_touches_is_at_rest():
+def test_flanks_move_as_their_compliance_says(loaded):
+    """Exact identity: u_f = A f; the compliance is condensed another way."""
+    check_flanks(*loaded, flanks=1)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_both_flanks_move_as_their_compliance_says(name):
+    """The same with forces on both flanks."""
+    with gear_recovery(PINION, STEEL, COARSE[name], coast_flank=True) as recovery:
+        forces = forces_on(recovery, 2)
+        check_flanks(recovery, forces, recovery.recovered(forces), flanks=2)
+
+
+def test_a_gear_that_nothing_touches_is_at_rest(loaded):
     """Exact identity: no forces, no displacement and no stress; the teeth have parted at such a step."""
-    with gear_recovery(PINION, STEEL, Discretisation("P1", SIZE)) as recovery:
-        body, nodes = recovery.recovered({}), len(recovery.points)
+    recovery, *_ = loaded
+    body, nodes = recovery.recovered({}), len(recovery.points)
     assert body.displacement.shape == (PINION.teeth, nodes, 2) and body.stress.shape == (PINION.teeth, nodes, 3)
     assert not body.displacement.any() and not body.stress.any() and not body.hub_force.any()
 
 
-@pytest.mark.parametrize("name", ELEMENTS)
-def test_every_node_of_the_gear_is_in_equilibrium(name):
+def test_every_node_of_the_gear_is_in_equilibrium(loaded):
     """Exact identity: K u = f with the stiffness of the whole gear meshed as one body, at all nodes but the held hub's."""
-    with gear_recovery(PINION, STEEL, Discretisation(name, SIZE)) as recovery:
-        forces = forces_on(recovery)
-        body, loads = recovery.recovered(forces), recovery.flank_loads(forces)
-        mesh, points, hub = recovery.interior.mesh, recovery.interior.nodes.points, recovery.interior.hub
-    whole = whole_gear_mesh(mesh, PINION.teeth)
-    space = displacement_space(whole, ELEMENTS[name])
-    matrix = stiffness_matrix(space, ELEMENTS[name], STEEL.poissons_ratio)
+    recovery, forces, body = loaded
+    loads = recovery.flank_loads(forces)
+    mesh, points, hub = recovery.interior.mesh, recovery.interior.nodes.points, recovery.interior.hub
+    space = displacement_space(whole_gear_mesh(mesh, PINION.teeth), recovery.element)
+    matrix = stiffness_matrix(space, recovery.element, STEEL.poissons_ratio)
     starts, columns, values = matrix.getValuesCSR()
     stiffness = sparse.csr_matrix((values, columns, starts))
     moved, force, held = np.zeros(stiffness.shape[0]), np.zeros(stiffness.shape[0]), []
@@ -88,35 +101,30 @@ def test_every_node_of_the_gear_is_in_equilibrium(name):
     assert np.abs(residual).max() < 1e-9 * np.abs(force).max()
 
 
-@pytest.mark.parametrize("name", ELEMENTS)
-def test_the_hub_takes_the_sum_of_all_forces(name):
-    """Exact identity: balance of forces and of couples about the gear's centre."""
-    with gear_recovery(PINION, STEEL, Discretisation(name, SIZE)) as recovery:
-        forces = forces_on(recovery)
-        taken = recovery.recovered(forces).hub_force
-        points = recovery.points[recovery.interior.flank_nodes("flank")]
+def test_the_hub_takes_the_sum_of_all_forces(loaded):
+    """Exact identity: balance of forces and of torques about the gear's centre."""
+    recovery, forces, body = loaded
+    points = recovery.points[recovery.interior.flank_nodes("flank")]
     total = np.zeros(3)
     for tooth, force in forces.items():
         at = force.reshape(-1, 2)
         total[:2] += rotation(tooth * PINION.angular_pitch) @ at.sum(axis=0)
         total[2] += (points[:, 0] * at[:, 1] - points[:, 1] * at[:, 0]).sum()
-    assert np.abs(taken + total).max() < 1e-9 * np.abs(total).max()
+    assert np.abs(body.hub_force + total).max() < 1e-9 * np.abs(total).max()
 
 
-def test_stress_of_a_linear_displacement_is_exact():
+def test_stress_of_a_linear_displacement_is_exact(loaded):
     """Patch test: a linear displacement has one stress, which every element's averaged nodal stress reproduces."""
+    recovery, *_ = loaded
     strain, turn = np.array([[1.2e-3, 0.4e-3], [0.4e-3, -0.7e-3]]), 0.5e-3
     gradient = strain + turn * np.array([[0.0, -1.0], [1.0, 0.0]])
     nu = STEEL.poissons_ratio
     factor = 1.0 / ((1.0 + nu) * (1.0 - 2.0 * nu))
     xx = factor * ((1.0 - nu) * strain[0, 0] + nu * strain[1, 1])
     yy = factor * ((1.0 - nu) * strain[1, 1] + nu * strain[0, 0])
-    for name in ELEMENTS:
-        with gear_recovery(PINION, STEEL, Discretisation(name, SIZE)) as recovery:
-            points = recovery.interior.nodes.points
-            operator = recovery.nodal_stress
-            found = operator.rows(np.arange(len(points))) @ (points @ gradient.T).ravel()
-        np.testing.assert_allclose(found.reshape(-1, 3), np.tile([xx, yy, strain[0, 1] / (1.0 + nu)], (len(points), 1)), atol=1e-12)
+    points = recovery.interior.nodes.points
+    found = recovery.nodal_stress.rows(np.arange(len(points))) @ (points @ gradient.T).ravel()
+    np.testing.assert_allclose(found.reshape(-1, 3), np.tile([xx, yy, strain[0, 1] / (1.0 + nu)], (len(points), 1)), atol=1e-12)
 
 
 def test_stress_turns_as_a_tensor():
@@ -127,11 +135,10 @@ def test_stress_turns_as_a_tensor():
     np.testing.assert_allclose(found, [expected[0, 0], expected[1, 1], expected[0, 1]], rtol=1e-14)
 
 
-def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut():
-    """Exact identity: averages on a cut count the elements on both of its sides, so that both sectors tell the same tensor."""
-    with gear_recovery(PINION, STEEL, Discretisation("P2", SIZE)) as recovery:
-        body = recovery.recovered(forces_on(recovery))
-        lower, upper = recovery.interior.lower, recovery.interior.upper
+def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut(loaded):
+    """Exact identity: averages on a cut count the elements on both of its sides, so that both sectors have the same tensor."""
+    recovery, _, body = loaded
+    lower, upper = recovery.interior.lower, recovery.interior.upper
     for tooth in range(PINION.teeth):
         ahead = turned_stress(body.stress[(tooth + 1) % PINION.teeth][lower], PINION.angular_pitch)
         assert np.abs(body.stress[tooth][upper] - ahead).max() < 1e-9 * np.abs(body.stress).max()

@@ -1,10 +1,10 @@
 """A gear meshed anew with prescribed flank nodes, against brute force."""
 
+from functools import lru_cache
 from math import radians
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
@@ -20,6 +20,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length
 from fenics_gears.scene.data import Material
+from meshes.root_crack import joined_sectors
 
 COARSE = ElementSizes(flank=0.8, fillet=0.4, coast=1.0, body=3.0)
 PINION = Gear(16, 4.5, radians(20.0), 0.196, 41.32, 31.25, 15.0, 0.38 * 4.5)
@@ -28,6 +29,7 @@ ANGLE = 0.37
 # Roll angles on two neighbouring teeth and on the third after them.
 ROLLS = (np.array([0.45, 0.47, 0.5]), np.array([0.31, 0.28, 0.22, 0.2]), np.array([0.55, 0.6]))
 PLACES = (0, 1, 3)
+BODY = 3.0
 
 
 def relative(difference, reference):
@@ -38,20 +40,14 @@ def loaded_teeth():
     return tuple(LoadedTooth(ANGLE + place * PINION.angular_pitch, rolls) for place, rolls in zip(PLACES, ROLLS))
 
 
+@lru_cache
 def whole_mesh(quadrilaterals: bool) -> BodyMesh:
     """All sectors, meshed as wanted, in their places and merged along the cuts."""
-    points, cells, hub, count = [], [], [], 0
-    for tooth in range(PINION.teeth):
-        rolls = flank_through(PINION, COARSE.flank, ROLLS[PLACES.index(tooth)]) if tooth in PLACES else None
-        mesh = sector_mesh(PINION, COARSE, quadrilaterals, rolls)
-        points.append(mesh.points @ rotation(ANGLE + tooth * PINION.angular_pitch).T)
-        cells.append(mesh.cells + count)
-        hub.append(mesh.edges["hub"] + count)
-        count += len(mesh.points)
-    every = np.vstack(points)
-    first = np.array([min(near) for near in cKDTree(every).query_ball_point(every, 1e-7)])
-    kept, index = np.unique(first, return_inverse=True)
-    return BodyMesh(every[kept], index.ravel()[np.vstack(cells)], {"hub": index.ravel()[np.vstack(hub)]})
+    sectors = [sector_mesh(PINION, COARSE, quadrilaterals)] * PINION.teeth
+    for tooth, rolls in zip(PLACES, ROLLS):
+        sectors[tooth] = sector_mesh(PINION, COARSE, quadrilaterals, flank_through(PINION, COARSE.flank, rolls))
+    gear = joined_sectors(sectors)
+    return BodyMesh(gear.points @ rotation(ANGLE).T, gear.cells, gear.edges)
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
@@ -96,11 +92,11 @@ def test_prescribing_the_standard_vertices_changes_nothing(name, size):
 
 def distance_to_the_fast_route(element, name, size):
     """Relative difference of both routes' compliance of nine of the standard vertices."""
-    sizes = element_sizes(PINION, element, size)
+    sizes = element_sizes(PINION, element, size, BODY)
     rolls = flank_roll_angles(PINION, size)[6:15]
     stiffness = RemeshedGear(PINION, STEEL, element, sizes).stiffness((LoadedTooth(0.0, rolls),))
     compliance = np.linalg.inv(stiffness[:-3, :-3])
-    fast = flank_compliance(PINION, STEEL, Discretisation(name, size), Reach(0)).blocks[0]
+    fast = flank_compliance(PINION, STEEL, Discretisation(name, size, BODY), Reach(0)).blocks[0]
     rows = 2 * 6 * element.order + np.arange(len(compliance))
     return relative(compliance - fast[np.ix_(rows, rows)], compliance)
 

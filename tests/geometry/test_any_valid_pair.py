@@ -22,8 +22,8 @@ def test_points_of_the_path_of_contact_are_in_order(pair):
     assert pair.fewest_pairs <= pair.contact_ratio + 1e-8 < pair.fewest_pairs + 1.0 + 1e-7
     along = [pair.path_start, pair.lpstc, pair.hpstc, pair.path_end]
     named = (
-        [pair.pinion_sap_roll_angle, pair.pinion_lpstc_roll_angle, pair.pinion_hpstc_roll_angle, pair.pinion.tip_roll_angle],
-        [pair.wheel.tip_roll_angle, pair.wheel_hpstc_roll_angle, pair.wheel_lpstc_roll_angle, pair.wheel_sap_roll_angle],
+        [pair.sap_roll_angles[0], pair.lpstc_roll_angles[0], pair.hpstc_roll_angles[0], pair.pinion.tip_roll_angle],
+        [pair.wheel.tip_roll_angle, pair.hpstc_roll_angles[1], pair.lpstc_roll_angles[1], pair.sap_roll_angles[1]],
     )
     assert named[0] == pytest.approx(pair.pinion_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
     assert named[1] == pytest.approx(pair.wheel_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
@@ -41,8 +41,8 @@ def test_swapped_gears_are_the_same_pair(pair):
     assert swapped.pitch_point == pytest.approx(pair.pitch_point_to_wheel_tangent, rel=1e-11)
     assert swapped.contact_ratio == pytest.approx(pair.contact_ratio, rel=1e-11)
     assert swapped.backlash == pytest.approx(pair.backlash, abs=1e-12 * length)
-    assert swapped.pinion_hpstc_roll_angle == pytest.approx(pair.wheel_hpstc_roll_angle, abs=1e-11)
-    assert swapped.pinion_tip_clearance == pair.wheel_tip_clearance
+    assert swapped.hpstc_roll_angles[0] == pytest.approx(pair.hpstc_roll_angles[1], abs=1e-11)
+    assert swapped.tip_clearances[0] == pair.tip_clearances[1]
 
 
 @settings(max_examples=60, deadline=None)

@@ -89,7 +89,7 @@ def test_tip_corner_that_cuts_into_a_fillet_off_the_line_of_action(paper_pair):
     pinion root with a large fillet is hit; the paper's own is free."""
     pinion = replace(paper_pair.pinion, root_radius=31.8, rack_tip_radius=0.45 * 4.5)
     shallow = replace(paper_pair, pinion=pinion)
-    assert shallow.wheel_tip_clearance > 0.0 and shallow.pinion_sap_roll_angle > pinion.form_roll_angle
+    assert shallow.tip_clearances[1] > 0.0 and shallow.sap_roll_angles[0] > pinion.form_roll_angle
     assert fillet_clearance(pinion, shallow.wheel, 91.5) < -0.01
     assert fillet_clearance(paper_pair.pinion, paper_pair.wheel, 91.5) > 0.01
     positions = np.linspace(shallow.path_start, shallow.path_end, 40)

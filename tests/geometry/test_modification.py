@@ -16,8 +16,8 @@ def test_relief_from_the_highest_point_of_single_tooth_contact(paper_pair):
     """Authority: definition (paper, Section 5): nothing below HPSTC, the depth at the tip, linear between."""
     pinion, wheel = tip_reliefs(paper_pair, TipRelief(Relief(0.031, None), Relief(0.020, None)))
     for relief, depth, start, gear in (
-        (pinion, 0.031, paper_pair.pinion_hpstc_roll_angle, paper_pair.pinion),
-        (wheel, 0.020, paper_pair.wheel_hpstc_roll_angle, paper_pair.wheel),
+        (pinion, 0.031, paper_pair.hpstc_roll_angles[0], paper_pair.pinion),
+        (wheel, 0.020, paper_pair.hpstc_roll_angles[1], paper_pair.wheel),
     ):
         fractions = np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
         rolls = start + fractions * (gear.tip_roll_angle - start)

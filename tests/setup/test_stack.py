@@ -55,15 +55,11 @@ def run(code, *arguments, launcher=()):
     return done.stdout
 
 
-def test_picture_is_drawn_off_screen_after_dolfinx_is_loaded():
-    """A black sphere before white: the corner shows the background, the middle the sphere, exactly."""
-    numbers = [int(number) for number in run(PICTURE).split()]
+def test_pictures_and_result_files_are_made_beside_dolfinx(tmp_path):
+    """Exactly: a black sphere before white, the corner shows the background, the middle the sphere; a dataset read back is the one written,
+    though DOLFINx and h5py each bring HDF5 into the process."""
+    numbers = [int(number) for number in run(PICTURE + RESULT_FILE, str(tmp_path / "run.nc")).split()]
     assert numbers == [60, 80, 3, 255, 255, 255, 0, 0, 0]
-
-
-def test_result_file_is_written_and_read_beside_dolfinx(tmp_path):
-    """DOLFINx and h5py each bring HDF5 into the process; a dataset read back is the one written, exactly."""
-    run(RESULT_FILE, str(tmp_path / "run.nc"))
 
 
 @pytest.mark.ranks

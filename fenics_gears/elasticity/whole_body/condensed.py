@@ -7,29 +7,28 @@ is the interfaces' own stiffness. For a gear of equal sectors that is `elasticit
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from hashlib import sha256
 from time import perf_counter
 
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity.cache import Cache, content_key
-from fenics_gears.elasticity.condensation import by_radius, condense
+from fenics_gears.elasticity.cache import Cache, kept
+from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of
+from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.elements import Element, element_named
-from fenics_gears.elasticity.factor import Factor
-from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
+from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import rotation
-from fenics_gears.elasticity.roll_angles import node_roll_angles
-from fenics_gears.elasticity.sector_interior import dofs_of
+from fenics_gears.elasticity.mumps import Factor
+from fenics_gears.elasticity.ring import definite_inverse, rotation
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
-from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
 # To be raised by one whenever the same inputs give other numbers, or other arrays.
-WHOLE_BODY_VERSION = 2
+WHOLE_BODY_VERSION = 3
 
 
 def whole_body_compliance(
@@ -39,17 +38,17 @@ def whole_body_compliance(
 
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a stage fails.
     """
-    chosen, clock = element_named(element), perf_counter()
+    chosen = element_named(element)
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)
-    arrays, timings = None, {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0}
-    if cache is not None:
-        key = _key(mesh, gear, material, chosen, tooth_offsets)
-        arrays = cache.load(key)
-    if arrays is None:
-        arrays, timings = _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets)
-        if cache is not None:
-            cache.store(key, arrays)
-    counts = {name: int(arrays[name]) for name in ("unknowns", "condensed_unknowns")}
+    inputs = {
+        "version": [ALGORITHM_VERSION, WHOLE_BODY_VERSION],
+        "whole body": _digest(mesh),
+        "gear": asdict(gear),
+        "poissons_ratio": material.poissons_ratio,
+        "element": chosen.name,
+        "tooth_offsets": tooth_offsets,
+    }
+    arrays, timings = kept(cache, inputs, lambda: _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets))
     return WholeBodyCompliance(
         roll_angles=tuple(arrays[f"roll_angle_{tooth}"] for tooth in range(gear.teeth)),
         element_order=chosen.order,
@@ -60,152 +59,106 @@ def whole_body_compliance(
         openings={
             tooth: arrays[f"opening_{tooth}"] / material.youngs_modulus for tooth in range(gear.teeth) if f"opening_{tooth}" in arrays
         },
-        timings={**timings, **counts, "time_condense": perf_counter() - clock - timings["time_compile"]},
+        timings={**timings, **{name: int(arrays[name]) for name in COUNTS}},
     )
 
 
-def _key(mesh: BodyMesh, gear: Gear, material: Material, element: Element, tooth_offsets: int) -> str:
-    import hashlib
-
-    # By the bytes of points and cells: as text the mesh would take megabytes.
-    content = hashlib.sha256()
-    for array in (mesh.points, mesh.cells.astype(np.int64)):
-        content.update(np.ascontiguousarray(array).tobytes())
-    return content_key({
-        "version": [ALGORITHM_VERSION, WHOLE_BODY_VERSION],
-        "whole body": content.hexdigest(),
-        "gear": asdict(gear),
-        "poissons_ratio": material.poissons_ratio,
-        "element": element.name,
-        "tooth_offsets": tooth_offsets,
-    })
+def _digest(mesh: BodyMesh) -> str:
+    """Hash of points and cells by their bytes: as text the mesh would take megabytes."""
+    return sha256(mesh.points.tobytes() + mesh.cells.astype(np.int64).tobytes()).hexdigest()
 
 
 def _block_name(tooth: int, ahead: int) -> str:
     return f"block_{tooth}_{ahead}"
 
 
+@dataclass(frozen=True)
+class _CondensedPart:
+    """A part of the body, Young's modulus 1 MPa, by its surface F and its interface I.
+
+    The surface is the flank (`flank` dofs), then the faces of cracks, all in the tooth's frame. own: (F, F), S_FF^-1. to_interface: (F, I), X.
+    link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's among those of all parts.
+    """
+
+    own: np.ndarray
+    to_interface: np.ndarray
+    link: np.ndarray
+    dofs: np.ndarray
+    flank: int
+    compiling: float
+
+
 def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int):
-    body = divided_body(mesh, gear, element)
-    condensed = [_condensed(part, body, element, poissons_ratio) for part in body.parts]
-    own, to_interface = zip(*(_surface_of(each) for each in condensed))
-    joined = _Interface(body, condensed, to_interface)
-    try:
-        arrays = _blocks(gear, body, own, to_interface, joined, tooth_offsets)
-    finally:
-        joined.close()
+    clock, body = perf_counter(), divided_body(mesh, gear, element)
+    parts = [_condensed(part, body, element, poissons_ratio, tooth * gear.angular_pitch) for tooth, part in enumerate(body.parts)]
+    arrays = _blocks(gear, body, parts, tooth_offsets)
     for tooth in range(gear.teeth):
         corners = by_radius(mesh.points[mesh.edge_points(f"flank {tooth}")])
         arrays[f"roll_angle_{tooth}"] = node_roll_angles(gear, corners, element.order)
     arrays["unknowns"] = np.array(2 * len(body.nodes.points))
-    arrays["condensed_unknowns"] = np.array(2 * (len(body.interface) + sum(len(part.flank) for part in body.parts)))
-    compiling = sum(each.timings["time_compile"] for each in condensed)
-    return arrays, {"from_cache": False, "time_mesh": 0.0, "time_compile": compiling}
+    arrays["condensed_unknowns"] = np.array(2 * len(body.interface) + sum(part.flank for part in parts))
+    compiling = sum(part.compiling for part in parts)
+    return arrays, {"time_mesh": 0.0, "time_compile": compiling, "time_condense": perf_counter() - clock - compiling}
 
 
-def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float):
+def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float, angle: float) -> _CondensedPart:
+    """A part whose tooth stands turned by an angle (rad)."""
     groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "faces", "interface", "hub")}
-    return condense(part.mesh, element, poissons_ratio, groups, cells_of={"faces": part.face_cells})
+    found = condense(part.mesh, element, poissons_ratio, groups, cells_of={"faces": part.face_cells})
+    surface, interface = np.concatenate([found.dofs("flank"), found.dofs("faces")]), found.dofs("interface")
+    stiffness = _in_frame(_in_frame(found.stiffness[np.ix_(surface, surface)], angle).T, angle)
+    coupling = _in_frame(found.stiffness[np.ix_(surface, interface)], angle)
+    own = definite_inverse(0.5 * (stiffness + stiffness.T), "a tooth's flank")
+    to_interface = own @ coupling
+    link = found.between("interface", "interface") - coupling.T @ to_interface
+    dofs = dofs_of(np.searchsorted(body.interface, part.interface))
+    return _CondensedPart(own, to_interface, 0.5 * (link + link.T), dofs, 2 * len(part.flank), found.timings["time_compile"])
 
 
-def _surface(part) -> np.ndarray:
-    """A condensed part's dofs of its flank and its cracks' faces: F of the formula, so that the motion of the faces comes with it."""
-    return np.concatenate([part.dofs("flank"), part.dofs("faces")])
+def _in_frame(rows: np.ndarray, angle: float) -> np.ndarray:
+    """Rows (2 k, m), interleaved x, y, by their components in a frame turned by an angle (rad)."""
+    return np.einsum("xa,kxm->kam", rotation(angle), rows.reshape(-1, 2, rows.shape[1])).reshape(rows.shape)
 
 
-def _surface_of(part) -> tuple[np.ndarray, np.ndarray]:
-    """A part's S_FF^-1 and X, its interface and hub held."""
-    surface = _surface(part)
-    own = part.stiffness[np.ix_(surface, surface)]
-    try:
-        np.linalg.cholesky(own)
-    except np.linalg.LinAlgError:
-        raise ComputationError("whole body: the stiffness of a flank is not positive definite; is its tooth held by the body?") from None
-    inverse = np.linalg.inv(own)
-    inverse = 0.5 * (inverse + inverse.T)
-    return inverse, inverse @ part.stiffness[np.ix_(surface, part.dofs("interface"))]
-
-
-class _Interface:
-    """The interfaces' stiffness J, factored; `response` between the interface dofs of two parts. Release it by `close`."""
-
-    def __init__(self, body: DividedBody, condensed, to_interface):
-        self._dofs = [dofs_of(np.searchsorted(body.interface, part.interface)) for part in body.parts]
-        self.size = 2 * len(body.interface)
-        entries, rows, columns = [], [], []
-        for dofs, part, to in zip(self._dofs, condensed, to_interface):
-            stiffness = part.between("interface", "interface") - part.stiffness[np.ix_(part.dofs("interface"), _surface(part))] @ to
-            entries.append(0.5 * (stiffness + stiffness.T).ravel())
-            rows.append(np.repeat(dofs, len(dofs)))
-            columns.append(np.tile(dofs, len(dofs)))
-        matrix = sparse.coo_matrix((np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape=(self.size, self.size))
-        self._factor = Factor(matrix.tocsr(), "the interfaces of a gear's teeth")
-
-    def under_unit_loads(self, part: int) -> np.ndarray:
-        """Displacement (interface dofs, dofs of the part's interface) under unit forces there."""
-        loads = np.zeros((self.size, len(self._dofs[part])))
-        loads[self._dofs[part], np.arange(len(self._dofs[part]))] = 1.0
-        return self._factor.solve(loads)
-
-    def of_part(self, displacement: np.ndarray, part: int) -> np.ndarray:
-        """The rows of a part's interface."""
-        return displacement[self._dofs[part]]
-
-    def close(self) -> None:
-        """Give the factor's memory back."""
-        self._factor.close()
-
-
-def _blocks(gear: Gear, body: DividedBody, own, to_interface, joined: _Interface, tooth_offsets: int) -> dict[str, np.ndarray]:
+def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_offsets: int) -> dict[str, np.ndarray]:
     """Compliance blocks in the teeth's own frames, and how flank forces open the cracks; Young's modulus 1 MPa, by name."""
-    found, openings = {}, _Openings(body)
-    flank = [2 * len(part.flank) for part in body.parts]
-    for tooth in range(gear.teeth):
-        response = joined.under_unit_loads(tooth)
-        for ahead in range(tooth_offsets + 1):
-            other = (tooth + ahead) % gear.teeth
-            block = to_interface[other] @ joined.of_part(response, other) @ to_interface[tooth].T
-            if ahead == 0:
-                block = own[tooth] + 0.5 * (block + block.T)
-            between_flanks = block[: flank[other], : flank[tooth]]
-            found[_block_name(tooth, ahead)] = _in_frames(between_flanks, other * gear.angular_pitch, tooth * gear.angular_pitch)
-            openings.add(other, tooth, block[flank[other] :, : flank[tooth]])
-            if ahead:
-                # By reciprocity.
-                openings.add(tooth, other, block[: flank[other], flank[tooth] :].T)
-    for tooth, rows in openings.rows.items():
-        found[f"opening_{tooth}"] = _columns_in_frame(rows, tooth * gear.angular_pitch)
+    size = 2 * len(body.interface)
+    places = np.hstack([[np.repeat(part.dofs, len(part.dofs)), np.tile(part.dofs, len(part.dofs))] for part in parts])
+    joined = sparse.coo_matrix((np.concatenate([part.link.ravel() for part in parts]), places), shape=(size, size))
+    factor, found = Factor(joined.tocsr(), "the interfaces of a gear's teeth"), {}
+
+    def opened(by: int, at: int, motion: np.ndarray) -> None:
+        """Add how far apart a force on the flank of a tooth moves the faces of cracks in the part at a tooth, from their motion (2 c, 2 f)."""
+        if len(motion):
+            rows = found.setdefault(f"opening_{by}", np.zeros((len(body.cracks.one), motion.shape[1])))
+            _add_openings(rows, body, at, motion, rotation(at * gear.angular_pitch))
+
+    try:
+        for tooth, part in enumerate(parts):
+            loads = np.zeros((size, len(part.dofs)))
+            loads[part.dofs, np.arange(len(part.dofs))] = 1.0
+            response = factor.solve(loads)
+            for ahead in range(tooth_offsets + 1):
+                beside = (tooth + ahead) % gear.teeth
+                other = parts[beside]
+                block = other.to_interface @ response[other.dofs] @ part.to_interface.T
+                if ahead == 0:
+                    block = part.own + 0.5 * (block + block.T)
+                found[_block_name(tooth, ahead)] = np.ascontiguousarray(block[: other.flank, : part.flank])
+                opened(tooth, beside, block[other.flank :, : part.flank])
+                if ahead:
+                    # By reciprocity.
+                    opened(beside, tooth, block[: other.flank, part.flank :].T)
+    finally:
+        factor.close()
     return found
 
 
-class _Openings:
-    """How far apart the faces of a body's cracks are moved by forces on flanks: `rows` (k, 2f) by the loaded tooth, in space."""
-
-    def __init__(self, body: DividedBody):
-        self.rows: dict[int, np.ndarray] = {}
-        self._body = body
-
-    def add(self, part: int, loaded: int, motion: np.ndarray) -> None:
-        """Add what the faces in a part contribute: their motion (2c, 2f) under unit forces on the flank of a tooth."""
-        faces, cracks = self._body.parts[part].faces, self._body.cracks
-        if not len(faces):
-            return
-        rows = self.rows.setdefault(loaded, np.zeros((len(cracks.one), motion.shape[1])))
-        motion = motion.reshape(len(faces), 2, -1)
-        for nodes, sense in ((cracks.one, -1.0), (cracks.other, 1.0)):
-            place = np.searchsorted(faces, nodes)
-            here = np.flatnonzero(faces[np.minimum(place, len(faces) - 1)] == nodes)
-            rows[here] += sense * np.einsum("kx,kxf->kf", cracks.normals[here], motion[place[here]])
-
-
-def _columns_in_frame(rows: np.ndarray, loaded: float) -> np.ndarray:
-    """Rows (k, 2f) with their columns in the frame of a tooth that stands turned by an angle (rad)."""
-    return np.ascontiguousarray((rows.reshape(len(rows), -1, 2) @ rotation(loaded)).reshape(rows.shape))
-
-
-def _in_frames(block: np.ndarray, responding: float, loaded: float) -> np.ndarray:
-    """A block with its rows and columns in the frames of teeth that stand turned by angles (rad)."""
-    rows, columns = block.shape[0] // 2, block.shape[1] // 2
-    parts = block.reshape(rows, 2, columns, 2)
-    turned = np.einsum("xa,ixjy,yb->iajb", rotation(responding), parts, rotation(loaded), optimize=True)
-    return np.ascontiguousarray(turned.reshape(block.shape))
+def _add_openings(rows: np.ndarray, body: DividedBody, part: int, motion: np.ndarray, frame: np.ndarray) -> None:
+    """Add to the openings (k, 2 f) what a part's faces contribute: their motion (2 c, 2 f) in a turned frame, its axes in the columns of `frame`."""
+    faces, cracks = body.parts[part].faces, body.cracks
+    motion = motion.reshape(len(faces), 2, -1)
+    for nodes, sense in ((cracks.one, -1.0), (cracks.other, 1.0)):
+        place = np.searchsorted(faces, nodes)
+        here = np.flatnonzero(faces[np.minimum(place, len(faces) - 1)] == nodes)
+        rows[here] += sense * np.einsum("kx,kxf->kf", cracks.normals[here] @ frame, motion[place[here]])

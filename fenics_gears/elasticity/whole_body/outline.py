@@ -14,7 +14,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mesh_data import BodyMesh, boundary_sides, joined_cells
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
@@ -62,26 +62,6 @@ def whole_body(mesh: BodyMesh, gear: Gear, name: str) -> WholeBody:
     longest = max(np.linalg.norm(turned[flank[:, 0]] - turned[flank[:, 1]], axis=1).max() for flank in flanks)
     edges = {"hub": hub, **{f"flank {tooth}": flank for tooth, flank in enumerate(flanks)}}
     return WholeBody(BodyMesh(turned, mesh.cells, edges), float(longest))
-
-
-def boundary_sides(cells: np.ndarray) -> np.ndarray:
-    """Sides (k, 2) that belong to one cell only."""
-    sides = _cell_sides(cells)
-    _, first, count = np.unique(sides, axis=0, return_index=True, return_counts=True)
-    return sides[first[count == 1]]
-
-
-def _cell_sides(cells: np.ndarray) -> np.ndarray:
-    """Sides (cells times corners, 2), the smaller point first."""
-    return np.sort(np.stack([cells, np.roll(cells, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-
-
-def joined_cells(cells: np.ndarray) -> np.ndarray:
-    """Number of the connected piece (cells,) that each cell belongs to; cells hold together along whole sides."""
-    unique, of_side = np.unique(_cell_sides(cells), axis=0, return_inverse=True)
-    owner = np.repeat(np.arange(len(cells)), cells.shape[1])
-    incidence = coo_matrix((np.ones(len(owner)), (owner, of_side.ravel())), shape=(len(cells), len(unique))).tocsr()
-    return connected_components(incidence @ incidence.T, directed=False)[1]
 
 
 def drive_flank_angle(gear: Gear, radius: np.ndarray) -> np.ndarray:

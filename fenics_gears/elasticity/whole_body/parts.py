@@ -1,6 +1,7 @@
-"""A meshed gear divided into its teeth: cells by the tooth sector they lie in, so that each part is condensed by itself.
+"""A meshed gear divided into its teeth: cells by the tooth sector they lie in, so that each part is condensed by itself; and its cracks.
 
-Any division gives the same result; by teeth the parts are small and meet in short lines of nodes.
+Any division gives the same result; by teeth the parts are small and meet in short lines of nodes. Cracks are sides of the boundary that lie
+on each other.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ from scipy.spatial import cKDTree
 from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.whole_body.cracks import CrackNodes, crack_nodes
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 
@@ -37,6 +37,23 @@ class Part:
 
 
 @dataclass(frozen=True)
+class CrackNodes:
+    """Nodes (k,) on one face of a body's cracks, those that face them (k,), and the normals (k, 2) out of the first face.
+
+    The faces stand apart by (u[other] - u[one]) . normal, negative where they would pass through each other.
+    """
+
+    one: np.ndarray
+    other: np.ndarray
+    normals: np.ndarray
+
+    @property
+    def both(self) -> np.ndarray:
+        """All of them, ascending."""
+        return np.unique(np.concatenate([self.one, self.other]))
+
+
+@dataclass(frozen=True)
 class DividedBody:
     """The nodes of a body, one part for each tooth, all interface nodes (k,), ascending, and its cracks."""
 
@@ -51,13 +68,13 @@ def divided_body(mesh: BodyMesh, gear: Gear, element: Element) -> DividedBody:
     nodes = element_nodes(mesh, element)
     owner = part_of_cells(mesh, gear)
     hub = nodes_on(nodes, mesh.edges["hub"])
-    touched = np.unique(np.column_stack([nodes.cells.ravel(), np.repeat(owner, nodes.cells.shape[1])]), axis=0)
-    shared = np.flatnonzero(np.bincount(touched[:, 0], minlength=len(nodes.points)) > 1)
+    touched, by = np.divmod(np.unique(gear.teeth * nodes.cells + owner[:, None]), gear.teeth)
+    shared = np.flatnonzero(np.bincount(touched, minlength=len(nodes.points)) > 1)
     interface = np.setdiff1d(shared, hub)
     cracks = crack_nodes(nodes)
     parts = []
     for tooth in range(gear.teeth):
-        own = touched[touched[:, 1] == tooth, 0]
+        own = touched[by == tooth]
         flank = nodes_on(nodes, mesh.edges[f"flank {tooth}"])
         flank = flank[np.argsort(np.linalg.norm(nodes.points[flank], axis=1))]
         faces = np.setdiff1d(np.intersect1d(own, cracks.both), np.concatenate([interface, hub, flank]))
@@ -106,6 +123,23 @@ def crack_faces(mesh: BodyMesh) -> list[np.ndarray]:
     incidence = coo_matrix((np.ones(len(rows)), (rows, points)), shape=(len(cells), len(twins))).tocsr()
     count, face = connected_components(incidence @ incidence.T, directed=False)
     return [cells[face == number] for number in range(count)]
+
+
+def crack_nodes(nodes: ElementNodes) -> CrackNodes:
+    """The facing nodes of all cracks of a body; a tip belongs to both faces and is left out."""
+    sides = nodes.boundary_sides
+    ends = nodes.points[sides[:, :2]]
+    tolerance = 1e-9 * np.abs(nodes.points).max()
+    pairs = cKDTree(ends.mean(axis=1)).query_pairs(tolerance, output_type="ndarray").reshape(-1, 2)
+    one, other = sides[pairs[:, 0]], sides[pairs[:, 1]]
+    # Cells go counter-clockwise: along a side the body is on the left, and both faces run against each other.
+    other = other[:, [1, 0, *range(2, other.shape[1])]]
+    along = ends[pairs[:, 0], 1] - ends[pairs[:, 0], 0]
+    normals = np.stack([along[:, 1], -along[:, 0]], axis=-1) / np.linalg.norm(along, axis=1)[:, None]
+    normals = np.repeat(normals, one.shape[1], axis=0)
+    one, other = one.ravel(), other.ravel()
+    apart = one != other
+    return CrackNodes(one[apart], other[apart], normals[apart])
 
 
 def nodes_on(nodes: ElementNodes, sides: np.ndarray) -> np.ndarray:

@@ -65,9 +65,9 @@ def under_pressure(rolls: np.ndarray, block: np.ndarray) -> float:
 def test_a_cracked_gear_equals_brute_force():
     """Exact identity: the whole gear's stiffness condensed at once, for the cracked tooth and its neighbours loaded."""
     body = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(3.0)}), PINION, "gear")
-    found = whole_body_compliance(body.mesh, PINION, STEEL, tooth_offsets=2)
+    found = whole_body_compliance(body.mesh, PINION, STEEL, element="P1", tooth_offsets=2)
     for loaded in (7, 8):
-        brute = whole_gear_compliance(body.mesh, PINION, STEEL, loaded_tooth=loaded, tooth_offsets=2)
+        brute = whole_gear_compliance(body.mesh, PINION, STEEL, element="P1", loaded_tooth=loaded, tooth_offsets=2)
         for offset in range(3):
             assert relative(found.between(loaded + offset, loaded) - brute.blocks[offset], brute.blocks[offset]) < 1e-9
     # The crack makes its tooth softer, and by reciprocity every block is another's transpose.
@@ -78,7 +78,7 @@ def test_a_cracked_gear_equals_brute_force():
 def test_parts_may_meet_anywhere_but_between_the_twins_of_a_crack(monkeypatch):
     """Exact identity: parts that are turned by some of a pitch, so that their interface would cross the crack, give the same compliance."""
     mesh = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(4.0)}), PINION, "gear").mesh
-    expected = whole_body_compliance(mesh, PINION, STEEL, tooth_offsets=1)
+    expected = whole_body_compliance(mesh, PINION, STEEL, element="P1", tooth_offsets=1)
     centreline = parts.centreline_angle
     monkeypatch.setattr(parts, "centreline_angle", lambda gear: centreline(gear) - 0.2 * gear.angular_pitch)
     faces = parts.crack_faces(mesh)
@@ -86,7 +86,7 @@ def test_parts_may_meet_anywhere_but_between_the_twins_of_a_crack(monkeypatch):
         context.setattr(parts, "crack_faces", lambda mesh: [])
         crossed = [len(np.unique(parts.part_of_cells(mesh, PINION)[face])) for face in faces]
     assert max(crossed) == 2
-    found = whole_body_compliance(mesh, PINION, STEEL, tooth_offsets=1)
+    found = whole_body_compliance(mesh, PINION, STEEL, element="P1", tooth_offsets=1)
     for responding, loaded in ((8, 8), (9, 8), (7, 8), (0, 0)):
         reference = expected.between(responding, loaded)
         assert relative(found.between(responding, loaded) - reference, reference) < 1e-9

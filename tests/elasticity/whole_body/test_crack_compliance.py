@@ -14,17 +14,17 @@ import pytest
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 from tests.coarse_sector import PINION, STEEL
 
+from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.recovery import GearRecovery
-from fenics_gears.elasticity.roll_angles import node_roll_angles
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh
 
 P2 = ELEMENTS["P2"]
-SIZES = element_sizes(PINION, P2, 0.4)
+SIZES = element_sizes(PINION, P2, 0.6, 2.0)
 PLANE_MODULUS = STEEL.youngs_modulus / (1.0 - STEEL.poissons_ratio**2)
 # Roll angles (rad) about which the flank is loaded, from below the pitch point to the highest point of single tooth contact.
 PLACES = (0.3, 0.4, 0.5)

@@ -9,9 +9,8 @@ from tests.coarse_sector import COARSE, PINION, coarse_sector_mesh
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.element_sizes import SizeField, SizeSource, along, divided
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.mesh_data import BodyMesh, corner_areas, oriented
+from fenics_gears.elasticity.mesh_data import BodyMesh, boundary_sides, corner_areas, joined_cells, oriented
 from fenics_gears.elasticity.sector_mesh import filled
-from fenics_gears.elasticity.whole_body.outline import boundary_sides, joined_cells
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.outline import tooth_outline
 from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh, cracked_sector_mesh, opened
@@ -31,13 +30,13 @@ def strip(depth: float) -> BodyMesh:
         np.column_stack([0.0 * up, HEIGHT - up]),
     ]
     boundary = np.vstack(corners)
-    sources = [SizeSource(boundary, step, 0.0, 0.3)]
+    sources = [SizeSource((boundary,), step, 0.0, 0.3)]
     if depth == 0.0:
         points, (cells,) = filled(boundary, SizeField(tuple(sources), step), 1.0, recombine=False)
         return BodyMesh(points, oriented(points, cells), {})
     mouth = int(np.argmin(np.linalg.norm(boundary - [0.5 * LENGTH, HEIGHT], axis=1)))
     line = boundary[mouth] - np.linspace(0.0, depth, 200)[:, None] * [0.0, 1.0]
-    sources.append(SizeSource(line[-1:], depth / 40.0, depth / 20.0, 0.35))
+    sources.append(SizeSource((line[-1:],), depth / 40.0, depth / 20.0, 0.35))
     field = SizeField(tuple(sources), step)
     slit = along(line, divided(line, field.at(line), 4))[1:]
     points, (cells,) = filled(boundary, field, 1.0, recombine=False, slit=slit, mouth=mouth)

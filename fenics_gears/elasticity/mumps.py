@@ -1,0 +1,111 @@
+"""MUMPS through PETSc: the Cholesky factor of a sparse matrix, solved for any load, and MUMPS's own Schur complement.
+
+petsc4py (3.18 to 3.25) does not bind ``MatFactorSetSchurIS``; ctypes reaches it in the library that petsc4py has loaded.
+"""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+from petsc4py import PETSc
+from scipy import sparse
+
+from fenics_gears.errors import ComputationError
+
+# Right-hand sides solved at once; more take memory and save no time.
+COLUMNS_AT_ONCE = 64
+
+
+class Factor:
+    """Cholesky factor of a symmetric matrix (scipy's, or PETSc's of one process), positive definite on all dofs but `schur_dofs` (k,).
+
+    `what`: the matrix's name in messages. Raises ComputationError when the factorisation fails. Release the memory by `close`.
+    """
+
+    def __init__(self, matrix: sparse.csr_matrix | PETSc.Mat, what: str, schur_dofs: np.ndarray | None = None):
+        self._schur_size = 0 if schur_dofs is None else len(schur_dofs)
+        if sparse.issparse(matrix):
+            matrix = _petsc_matrix(matrix)
+        matrix.setOption(PETSc.Mat.Option.SPD, True)
+        self._preconditioner = PETSc.PC().create(matrix.comm)
+        self._preconditioner.setOperators(matrix)
+        self._preconditioner.setType("cholesky")
+        self._preconditioner.setFactorSolverType("mumps")
+        self._preconditioner.setFactorSetUpSolverType()
+        self._factor = self._preconditioner.getFactorMatrix()
+        try:
+            if schur_dofs is not None:
+                indices = PETSc.IS().createGeneral(np.asarray(schur_dofs, dtype=PETSc.IntType), matrix.comm)
+                _call("MatFactorSetSchurIS", _handle(self._factor), _handle(indices))
+                indices.destroy()
+            self._preconditioner.setUp()
+            status = self._factor.getMumpsInfog(1)
+            if status < 0:
+                raise ComputationError(
+                    f"MUMPS could not factorise {what} (INFOG(1) = {status}, INFOG(2) = {self._factor.getMumpsInfog(2)}); "
+                    "memory may be short, or the mesh has a part that nothing holds"
+                )
+        except PETSc.Error as error:
+            self.close()
+            raise ComputationError(f"PETSc could not factorise {what}: {error}") from error
+        except ComputationError:
+            self.close()
+            raise
+
+    def solve(self, loads: np.ndarray) -> np.ndarray:
+        """Solution (n, k) for loads (n, k)."""
+        result = np.empty_like(loads)
+        for first in range(0, loads.shape[1], COLUMNS_AT_ONCE):
+            part = slice(first, first + COLUMNS_AT_ONCE)
+            solution, right = np.zeros_like(loads[:, part], order="F"), np.asfortranarray(loads[:, part])
+            left, dense = (PETSc.Mat().createDense(each.shape, array=each, comm=PETSc.COMM_SELF) for each in (solution, right))
+            left.assemble()
+            dense.assemble()
+            self._factor.matSolve(dense, left)
+            result[:, part] = left.getDenseArray()
+            left.destroy()
+            dense.destroy()
+        return result
+
+    def schur(self) -> np.ndarray:
+        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load; symmetrised."""
+        schur, entries = ctypes.c_void_p(), ctypes.c_void_p()
+        _call("MatFactorCreateSchurComplement", _handle(self._factor), ctypes.byref(schur), None)
+        _call("MatDenseGetArray", schur, ctypes.byref(entries))
+        values = np.ctypeslib.as_array((ctypes.c_double * self._schur_size**2).from_address(entries.value)).reshape((self._schur_size,) * 2)
+        symmetric = 0.5 * (values + values.T)
+        _call("MatDenseRestoreArray", schur, ctypes.byref(entries))
+        _call("MatDestroy", ctypes.byref(schur))
+        return symmetric
+
+    def close(self) -> None:
+        """Give the factor's memory back."""
+        # PETSc 3.18 leaks the factor unless both are destroyed, in this order.
+        self._preconditioner.destroy()
+        self._factor.destroy()
+
+
+def _petsc_matrix(matrix: sparse.csr_matrix) -> PETSc.Mat:
+    matrix.sort_indices()
+    csr = (matrix.indptr.astype(PETSc.IntType), matrix.indices.astype(PETSc.IntType), matrix.data)
+    return PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
+
+
+def schur_complement(matrix: PETSc.Mat, dofs: np.ndarray) -> np.ndarray:
+    """`Factor.schur` of a matrix on dofs (k,)."""
+    factor = Factor(matrix, "the body's stiffness", dofs)
+    try:
+        return factor.schur()
+    finally:
+        factor.close()
+
+
+def _handle(petsc_object):
+    return ctypes.c_void_p(petsc_object.handle)
+
+
+def _call(name: str, *arguments) -> None:
+    error = getattr(ctypes.CDLL(PETSc.__file__), name)(*arguments)
+    if error:
+        raise ComputationError(f"{name} failed with PETSc error {error}")
