@@ -201,7 +201,8 @@ class AllowedFile(Allowed):
 class Section(BaseModel):
     """A section of the scene: unknown keys and values of a wrong type are refused."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+    # defer_build: sections are built once, with the scene that they are part of.
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False, defer_build=True)
 
     @field_validator("*", mode="before")
     @classmethod

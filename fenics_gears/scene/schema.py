@@ -218,9 +218,9 @@ class _AlwaysThere(Section):
     title: Optional[str] = text(500, meaning="what the scene is called in summaries and pictures", otherwise="the file's name")
     gears: Gears
     load: Load
-    motion: Motion = Motion()
-    accuracy: Accuracy = Accuracy()
-    output: Output = Output()
+    motion: Motion = Field(default_factory=Motion)
+    accuracy: Accuracy = Field(default_factory=Accuracy)
+    output: Output = Field(default_factory=Output)
 
 
 SceneText = create_model(
