@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.errors import SceneError
@@ -117,7 +116,7 @@ class SizeField:
         """Element size (n,) at points (n, 2), mm."""
         size = np.full(len(points), self.largest)
         for source in self.sources:
-            distance = cKDTree(source.points).query(points)[0]
+            distance = _tree(source.points).query(points)[0]
             size = np.minimum(size, source.size + source.growth * np.maximum(distance - source.plateau, 0.0))
         return size
 
@@ -126,7 +125,7 @@ class SizeField:
 
         points: (n, 2) and tags: (n,) of the model's geometric points; other points of the sources are ignored.
         """
-        lookup, fields = cKDTree(points), []
+        lookup, fields = _tree(points), []
         for source in self.sources:
             distance, nearest = lookup.query(source.points)
             own = np.unique(nearest[distance < 1e-9 * self.largest])
@@ -169,3 +168,10 @@ def along(curve: np.ndarray, fractions: np.ndarray) -> np.ndarray:
     """Points (k, 2) of a finely sampled curve (m, 2) at fractions (k,) of its arc length."""
     length = arc_lengths(curve)
     return np.stack([np.interp(fractions * length[-1], length, curve[:, i]) for i in range(2)], axis=-1)
+
+
+def _tree(points: np.ndarray):
+    # Imported here: a run whose gears are in the cache meshes nothing, and the import takes 0.04 s.
+    from scipy.spatial import cKDTree
+
+    return cKDTree(points)
