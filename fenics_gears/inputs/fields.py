@@ -6,7 +6,6 @@ what the field is; ``otherwise`` what is taken where a scene leaves it out, and 
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
@@ -151,35 +150,6 @@ class AllowedEither(Allowed):
 # The longest path that Linux takes.
 LONGEST_FILE_NAME = 4096
 
-_PERCENTAGE = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*%\s*")
-
-
-@dataclass(frozen=True)
-class AllowedPercentage(Allowed):
-    """A percentage with its sign, between ``bounds``, both included; it becomes a part of 1."""
-
-    bounds: tuple[float, float] = (0.0, 100.0)
-
-    def convert(self, value: Any) -> float:
-        """The percentage's hundredth. Raises PydanticCustomError."""
-        if isinstance(value, bool) or not isinstance(value, (str, int, float)):
-            raise refused("is not a text with a number and %.")
-        if not isinstance(value, str):
-            raise refused(self._without_sign(value))
-        found = _PERCENTAGE.fullmatch(value)
-        if found is None:
-            raise refused("is not a number and %.")
-        reason = out_of_range(float(found[1]), *self.bounds)
-        if reason:
-            raise refused(reason)
-        return 0.01 * float(found[1])
-
-    def _without_sign(self, value: float) -> str:
-        """What a bare number could mean: so many per cent, or a part of 1."""
-        meant = [number for number in (f"{as_written(value)}", f"{100.0 * value:.6g}") if not out_of_range(float(number), *self.bounds)]
-        written = " or ".join(f'"{number} %"' for number in meant)
-        return "is a number without %." + (f" As a percentage it is written {written}." if meant else "")
-
 
 @dataclass(frozen=True)
 class AllowedFile(Allowed):
@@ -234,12 +204,6 @@ def quantity(
     description += "".join(f', or "{word}"' for word in words)
     allowed = Allowed(description, kind, units.unit_of(example), words, below, meaning, otherwise)
     return _field(allowed, ge=units.quantity(lowest)[0], le=units.quantity(highest)[0])
-
-
-def percentage(lowest: float, highest: float, example: float, *, meaning: str, otherwise: str) -> Any:
-    """A percentage with its sign, optional; bounds in per cent, both included."""
-    description = f'a percentage from {lowest:g} % to {highest:g} %, such as "{example:g} %"'
-    return _field(AllowedPercentage(description, unit="%", meaning=meaning, otherwise=otherwise, bounds=(lowest, highest)))
 
 
 def number(

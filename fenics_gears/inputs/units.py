@@ -14,7 +14,8 @@ from collections import Counter
 from fenics_gears.inputs.names import did_you_mean
 
 # What the units of the program measure.
-_BASE = {"mm": "length", "N": "force", "s": "time", "rad": "angle"}
+# A ratio is a dimension too, so that a percentage is no bare number.
+_BASE = {"mm": "length", "N": "force", "s": "time", "rad": "angle", "ratio": "ratio"}
 # Each further unit as a number of units that stand before it.
 _UNITS = {
     "mm": (1.0, "mm"),
@@ -58,6 +59,7 @@ _UNITS = {
     "Hz": (1.0, "1/s"),
     "kHz": (1000.0, "1/s"),
     "rpm": (1.0, "rev/min"),
+    "percent": (0.01, "ratio"),
 }
 
 A_FREQUENCY, AN_ANGULAR_SPEED = "a frequency (1/time)", "an angular speed"
@@ -78,10 +80,11 @@ _KINDS = {
     "rad/s": AN_ANGULAR_SPEED,
     "mm/s": "a speed",
     "mm^2": "an area",
+    "percent": "a percentage",
 }
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf|nan))(?![.,\d])\s*(.*?)\s*", re.DOTALL)
-_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "·": "*", "⋅": "*", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4"})
+_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "%": " percent", "·": "*", "⋅": "*", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4"})
 _NEGATIVE_POWER = re.compile("⁻([¹²³⁴])")
 _DIGITS = str.maketrans("¹²³⁴", "1234")
 # What a drawing or a data sheet writes for revolutions a minute, without blanks: ISO 80000-3 counts a revolution as 1.

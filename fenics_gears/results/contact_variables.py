@@ -1,11 +1,15 @@
-"""Contact in the result: forces of the mesh, of each tooth pair and of each contact node, and their reactions on the shafts."""
+"""Contact in the result: forces of the mesh, of each tooth pair and of each contact node, their reactions, the mesh's stiffness and its largest pressure."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.contact.mesh_stiffness import mesh_stiffness
+from fenics_gears.contact.pressure import read_off
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.dynamics.march import Record, smallest_opening
 from fenics_gears.results.side_by_side import SideBySide
@@ -44,9 +48,12 @@ def largest_normal_force(result: xr.Dataset) -> float:
 
 
 def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of each tooth pair (records, slots), on drive and coast flanks; zero where a pair does not touch."""
-    if scene.tooth_elasticity is None:
-        return (_rigid_pairs if scene.friction is None else _sharing_pairs)(scene, nodes)
+    """Forces of each tooth pair (records, slots), on drive and coast flanks; zero where a pair does not touch.
+
+    Pairs of rigid flanks with friction that touch together are given equal shares.
+    """
+    if scene.tooth_elasticity is None and scene.friction is None:
+        return _rigid_pairs(scene, nodes)
     values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive)}
     if scene.friction is not None:
         values["pair_friction_force"] = nodes.by_slot(nodes.tangential * nodes.drive)
@@ -70,14 +77,6 @@ def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
             for pair in together:
                 force[name][i, nodes.slot_of(i, operator.pairs[pair].place.index)] = forces[node] if len(together) == 1 else np.nan
     return force
-
-
-def _sharing_pairs(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of pairs of rigid flanks with friction, where pairs that touch together are given equal shares."""
-    values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive), "pair_friction_force": nodes.by_slot(nodes.tangential * nodes.drive)}
-    if scene.coast_flanks is not None:
-        values["pair_coast_normal_force"] = nodes.by_slot(nodes.normal * ~nodes.drive)
-    return values
 
 
 def _normal(record: Record) -> np.ndarray:
@@ -109,3 +108,43 @@ def watched_contact(nodes: SideBySide) -> Values:
         pressed = nodes.normal > NO_FORCE
         found |= {f"on the {gear}'s tip": nodes.any(tip & pressed) for gear, tip in zip(("pinion", "wheel"), nodes.of("on_tip"))}
     return found
+
+
+def stiffness_curves(nodes: SideBySide) -> Values:
+    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive records of an elastic mesh."""
+    found = [mesh_stiffness(record.position.operator, record.solution) for record in nodes.records]
+    return {
+        "mesh_stiffness": np.array([each.secant for each in found]),
+        "mesh_stiffness_tangent": np.array([each.tangent for each in found]),
+        "loaded_pairs": np.array([each.pairs for each in found]),
+    }
+
+
+def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Values:
+    """The largest pressure of consecutive records, its tooth pair and its place, from their contact `fields`.
+
+    Pairs that press with a tip's sharp edge are left out and have a largest pressure of their own: linear elasticity has infinite pressure
+    there, and the number grows as contact nodes come closer.
+    """
+    pressed_edge = nodes.of("on_tip").any(axis=0) & (nodes.normal > NO_FORCE)
+    highest, rolls, at_edge = [], [], []
+    for side, drive in (("", True), ("coast_", False)):
+        if f"{side}contact_pressure" not in fields:
+            continue
+        place = fields[f"{side}contact_roll_angle"]
+        pressure = read_off(fields[f"{side}contact_pressure"], place)
+        node = pressure.argmax(axis=-1)[..., None]
+        highest.append(np.take_along_axis(pressure, node, -1)[..., 0])
+        rolls.append(np.take_along_axis(place, node, -1)[..., 0])
+        at_edge.append(nodes.by_slot(pressed_edge & (nodes.drive == drive)) > 0)
+    pressure, edge = np.concatenate(highest, axis=1), np.concatenate(at_edge, axis=1)
+    numbers = np.concatenate([nodes.pair_number] * len(highest), axis=1)
+    off_edge = np.where(edge, 0.0, pressure)
+    at = np.arange(len(pressure)), off_edge.argmax(axis=1)
+    touching = off_edge[at] > 0.0
+    return {
+        "largest_contact_pressure": off_edge[at],
+        "largest_contact_pressure_pair": np.where(touching, numbers[at], 0),
+        "largest_contact_pressure_roll_angle": np.where(touching, np.concatenate(rolls, axis=1)[at], np.nan),
+        "largest_edge_pressure": np.where(edge, pressure, 0.0).max(axis=1),
+    }

@@ -16,9 +16,8 @@ from fenics_gears.dynamics.march import Record, VaryingLoad
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import allocated, sizes, stored_arrays
-from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
+from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, pressure_curves, stiffness_curves, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
-from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
 from fenics_gears.results.side_by_side import Layout, SideBySide
 
 if TYPE_CHECKING:
