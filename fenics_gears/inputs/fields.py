@@ -44,17 +44,14 @@ class Allowed:
             return self.words[value]
         if self.kind is None:
             return value
-        number, kind = self._number(value)
-        if kind != self.kind:
-            raise refused(f"is {kind}, not {self.kind}.")
-        return number
+        return self._number(value, self.kind)[0]
 
-    def _number(self, value: Any) -> tuple[float, str]:
-        """The number and the kind of a quantity's text."""
+    def _number(self, value: Any, *kinds: str) -> tuple[float, str]:
+        """The number and the kind of a quantity's text, one of some kinds."""
         if not isinstance(value, str):
             raise refused(self._without_unit(value))
         try:
-            return units.of_kind(value, self.kind or "")
+            return units.of_kind(value, *kinds)
         except units.QuantityError as error:
             raise refused(str(error) + did_you_mean(value, self.words)) from None
 
@@ -138,9 +135,7 @@ class AllowedEither(Allowed):
         """The number with its kind. Raises PydanticCustomError for a text of no such kind or out of its bounds."""
         if isinstance(value, str) and value in self.words:
             return self.words[value]
-        number, kind = self._number(value)
-        if kind not in self.ranges:
-            raise refused(f"is {kind}, not {' or '.join(self.ranges)}.")
+        number, kind = self._number(value, *self.ranges)
         reason = out_of_range(number, *self.ranges[kind])
         if reason:
             raise refused(reason)

@@ -124,18 +124,21 @@ def quantity(text: str) -> tuple[float, str]:
     return float(match[1]) * factor, kind
 
 
-def of_kind(text: str, kind: str) -> tuple[float, str]:
-    """The number and its kind as of ``quantity``; where an angular speed is wanted, 1/min is revolutions a minute.
+def of_kind(text: str, *kinds: str) -> tuple[float, str]:
+    """The number and its kind as of ``quantity``, one of some kinds; where an angular speed is wanted, 1/min is revolutions a minute.
 
-    1/s is not taken for one: it stands for revolutions in some papers and for radians in others.
+    1/s is not taken for one: it stands for revolutions in some papers and for radians in others. Raises QuantityError for another kind too.
 
     >>> of_kind("60 min^-1", "an angular speed")[0] == quantity("60 rpm")[0]
     True
     """
-    if kind == AN_ANGULAR_SPEED and _tidy(unit_of(text)).replace(" ", "") in _PER_MINUTE:
+    if AN_ANGULAR_SPEED in kinds and _tidy(unit_of(text)).replace(" ", "") in _PER_MINUTE:
         number = quantity(text)[0]
         return 2.0 * math.pi * number, AN_ANGULAR_SPEED
-    return quantity(text)
+    number, kind = quantity(text)
+    if kind not in kinds:
+        raise QuantityError(f"is {kind}, not {' or '.join(kinds)}.")
+    return number, kind
 
 
 def unit_of(text: str) -> str:
