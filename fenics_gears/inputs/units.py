@@ -193,10 +193,10 @@ def _product(tidy: str) -> tuple[float, Counter]:
     factor, powers = 1.0, Counter()
     for item in _ITEMS.finditer(tidy):
         number, own = _product(item["inner"]) if item["inner"] else _in_base_units(item["name"])
-        power = int(item["power"] or 1)
-        factor = factor / number**power if item["joint"] else factor * number**power
+        power = int(item["power"] or 1) * (-1 if item["joint"] else 1)
+        factor *= number**power
         for dimension, count in own.items():
-            powers[dimension] += -count * power if item["joint"] else count * power
+            powers[dimension] += count * power
     return factor, powers
 
 
