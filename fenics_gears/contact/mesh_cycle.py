@@ -17,9 +17,8 @@ import numpy as np
 from fenics_gears.contact.addresses import GAP, addresses
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator, node_slices
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
+from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid, flank_limits
-from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
@@ -58,7 +57,7 @@ class Position:
         return changed
 
 
-# The reach of teeth, the size of a result and the cycle itself all ask for the same places.
+# Cost, the search for touching pairs and the cycle itself ask for the same places.
 @lru_cache(maxsize=4096)
 def pair_places(
     pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False, corner: CornerContact | None = None
@@ -84,23 +83,6 @@ def pair_places(
     sides = (drive_place, coast_place) if coast_flanks else (drive_place,)
     places = (side(pair, k, pair.path_start + (phase + k) * pair.base_pitch) for side in sides for k in candidates)
     return tuple(place for place in places if can_touch(place))
-
-
-def tooth_reach(
-    pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
-) -> Reach:
-    """How many teeth apart flanks are that interact at a step, with those of the step before, or between both."""
-    places = [pair_places(pair, grid, step / steps, coast_flanks, corner) for step in range(steps)]
-    # Every pair's index rises by one with the end of a cycle. What touches between two steps touches at one of them too.
-    before = [tuple(replace(place, index=place.index + 1) for place in places[-1]), *places[:-1]]
-    teeth: dict[int, set[int]] = {DRIVE: {0}, COAST: set()}
-    for near in (now + earlier for now, earlier in zip(places, before)):
-        for gear in range(2):
-            for one in near:
-                for other in near:
-                    if one.flank <= other.flank:
-                        teeth[other.flank - one.flank].add(one.ahead(gear) - other.ahead(gear))
-    return Reach(max(teeth[DRIVE]), (min(teeth[COAST]), max(teeth[COAST])) if teeth[COAST] else None)
 
 
 def pairs_at_once(positions: Iterable[Iterable[Place]]) -> int:

@@ -6,7 +6,6 @@ what the field is; ``otherwise`` what is taken where a scene leaves it out, and 
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
@@ -45,17 +44,14 @@ class Allowed:
             return self.words[value]
         if self.kind is None:
             return value
-        number, kind = self._number(value)
-        if kind != self.kind:
-            raise refused(f"is {kind}, not {self.kind}.")
-        return number
+        return self._number(value, self.kind)[0]
 
-    def _number(self, value: Any) -> tuple[float, str]:
-        """The number and the kind of a quantity's text."""
+    def _number(self, value: Any, *kinds: str) -> tuple[float, str]:
+        """The number and the kind of a quantity's text, one of some kinds."""
         if not isinstance(value, str):
             raise refused(self._without_unit(value))
         try:
-            return units.of_kind(value, self.kind or "")
+            return units.of_kind(value, *kinds)
         except units.QuantityError as error:
             raise refused(str(error) + did_you_mean(value, self.words)) from None
 
@@ -139,9 +135,7 @@ class AllowedEither(Allowed):
         """The number with its kind. Raises PydanticCustomError for a text of no such kind or out of its bounds."""
         if isinstance(value, str) and value in self.words:
             return self.words[value]
-        number, kind = self._number(value)
-        if kind not in self.ranges:
-            raise refused(f"is {kind}, not {' or '.join(self.ranges)}.")
+        number, kind = self._number(value, *self.ranges)
         reason = out_of_range(number, *self.ranges[kind])
         if reason:
             raise refused(reason)
@@ -150,35 +144,6 @@ class AllowedEither(Allowed):
 
 # The longest path that Linux takes.
 LONGEST_FILE_NAME = 4096
-
-_PERCENTAGE = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*%\s*")
-
-
-@dataclass(frozen=True)
-class AllowedPercentage(Allowed):
-    """A percentage with its sign, between ``bounds``, both included; it becomes a part of 1."""
-
-    bounds: tuple[float, float] = (0.0, 100.0)
-
-    def convert(self, value: Any) -> float:
-        """The percentage's hundredth. Raises PydanticCustomError."""
-        if isinstance(value, bool) or not isinstance(value, (str, int, float)):
-            raise refused("is not a text with a number and %.")
-        if not isinstance(value, str):
-            raise refused(self._without_sign(value))
-        found = _PERCENTAGE.fullmatch(value)
-        if found is None:
-            raise refused("is not a number and %.")
-        reason = out_of_range(float(found[1]), *self.bounds)
-        if reason:
-            raise refused(reason)
-        return 0.01 * float(found[1])
-
-    def _without_sign(self, value: float) -> str:
-        """What a bare number could mean: so many per cent, or a part of 1."""
-        meant = [number for number in (f"{as_written(value)}", f"{100.0 * value:.6g}") if not out_of_range(float(number), *self.bounds)]
-        written = " or ".join(f'"{number} %"' for number in meant)
-        return "is a number without %." + (f" As a percentage it is written {written}." if meant else "")
 
 
 @dataclass(frozen=True)
@@ -201,7 +166,8 @@ class AllowedFile(Allowed):
 class Section(BaseModel):
     """A section of the scene: unknown keys and values of a wrong type are refused."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+    # defer_build: sections are built once, with the scene that they are part of.
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False, defer_build=True)
 
     @field_validator("*", mode="before")
     @classmethod
@@ -233,12 +199,6 @@ def quantity(
     description += "".join(f', or "{word}"' for word in words)
     allowed = Allowed(description, kind, units.unit_of(example), words, below, meaning, otherwise)
     return _field(allowed, ge=units.quantity(lowest)[0], le=units.quantity(highest)[0])
-
-
-def percentage(lowest: float, highest: float, example: float, *, meaning: str, otherwise: str) -> Any:
-    """A percentage with its sign, optional; bounds in per cent, both included."""
-    description = f'a percentage from {lowest:g} % to {highest:g} %, such as "{example:g} %"'
-    return _field(AllowedPercentage(description, unit="%", meaning=meaning, otherwise=otherwise, bounds=(lowest, highest)))
 
 
 def number(

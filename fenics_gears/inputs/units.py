@@ -9,54 +9,57 @@ from __future__ import annotations
 import functools
 import math
 import re
-
-import pint
+from collections import Counter
 
 from fenics_gears.inputs.names import did_you_mean
 
-# Base units first; each further unit in terms of those before it.
+# What the units of the program measure.
+# A ratio is a dimension too, so that a percentage is no bare number.
+_BASE = {"mm": "length", "N": "force", "s": "time", "rad": "angle", "ratio": "ratio"}
+# Each further unit as a number of units that stand before it.
 _UNITS = {
-    "mm": "[length]",
-    "um": "0.001 mm",
-    "cm": "10 mm",
-    "m": "1000 mm",
-    "in": "25.4 mm",
-    "N": "[force]",
-    "mN": "0.001 N",
-    "kN": "1000 N",
-    "MN": "1e6 N",
-    "lbf": "4.4482216152605 N",
-    "s": "[time]",
-    "us": "1e-6 s",
-    "ms": "0.001 s",
-    "min": "60 s",
-    "h": "3600 s",
-    "rad": "[angle]",
-    "mrad": "0.001 rad",
-    "urad": "1e-6 rad",
-    "deg": f"{math.pi / 180!r} rad",
-    "degree": "deg",
-    "arcmin": f"{math.pi / 10800!r} rad",
-    "arcsec": f"{math.pi / 648000!r} rad",
-    "rev": f"{2 * math.pi!r} rad",
-    "r": "rev",
-    "U": "rev",
-    "Nmm": "N * mm",
-    "Nm": "1000 N * mm",
-    "kNm": "1e6 N * mm",
-    "Pa": "1e-6 N / mm**2",
-    "kPa": "1e-3 N / mm**2",
-    "MPa": "N / mm**2",
-    "GPa": "1000 N / mm**2",
-    "bar": "0.1 N / mm**2",
-    "psi": f"{4.4482216152605 / 25.4**2!r} N / mm**2",
-    "g": "1e-6 N * s**2 / mm",
-    "kg": "0.001 N * s**2 / mm",
-    "t": "N * s**2 / mm",
-    "lb": "0.45359237e-3 N * s**2 / mm",
-    "Hz": "1 / s",
-    "kHz": "1000 / s",
-    "rpm": "rev / min",
+    "mm": (1.0, "mm"),
+    "um": (0.001, "mm"),
+    "cm": (10.0, "mm"),
+    "m": (1000.0, "mm"),
+    "in": (25.4, "mm"),
+    "N": (1.0, "N"),
+    "mN": (0.001, "N"),
+    "kN": (1000.0, "N"),
+    "MN": (1e6, "N"),
+    "lbf": (4.4482216152605, "N"),
+    "s": (1.0, "s"),
+    "us": (1e-6, "s"),
+    "ms": (0.001, "s"),
+    "min": (60.0, "s"),
+    "h": (3600.0, "s"),
+    "rad": (1.0, "rad"),
+    "mrad": (0.001, "rad"),
+    "urad": (1e-6, "rad"),
+    "deg": (math.pi / 180, "rad"),
+    "degree": (1.0, "deg"),
+    "arcmin": (math.pi / 10800, "rad"),
+    "arcsec": (math.pi / 648000, "rad"),
+    "rev": (2 * math.pi, "rad"),
+    "r": (1.0, "rev"),
+    "U": (1.0, "rev"),
+    "Nmm": (1.0, "N mm"),
+    "Nm": (1000.0, "N mm"),
+    "kNm": (1e6, "N mm"),
+    "Pa": (1e-6, "N/mm^2"),
+    "kPa": (1e-3, "N/mm^2"),
+    "MPa": (1.0, "N/mm^2"),
+    "GPa": (1000.0, "N/mm^2"),
+    "bar": (0.1, "N/mm^2"),
+    "psi": (4.4482216152605 / 25.4**2, "N/mm^2"),
+    "g": (1e-6, "N s^2/mm"),
+    "kg": (0.001, "N s^2/mm"),
+    "t": (1.0, "N s^2/mm"),
+    "lb": (0.45359237e-3, "N s^2/mm"),
+    "Hz": (1.0, "1/s"),
+    "kHz": (1000.0, "1/s"),
+    "rpm": (1.0, "rev/min"),
+    "percent": (0.01, "ratio"),
 }
 
 A_FREQUENCY, AN_ANGULAR_SPEED = "a frequency (1/time)", "an angular speed"
@@ -77,33 +80,27 @@ _KINDS = {
     "rad/s": AN_ANGULAR_SPEED,
     "mm/s": "a speed",
     "mm^2": "an area",
+    "percent": "a percentage",
 }
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf|nan))(?![.,\d])\s*(.*?)\s*", re.DOTALL)
-_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "·": "*", "⋅": "*", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4"})
+_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "%": " percent", "·": "*", "⋅": "*", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4"})
 _NEGATIVE_POWER = re.compile("⁻([¹²³⁴])")
 _DIGITS = str.maketrans("¹²³⁴", "1234")
 # What a drawing or a data sheet writes for revolutions a minute, without blanks: ISO 80000-3 counts a revolution as 1.
 _PER_MINUTE = {"1/min", "min^-1", "min**-1"}
-# Names with whole powers, joined by blanks, "*" and "/", one level of brackets. What else pint takes differs between its versions.
+# Names with whole powers, joined by blanks, "*" and "/", one level of brackets.
 _FACTOR = r"[A-Za-z]+(?:\s*(?:\^|\*\*)\s*-?\d{1,2})?"
 _JOINT = r"(?:\s*[*/]\s*|\s+)"
 _BRACKETS = rf"\(\s*{_FACTOR}(?:{_JOINT}{_FACTOR})*\s*\)"
 _ITEM = rf"(?:{_FACTOR}|{_BRACKETS})"
 _LONGEST_UNIT = 40
 _UNIT_TEXT = re.compile(rf"(?:1\s*/\s*)?{_ITEM}(?:{_JOINT}{_ITEM})*")
+_ITEMS = re.compile(r"(?P<joint>/?)\s*(?:\((?P<inner>[^)]*)\)|(?P<name>[A-Za-z]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d+))?)")
 
 
 class QuantityError(ValueError):
     """A text that is no quantity; the message completes "the value ..." to whole sentences."""
-
-
-@functools.lru_cache(maxsize=1)
-def _registry() -> pint.UnitRegistry:
-    registry = pint.UnitRegistry(None)
-    for name, definition in _UNITS.items():
-        registry.define(f"{name} = {definition}")
-    return registry
 
 
 def quantity(text: str) -> tuple[float, str]:
@@ -127,18 +124,21 @@ def quantity(text: str) -> tuple[float, str]:
     return float(match[1]) * factor, kind
 
 
-def of_kind(text: str, kind: str) -> tuple[float, str]:
-    """The number and its kind as of ``quantity``; where an angular speed is wanted, 1/min is revolutions a minute.
+def of_kind(text: str, *kinds: str) -> tuple[float, str]:
+    """The number and its kind as of ``quantity``, one of some kinds; where an angular speed is wanted, 1/min is revolutions a minute.
 
-    1/s is not taken for one: it stands for revolutions in some papers and for radians in others.
+    1/s is not taken for one: it stands for revolutions in some papers and for radians in others. Raises QuantityError for another kind too.
 
     >>> of_kind("60 min^-1", "an angular speed")[0] == quantity("60 rpm")[0]
     True
     """
-    if kind == AN_ANGULAR_SPEED and _tidy(unit_of(text)).replace(" ", "") in _PER_MINUTE:
+    if AN_ANGULAR_SPEED in kinds and _tidy(unit_of(text)).replace(" ", "") in _PER_MINUTE:
         number = quantity(text)[0]
         return 2.0 * math.pi * number, AN_ANGULAR_SPEED
-    return quantity(text)
+    number, kind = quantity(text)
+    if kind not in kinds:
+        raise QuantityError(f"is {kind}, not {' or '.join(kinds)}.")
+    return number, kind
 
 
 def unit_of(text: str) -> str:
@@ -176,33 +176,54 @@ def _unit(written: str) -> tuple[float, str]:
     tidy = _tidy(written)
     if len(tidy) > _LONGEST_UNIT or not _UNIT_TEXT.fullmatch(tidy):
         raise QuantityError(f'has the unit "{written[:_LONGEST_UNIT]}", which is not understood.')
-    # Names are checked here because pint would also take a plural ("mms").
     unknown = [word for word in re.findall(r"[A-Za-z]+", tidy) if word not in _UNITS]
     if unknown:
         raise QuantityError(f'has the unknown unit "{unknown[0]}".{did_you_mean(unknown[0], _UNITS, likeness=0.5)}')
-    registry = _registry()
     try:
-        base = registry.Quantity(1.0, registry.parse_units(tidy)).to_base_units()
+        factor, powers = _product(tidy)
     except ArithmeticError:  # "m^99 m^99" leaves the range of numbers
-        raise QuantityError(f'has the unit "{written}", which is not understood.') from None
-    return float(base.magnitude), _name(base.dimensionality)
+        factor = math.inf
+    if not 0.0 < factor < math.inf:
+        raise QuantityError(f'has the unit "{written}", which is not understood.')
+    return factor, _kind(powers)
 
 
-def _name(dimensionality) -> str:
-    """What a dimensionality is called, or its powers where it has no name."""
-    powers = _powers(dimensionality)
-    if not powers:
+def _product(tidy: str) -> tuple[float, Counter]:
+    """The factor of a product of known units to N, mm, s, rad, and its powers of length, force, time and angle."""
+    factor, powers = 1.0, Counter()
+    for item in _ITEMS.finditer(tidy):
+        number, own = _product(item["inner"]) if item["inner"] else _in_base_units(item["name"])
+        power = int(item["power"] or 1) * (-1 if item["joint"] else 1)
+        factor *= number**power
+        for dimension, count in own.items():
+            powers[dimension] += count * power
+    return factor, powers
+
+
+@functools.cache
+def _in_base_units(name: str) -> tuple[float, Counter]:
+    if name in _BASE:
+        return 1.0, Counter({_BASE[name]: 1})
+    number, others = _UNITS[name]
+    factor, powers = _product(others)
+    return number * factor, powers
+
+
+def _kind(powers: Counter) -> str:
+    """What a quantity of these powers is called; the powers themselves where they have no name."""
+    found = _sorted_powers(powers)
+    if not found:
         return "a number without unit"
-    return _kinds_by_powers().get(powers) or "a quantity in " + " ".join(f"{name}^{power:g}" for name, power in powers)
+    return _kinds_by_powers().get(found) or "a quantity in " + " ".join(f"{name}^{power:g}" for name, power in found)
 
 
-@functools.lru_cache(maxsize=1)
+@functools.cache
 def _kinds_by_powers() -> dict[tuple, str]:
-    return {_powers(_registry().parse_units(unit).dimensionality): kind for unit, kind in _KINDS.items()}
+    return {_sorted_powers(_product(unit)[1]): kind for unit, kind in _KINDS.items()}
 
 
-def _powers(dimensionality) -> tuple[tuple[str, float], ...]:
-    return tuple(sorted((name.strip("[]"), float(power)) for name, power in dimensionality.items()))
+def _sorted_powers(powers: Counter) -> tuple[tuple[str, int], ...]:
+    return tuple(sorted((name, power) for name, power in powers.items() if power))
 
 
 def _why_no_number(text: str) -> str:

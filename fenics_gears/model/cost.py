@@ -11,11 +11,10 @@ from math import lcm
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import pair_places, tooth_reach
+from fenics_gears.contact.mesh_cycle import pair_places
 from fenics_gears.effects import body_meshes, effects_on
-from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.model.model import MOST_STEPS_SEEN, Model
+from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
 
 Number = float | np.ndarray
@@ -87,8 +86,7 @@ def expected_cost(model: Model) -> ExpectedCost:
     resolution, scene = model.resolution, model.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
         return ExpectedCost(None, _marching(model, 0.0), PROGRAM + model.stored_bytes)
-    reach = _expected_reach(model)
-    gears = [_condensed(model, name, reach) for name in ("pinion", "wheel")]
+    gears = [_condensed(model, name) for name in ("pinion", "wheel")]
     cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
     condensing, marching, held, operators = cost(model, gears)
     unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
@@ -108,14 +106,8 @@ class _Gear:
     inverses: float = 1.0
 
 
-def _expected_reach(model: Model) -> Reach:
-    """How far apart teeth interact, by positions enough for an estimate; a run looks at each of its own."""
-    resolution, steps = model.resolution, min(model.resolution.steps_per_mesh_cycle, MOST_STEPS_SEEN)
-    return tooth_reach(model.pair, resolution.contact_grid, steps, model.scene.coast_flanks is not None, model.corner)
-
-
-def _condensed(model: Model, name: str, reach: Reach) -> _Gear:
-    resolution, gear = model.resolution, getattr(model.pair, name)
+def _condensed(model: Model, name: str) -> _Gear:
+    resolution, reach, gear = model.resolution, model.touching.reach, getattr(model.pair, name)
     order = 2 if resolution.element.endswith("2") else 1
     body, per_node = SECTOR_UNKNOWNS[resolution.element]
     dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(model, name)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import pair_places, pairs_at_once
+from fenics_gears.contact.touching import Touching, touching
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import EquationsOfMotion
@@ -44,17 +44,15 @@ class Model:
     contact_cycles: int = 0
 
     @cached_property
-    def time_step(self) -> float:
-        """Length of a step, s; of the longest where they are not all as long."""
-        for clock in from_effects(self.scene, "clock", self):
-            return max(clock.duration(0, 1), clock.duration(self.steps - 1, self.steps))
-        return 1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle)
-
-    @cached_property
     def clock(self) -> Clock:
         """When a step is."""
-        clocks = from_effects(self.scene, "clock", self)
-        return clocks[0] if clocks else SteadyClock(self.time_step)
+        steady = SteadyClock(1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle))
+        return next(iter(from_effects(self.scene, "clock", self)), steady)
+
+    @property
+    def time_step(self) -> float:
+        """Length of a step, s; of the longest where they are not all as long."""
+        return max(self.clock.duration(0, 1), self.clock.duration(self.steps - 1, self.steps))
 
     @cached_property
     def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
@@ -83,17 +81,15 @@ class Model:
         return corner(self.scene, self.pair)
 
     @cached_property
-    def slots(self) -> int:
-        """Tooth pairs, one after the other, that can touch at once; one more where too many steps to look at each."""
-        grid, steps, coast = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None
-        seen = min(steps, MOST_STEPS_SEEN)
-        found = pairs_at_once(pair_places(self.pair, grid, step / seen, coast, self.corner) for step in range(seen))
-        return found if seen == steps else found + 1
+    def touching(self) -> Touching:
+        """Which tooth pairs can touch: how far apart loaded teeth are (`reach`), and how many pairs there are at once (`slots`)."""
+        resolution = self.resolution
+        return touching(self.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None, self.corner)
 
     @property
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
-        size = sizes(self.steps + 1, self.contact_steps, self.slots, self.resolution.contact_grid.nodes)
+        size = sizes(self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.nodes)
         return counted_bytes(stored_arrays(self.scene, size), size)
 
     @cached_property
@@ -158,8 +154,6 @@ class Model:
         ]
 
 
-# Positions of a mesh cycle at which tooth pairs in reach are counted.
-MOST_STEPS_SEEN = 1000
 # Largest result; and the largest where the scene does not say how many contact fields to store.
 MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 

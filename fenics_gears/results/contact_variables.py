@@ -59,9 +59,12 @@ def largest_normal_force(result: xr.Dataset) -> float:
 
 
 def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of each tooth pair (steps, slots), on drive and coast flanks; zero where a pair does not touch."""
-    if scene.tooth_elasticity is None:
-        return (_rigid_pairs if scene.friction is None else _sharing_pairs)(scene, nodes)
+    """Forces of each tooth pair (steps, slots), on drive and coast flanks; zero where a pair does not touch.
+
+    Pairs of rigid flanks with friction that touch together are given equal shares.
+    """
+    if scene.tooth_elasticity is None and scene.friction is None:
+        return _rigid_pairs(scene, nodes)
     values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive)}
     if scene.friction is not None:
         values["pair_friction_force"] = nodes.by_slot(nodes.tangential * nodes.drive)
@@ -85,14 +88,6 @@ def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
             for pair in together:
                 force[name][i, nodes.slot_of(i, operator.pairs[pair].place.index)] = forces[node] if len(together) == 1 else np.nan
     return force
-
-
-def _sharing_pairs(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of pairs of rigid flanks with friction, where pairs that touch together are given equal shares."""
-    values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive), "pair_friction_force": nodes.by_slot(nodes.tangential * nodes.drive)}
-    if scene.coast_flanks is not None:
-        values["pair_coast_normal_force"] = nodes.by_slot(nodes.normal * ~nodes.drive)
-    return values
 
 
 def _normal(record: Record) -> np.ndarray:

@@ -6,7 +6,9 @@ import io
 import os
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
+from xarray.conventions import cf_encoder, encode_dataset_coordinates
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.old_layout import upgraded
@@ -36,16 +38,38 @@ def save(result: xr.Dataset, path: str | Path) -> None:
 def netcdf(dataset: xr.Dataset) -> memoryview:
     """A dataset as the bytes of a NetCDF-4 file, what has several dimensions compressed.
 
-    Made in memory, since HDF5 itself does not come back cleanly from a full disk.
+    Made in memory, since HDF5 itself does not come back cleanly from a full disk. Written by h5py, as the NetCDF-4 format specification
+    (appendix "NetCDF-4 format" of the NetCDF user's guide) has dimensions and attributes in HDF5: h5netcdf takes five times as long for so many variables.
     """
-    import h5netcdf
-    from xarray.backends import H5NetCDFStore
+    import h5py
 
-    encoding = {name: {"zlib": True, "complevel": 1} for name, variable in dataset.data_vars.items() if variable.ndim > 1}
+    variables, attributes = cf_encoder(*encode_dataset_coordinates(dataset))
     content = io.BytesIO()
-    with h5netcdf.File(content, "w") as file:
-        dataset.dump_to_store(H5NetCDFStore(file), encoding=encoding)
+    with h5py.File(content, "w", track_order=True) as file:
+        file.attrs.update(attributes)
+        written = {name: _write_variable(file, name, variable) for name, variable in variables.items()}
+        scales = {name: written.get(name) or file.create_dataset(name, (size,), ">f4") for name, size in dataset.sizes.items()}
+        for number, (name, scale) in enumerate(scales.items()):
+            scale.make_scale(name if name in variables else f"This is a netCDF dimension but not a netCDF variable.{scale.size:10}")
+            scale.attrs["_Netcdf4Dimid"] = np.int32(number)
+        for name, values in written.items():
+            for axis, dimension in enumerate(variables[name].dims):
+                if name not in scales:
+                    values.dims[axis].attach_scale(scales[dimension])
     return content.getbuffer()
+
+
+def _write_variable(file, name: str, variable: xr.Variable):
+    """The HDF5 dataset of an encoded variable."""
+    import h5py
+
+    values = np.asarray(variable.data)
+    if values.dtype.kind in "OU":
+        values = values.astype(h5py.string_dtype())
+    compressed = {"compression": "gzip", "compression_opts": 1, "shuffle": True} if values.ndim > 1 and values.size else {}
+    written = file.create_dataset(name, data=values, fillvalue=variable.attrs.get("_FillValue"), track_order=True, **compressed)
+    written.attrs.update(variable.attrs)
+    return written
 
 
 def load(path: str | Path) -> xr.Dataset:

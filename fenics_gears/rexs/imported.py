@@ -110,10 +110,7 @@ def _by_call(option: tuple[str, str], text: str | None) -> Value | None:
         return None
     name, example = option
     try:
-        number, kind = units.quantity(text)
+        number, _ = units.of_kind(text, units.quantity(example)[1])
     except units.QuantityError as error:
         raise SceneError(f'{name} "{text}" {error} Allowed: such as "{example}".') from None
-    wanted = units.quantity(example)[1]
-    if kind != wanted:
-        raise SceneError(f'{name} "{text}" is {kind}, not {wanted}. Allowed: such as "{example}".')
     return Value(number, json.dumps(text, ensure_ascii=False), name)

@@ -80,12 +80,9 @@ def _quantity(said: str, text: str, spelt: str, unit: str) -> float:
     if not spelt:
         raise ValueProblem(f"{said} has no unit. Allowed: a unit of the kind of {unit}.")
     try:
-        number, kind = units.quantity(f"{text} {spelt}")
+        number, _ = units.of_kind(f"{text} {spelt}", units.quantity(f"1 {unit}")[1])
     except units.QuantityError as error:
         raise ValueProblem(f"{said} {error} Allowed: a number with a unit of the kind of {unit}.") from None
-    wanted = units.quantity(f"1 {unit}")[1]
-    if kind != wanted:
-        raise ValueProblem(f"{said} is {kind}, not {wanted}. Allowed: a unit of the kind of {unit}.")
     if not math.isfinite(number):
         raise ValueProblem(f"{said} is not a finite number.")
     return number

@@ -53,7 +53,7 @@ def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
 
 
 # Only with these does time matter; without them a scene is a sequence of positions, each in equilibrium.
-NEED_A_SPEED = ("inertia", "damping", "speed_ramp")
+NEED_A_SPEED = ("inertia", *(effect.section for effect in effects.EFFECTS if "inertia" in effect.needs))
 
 
 def _one_speed(tree: Tree) -> Iterator[Problem]:

@@ -14,7 +14,7 @@ from pydantic import BaseModel, Field, create_model
 from fenics_gears.effects import top_level
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.inputs.fields import Allowed, Section, choice, number, percentage, quantity, refused, switch, text, whole_number
+from fenics_gears.inputs.fields import Allowed, Section, choice, number, quantity, refused, switch, text, whole_number
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 
@@ -107,10 +107,10 @@ MOST_CONTACT_NODES = 1000
 class Accuracy(Section):
     """``[accuracy]``: how a scene is computed, not what; what is left out is derived from the scene."""
 
-    target: Optional[float] = percentage(
-        0.05,
-        50.0,
-        1.0,
+    target: Optional[float] = quantity(
+        "0.05 %",
+        "50 %",
+        "1 %",
         meaning="error in the transmission error's curve and its height that the settings of this section may cause, all together; the cheapest "
         "settings that reach it are chosen by test runs",
         otherwise="nothing is measured, and each setting is as given or by its own default",
@@ -218,9 +218,9 @@ class _AlwaysThere(Section):
     title: Optional[str] = text(500, meaning="what the scene is called in summaries and pictures", otherwise="the file's name")
     gears: Gears
     load: Load
-    motion: Motion = Motion()
-    accuracy: Accuracy = Accuracy()
-    output: Output = Output()
+    motion: Motion = Field(default_factory=Motion)
+    accuracy: Accuracy = Field(default_factory=Accuracy)
+    output: Output = Field(default_factory=Output)
 
 
 SceneText = create_model(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
-from fenics_gears.contact.mesh_cycle import tooth_reach as reach_of_contact
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.cache import Cache
@@ -23,19 +22,11 @@ def elastic_route(model: Model, progress: Progress, cache: Cache | None, comm=No
 
 def gear_compliances(model: Model, progress: Progress, cache: Cache | None) -> Compliances:
     """Flank compliance of pinion and wheel, reaching as many teeth as can be loaded together."""
-    compliances, reach = [], tooth_reach(model)
+    compliances = []
     for name in ("pinion", "wheel"):
         progress.stage(f"condense {name}")
-        compliances.append(gear_compliance(model, name, reach, cache))
+        compliances.append(gear_compliance(model, name, model.touching.reach, cache))
     return compliances[0], compliances[1]
-
-
-def tooth_reach(model: Model) -> Reach:
-    """How far apart teeth are that can be loaded together."""
-    resolution = model.resolution
-    return reach_of_contact(
-        model.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.scene.coast_flanks is not None, model.corner
-    )
 
 
 def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:

@@ -7,7 +7,6 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.model.model import Model
 from fenics_gears.results.root_stress_variables import RootStress
-from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.system.progress import Progress
 
 
@@ -27,7 +26,7 @@ def gear_rows(model: Model, name: str, cache: Cache | None) -> RootStressRows:
         model.scene.gears.material_of(name),
         model.resolution.discretisation,
         # Pairs are numbered by their drive flanks' teeth; the wheel's tooth of a coast pair stands one beside.
-        reach=tooth_reach(model).farthest + 1,
+        reach=model.touching.reach.farthest + 1,
         coast_flank=model.scene.coast_flanks is not None,
         cache=cache,
     )

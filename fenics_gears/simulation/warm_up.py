@@ -1,4 +1,8 @@
-"""Compile (or load from disk) the hot kernels before the clock of the march starts."""
+"""Compile the hot kernels, or load them from disk, before the clock of the march starts.
+
+`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk: the launcher calls it as the last step of the set-up
+and after each change of their sources, so that runs only load them.
+"""
 
 from __future__ import annotations
 
@@ -48,3 +52,8 @@ def compile_kernels(tangential: bool) -> float:
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
     return time.perf_counter() - begun
+
+
+if __name__ == "__main__":
+    for with_friction in (True, False):
+        compile_kernels(with_friction)

@@ -10,7 +10,7 @@ from fenics_gears.effects import EFFECTS
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle, tooth_reach
+from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
@@ -55,7 +55,7 @@ class GearStore:
     def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
         if route_of(model) is not CONDENSED:
             return prepared(model, progress, cache)
-        reach = tooth_reach(model)
+        reach = model.touching.reach
         compliances = tuple(self.gear(model, name, reach, cache) for name in GEARS)
         while self._most is not None and len(self._gears) > self._most:
             del self._gears[next(iter(self._gears))]

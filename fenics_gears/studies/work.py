@@ -13,7 +13,6 @@ from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, own_gear_store
@@ -60,7 +59,7 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
             continue
         cycle = cycle_key(model)[:4]  # the reach follows from gears and accuracy
         if cycle not in reaches:
-            reaches[cycle] = tooth_reach(model)
+            reaches[cycle] = model.touching.reach
         for name in GEARS:
             # Young's modulus is a factor, so the cache keeps one entry for all its values.
             key = gear_key(model, name, reaches[cycle])

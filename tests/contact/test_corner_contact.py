@@ -8,8 +8,9 @@ from scipy.optimize import brentq
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
 from fenics_gears.contact.corner import corner_contact, corner_pair, corner_place, pair_reaches
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_reach
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places
 from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pair
+from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)
@@ -187,4 +188,4 @@ def test_tips_reach_further_than_a_short_window(paper_pair):
     phase = paper_pair.contact_ratio - 1.0 + 1.4 / paper_pair.base_pitch
     plain, reaching = (pair_places(paper_pair, short, phase, corner=each) for each in (None, corner))
     assert {place.index for place in plain} < {place.index for place in reaching}
-    assert tooth_reach(paper_pair, short, STEPS, corner=corner).same >= tooth_reach(paper_pair, short, STEPS).same
+    assert touching(paper_pair, short, STEPS, corner=corner).reach.same >= touching(paper_pair, short, STEPS).reach.same

@@ -7,8 +7,9 @@ import pytest
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.corner import corner_contact
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, tooth_reach
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, pairs_at_once
 from fenics_gears.contact.operator import over_nodes
+from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)
@@ -145,7 +146,9 @@ def test_reach_holds_between_steps_too(paper_pair, coast, corner):
                 for other in (*places[i], *(replace(place, index=place.index + passed) for place in places[j])):
                     for gear in range(2):
                         found.setdefault((one.flank, other.flank), set()).add(one.ahead(gear) - other.ahead(gear))
-    reach = tooth_reach(paper_pair, GRID, steps, coast, corner)
+    ways = touching(paper_pair, GRID, steps, coast, corner)
+    reach = ways.reach
+    assert ways.slots == pairs_at_once(places[i] for i in range(0, steps * parts, parts))
     assert reach.same == max(max(found[sides]) for sides in found if sides[0] == sides[1])
     across = found.get((0, 1), set()) | {-ahead for ahead in found.get((1, 0), set())}
     assert reach.across == ((min(across), max(across)) if coast else None)

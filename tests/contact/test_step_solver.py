@@ -145,7 +145,7 @@ def test_a_step_without_a_solution_is_divided():
     assert (middle.step, last.step) == (0.5, 1)
     tangential = problem.jacobian[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
     second = replace(
-        problem, stiffness=half.stiffness, load=half.load(middle.state), slip_before=0.5 * problem.slip_before - tangential
+        problem, stiffness=half.stiffness, load=half.load(middle.state, marcher.load(1)), slip_before=0.5 * problem.slip_before - tangential
     )
     check_laws(second, record.solution)
 

@@ -8,10 +8,11 @@ import numpy as np
 
 from fenics_gears.contact.corner import CornerContact
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import MeshCycle, tooth_reach
+from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.element_sizes import Discretisation
@@ -35,7 +36,7 @@ def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache:
     """Contact operators of a scene's teeth alone on finite elements, the wheel's rotation the only unknown."""
     model = model_of(scene)
     grid, resolution = model.resolution.contact_grid, model.resolution
-    reach = tooth_reach(model.pair, grid, steps, corner=corner)
+    reach = touching(model.pair, grid, steps, corner=corner).reach
     compliances = tuple(
         flank_compliance(gear, scene.gears.material, Discretisation(resolution.element, resolution.flank_element_size), reach, cache)
         for gear in (model.pair.pinion, model.pair.wheel)

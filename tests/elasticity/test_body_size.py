@@ -5,7 +5,7 @@ import pytest
 
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, HUB_ANGLE, Discretisation, element_sizes
-from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 
 FLANK = 0.3
@@ -45,3 +45,9 @@ def test_the_default_is_one_of_the_family(pinion, element):
     assert (twice.fillet, twice.hub_angle) == (pytest.approx(2.0 * default.fillet), HUB_ANGLE)
     assert twice.growth == pytest.approx(0.35 if element == "P2" else 2.0 * default.growth)
     assert half.flank == twice.flank == FLANK and half.depth == twice.depth == default.depth
+
+
+def test_an_element_of_third_order_is_refused():
+    """Authority: house rule 7; five modules number nodes at corners and middles of sides only, and would stop with a KeyError."""
+    with pytest.raises(ValueError, match="order = 3.*Allowed: 1 or 2"):
+        Element("P3", 3, 3, 4)

@@ -15,7 +15,7 @@ from tests.stand_in import stand_in_compliance
 from fenics_gears.contact.errors import MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.elastic_route import gear_compliances, tooth_reach
+from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.system.progress import SilentProgress
 
 # Row, words, limit and unit of each residual of `invariants.step_residuals`.
@@ -73,7 +73,7 @@ def on_stand_ins(model):
     """Teeth without finite elements; None for rigid ones."""
     if model.scene.tooth_elasticity is None:
         return None
-    reach, coast = tooth_reach(model).farthest, model.scene.coast_flanks is not None
+    reach, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
     return tuple(stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (model.pair.pinion, model.pair.wheel))
 
 

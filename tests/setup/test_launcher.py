@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-TOOLS = "awk bash cat cksum comm df env flock grep head mkdir mv readlink rm sed sort tail tr wc".split()
+TOOLS = "awk bash cat cksum comm df env flock grep head find mkdir mv readlink rm sed sort tail tr wc".split()
 
 PROGRAM = "import os, sys\nprint(os.getcwd(), *sys.argv[1:], sep='|')\n"
 BARE_PYTHON = f"exec {sys.executable} -I -S \"$@\""
@@ -90,6 +90,27 @@ def test_program_runs_in_the_callers_folder_by_a_link_and_from_this_checkout(che
     link.symlink_to(checkout / "gears")
     done = call(link, "run", "my scene.toml", environment=this_python, folder=elsewhere)
     assert (done.returncode, done.stdout) == (0, f"{elsewhere}|run|my scene.toml\n"), done.stderr
+
+
+def test_hot_loops_are_compiled_after_each_change_of_their_sources(checkout, this_python, tmp_path):
+    """As the last step of the set-up, and before the next run where a file with compiled functions is newer; not after other changes, nor for help."""
+    package, done = checkout / "fenics_gears", tmp_path / "compiled"
+    for folder in ("contact", "dynamics", "simulation"):
+        (package / folder).mkdir()
+    (package / "contact/newton.py").write_text("@njit\n")
+    (package / "simulation/warm_up.py").write_text(f"open({str(done)!r}, 'a').write('once ')\n")
+    set_up_already(checkout, this_python)
+    assert done.read_text() == "once "
+    later = (checkout / ".setup/compiled").stat().st_mtime + 10.0
+    (package / "dynamics/march.py").write_text("")
+    os.utime(package / "dynamics/march.py", (later, later))
+    call(checkout / "gears", "run", environment=this_python)
+    assert done.read_text() == "once "
+    os.utime(package / "contact/newton.py", (later, later))
+    call(checkout / "gears", "--help", environment=this_python)
+    assert done.read_text() == "once "
+    assert "compiling" in call(checkout / "gears", "run", environment=this_python).stderr
+    assert done.read_text() == "once once "
 
 
 def test_change_of_what_is_needed_leads_to_a_new_set_up(checkout, this_python):

@@ -14,7 +14,6 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.elastic_route import tooth_reach
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 
 PINION = 0
@@ -27,7 +26,7 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
     """
     model = model_of(scene)
     rows = _rows(
-        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation, tooth_reach(model).farthest + 1,
+        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation, model.touching.reach.farthest + 1,
         scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)

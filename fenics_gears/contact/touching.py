@@ -1,0 +1,80 @@
+"""Which tooth pairs can touch over a mesh cycle, found once from where a pair begins and ends to touch.
+
+A pair touches without a break from the first to the last of its positions, and every pair does so at the same positions of its own way through the
+mesh. Positions are counted in steps along this way: pair `index` stands at `step + index * steps` at a step of the cycle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from fenics_gears.contact.mesh_cycle import pair_places
+from fenics_gears.contact.tooth_pair import COAST, DRIVE
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.corner import CornerContact
+
+# Positions of a mesh cycle at which touching pairs are looked for; between them the ends are found by halving.
+LOOKED_AT = 16
+
+
+@dataclass(frozen=True)
+class Touching:
+    """First and last position at which drive flanks touch, and coast flanks (None where they cannot), at `steps` a mesh cycle."""
+
+    steps: int
+    drive: tuple[int, int]
+    coast: tuple[int, int] | None = None
+
+    @property
+    def reach(self) -> Reach:
+        """How many teeth apart flanks are that interact at a step, with those of the step before, or between both."""
+        same = max((last - first + 1) // self.steps for first, last in (self.drive, self.coast or self.drive))
+        if self.coast is None:
+            return Reach(same, None)
+        least = -((self.coast[1] - self.drive[0] + 1) // self.steps)
+        most = (self.drive[1] - self.coast[0] + 1) // self.steps
+        # Between a drive and a coast flank: on the pinion, and on the wheel, whose tooth of a coast pair stands one beside.
+        return Reach(same, (min(least, -most - 1), max(most, -least - 1)))
+
+    @property
+    def slots(self) -> int:
+        """Largest number of consecutive tooth pairs that can touch at a step; drive and coast flank of a pair count once."""
+        ways = [self.drive, self.coast or self.drive]
+        # Pairs come and go only at these steps.
+        changes = {(end + later) % self.steps for way in ways for end in way for later in (0, 1)}
+        return max(
+            max((last - step) // self.steps for _, last in ways) - min(-((step - first) // self.steps) for first, _ in ways) + 1 for step in changes
+        )
+
+
+@lru_cache(maxsize=64)
+def touching(pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None) -> Touching:
+    """Where the pairs of a mesh cycle touch."""
+
+    def touches(position: int, flank: int) -> bool:
+        index, step = divmod(position, steps)
+        return any(place.index == index and place.flank == flank for place in pair_places(pair, grid, step / steps, coast_flanks, corner))
+
+    def ends(flank: int) -> tuple[int, int] | None:
+        looked_at = {step: pair_places(pair, grid, step / steps, coast_flanks, corner) for step in range(0, steps, max(1, steps // LOOKED_AT))}
+        found = [step + place.index * steps for step, places in looked_at.items() for place in places if place.flank == flank]
+        if not found:
+            return None
+        return _end(lambda position: touches(position, flank), min(found), -1, steps), _end(lambda position: touches(position, flank), max(found), 1, steps)
+
+    return Touching(steps, ends(DRIVE), ends(COAST) if coast_flanks else None)
+
+
+def _end(touches, inside: int, direction: int, far: int) -> int:
+    """The last position in a direction that touches, from one that does; `far` positions on none does."""
+    outside = inside + direction * far
+    while abs(outside - inside) > 1:
+        middle = (inside + outside) // 2
+        inside, outside = (middle, outside) if touches(middle) else (inside, middle)
+    return inside
