@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import command, environment, folder, write_study  # noqa: F401
-from tests.studies.test_run_study import FOUR, load
+from tests.studies.conftest import command, environment, folder, undrawn, write_study  # noqa: F401
+from tests.studies.test_run_study import TWO, load
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -39,21 +39,21 @@ def test_a_full_disk_leaves_no_half_result(folder, measured, size):
 
     The gears are in the cache: what MPI does without room for its own files is not this program's.
     """
-    assert main(["run", "pair.toml", "--output", "usual", "--quiet"]) == 0
-    ended = limited(folder, size, "run", "pair.toml", "--output", "here", "--quiet")
+    assert main(["run", "pair.toml", "--output", "usual", "--quiet", "--no-pictures"]) == 0
+    ended = limited(folder, size, "run", "pair.toml", "--output", "here", "--quiet", "--no-pictures")
     names, unfinished = left_over("here")
     measured(f"disk full after {size} bytes of a file", f"exit code {ended.returncode}, {len(names) + len(unfinished)} files", "3, none")
     assert ended.returncode == 3 and "could not be written: File too large" in ended.stderr and "Traceback" not in ended.stderr
     assert names == [] and unfinished == []
-    assert main(["run", "pair.toml", "--output", "here", "--quiet"]) == 0
+    assert main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]) == 0
     assert results.load("here/run.nc").attrs["complete"] == 1
 
 
 def test_an_earlier_result_survives_a_full_disk(folder, measured):
     """The whole result of before is still there, bit for bit."""
-    assert main(["run", "pair.toml", "--output", "here", "--quiet"]) == 0
+    assert main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]) == 0
     before = {path.name: path.read_bytes() for path in Path("here").iterdir()}
-    ended = limited(folder, 4096, "run", "pair.toml", "--output", "here", "--quiet")
+    ended = limited(folder, 4096, "run", "pair.toml", "--output", "here", "--quiet", "--no-pictures")
     same = {path.name: path.read_bytes() for path in Path("here").iterdir()} == before
     measured("full disk over an earlier result", f"exit code {ended.returncode}, " + ("unchanged" if same else "changed"), "3, unchanged")
     assert ended.returncode == 3 and same
@@ -90,9 +90,9 @@ def test_the_cache_warns_of_a_full_disk(tmp_path, code, monkeypatch, caplog, mea
     assert list(tmp_path.iterdir()) == [] and os.strerror(code) in caplog.text
 
 
-def test_a_study_on_a_full_disk_goes_on_when_there_is_room(folder, measured):
+def test_a_study_on_a_full_disk_goes_on_when_there_is_room(folder, undrawn, measured):
     """No half case, no half dataset; exit code 3; run again it finishes, and is the undisturbed study."""
-    study = write_study(folder, FOUR)
+    study = write_study(folder, TWO)
     assert main(["study", str(study), "--quiet", "--output", "usual"]) == 0
     ended = limited(folder, 8192, "study", study, "--output", "here", "--quiet")
     names, unfinished = left_over("here")

@@ -31,7 +31,7 @@ def test_what_is_kept_is_named(swept, kept):
     assert all(words in sentence for words, sentence in zip(kept, said))
 
 
-def test_a_study_says_it_in_summary_and_dataset(folder, capsys):
+def test_a_study_says_it_in_summary_and_dataset(folder, undrawn, capsys):
     """The interface."""
     import xarray
 
@@ -43,7 +43,7 @@ def test_a_study_says_it_in_summary_and_dataset(folder, capsys):
         assert opened.attrs["remarks"].startswith(words)
 
 
-def test_the_summary_gives_transmission_errors_as_lengths_first(folder, capsys):
+def test_the_summary_gives_transmission_errors_as_lengths_first(folder, undrawn, capsys):
     """Unit conversion: a length at the wheel's base circle is the angle times its radius."""
     import xarray
 

@@ -19,6 +19,7 @@ from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
+from fenics_gears.studies.accuracy.runs import run_sharing
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target import choose as choosing
 from fenics_gears.studies.accuracy_target import limits, trial_runs
@@ -44,6 +45,21 @@ def text(paper_scene):
 @pytest.fixture(scope="module")
 def scene(text):
     return scene_from_text(text)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def runs_once():
+    """Every trial run is made once for all tests here."""
+    made = {}
+
+    def once(scene, gears, progress):
+        if scene not in made:
+            made[scene] = run_sharing(scene, gears, progress)
+        return made[scene]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(trial_runs, "run_sharing", once)
+        yield once
 
 
 @pytest.fixture(scope="module")
@@ -102,15 +118,20 @@ def test_a_tighter_target_takes_finer_settings(scene, run):
     assert tighter.setting.flank <= half_width(scene) / trial_runs.COARSEST[trial_runs.FLANK]
 
 
-def test_the_clock_has_no_say(scene, monkeypatch):
-    """Identity: with a clock that says anything, the same settings are chosen, by the same runs."""
-    def chosen_by(clock):
-        monkeypatch.setattr(time, "perf_counter", clock)
-        found = choose(scene, 0.2, SilentProgress())
-        return found.setting, found.estimated_error, found.runs
-
+def test_the_clock_has_no_say(scene, run, runs_once, monkeypatch):
+    """Identity: with a clock, and times of the trial runs, that say anything the same settings are chosen, by as many runs."""
     random = np.random.default_rng(5)
-    assert chosen_by(lambda: float(random.uniform(0.0, 1e3))) == chosen_by(lambda: 0.0)
+
+    def timed_at_random(scene, gears, progress):
+        found, cycle = runs_once(scene, gears, progress)
+        return found.assign_attrs({name: random.uniform(0.0, 1e3) for name in found.attrs if name.startswith("time_")}), cycle
+
+    monkeypatch.setattr(trial_runs, "run_sharing", timed_at_random)
+    monkeypatch.setattr(time, "perf_counter", lambda: float(random.uniform(0.0, 1e3)))
+    found = choose(scene, TARGET, SilentProgress())
+    assert found.estimated_error == run.attrs["estimated_error"] and found.runs == run.attrs["target_runs"]
+    chosen = found.accuracy.flank_element_size, found.accuracy.steps_per_mesh_cycle, found.accuracy.contact_nodes
+    assert chosen == tuple(run.attrs[name] for name in ("flank_element_size", "steps_per_mesh_cycle", "contact_nodes"))
 
 
 def test_every_other_step_of_a_run_is_a_run_of_half_the_steps(scene):
@@ -219,7 +240,7 @@ def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
     assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
 
 
-def test_choosing_can_be_interrupted_within_a_run(scene):
+def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
     """Ctrl-C becomes a KeyboardInterrupt at a step of the first run, not at its end."""
     class Interrupted(SilentProgress):
         said = 0
@@ -229,6 +250,7 @@ def test_choosing_can_be_interrupted_within_a_run(scene):
             if self.said == 5:
                 raise KeyboardInterrupt
 
+    monkeypatch.setattr(trial_runs, "run_sharing", run_sharing)
     progress = Interrupted()
     with pytest.raises(KeyboardInterrupt):
         choose(scene, TARGET, progress)
