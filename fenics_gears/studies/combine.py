@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -19,7 +20,7 @@ from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.record import CURVES, CaseRecord
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.work import Failure
-from fenics_gears.system.output import written_aside
+from fenics_gears.system.output import write_whole
 
 STUDY_FILE = "study.nc"
 # 800 MB; beyond, the curves stay in the files of the cases.
@@ -45,22 +46,9 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
     result = xr.Dataset(coords={name: coordinate for axis in study.axes for name, coordinate in [_coordinate(axis, study)]})
     if study.combine == "zip":
         result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
-    for name, (units, long_name) in (NUMBERS | _further(records)).items():
-        values = [records[i].numbers.get(name, np.nan) if i in records else np.nan for i in _indices(study)]
-        result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
-    failed = np.array([int(i in failures) for i in _indices(study)])
-    result["failed"] = (study.dimensions, failed.reshape(study.shape), {"units": "1", "long_name": "whether the case failed"})
-    without_meaning = np.array([int(i in records and NO_MEANING in records[i].warnings) for i in _indices(study)])
-    words = {"units": "1", "long_name": "whether the case's result has no meaning"}
-    result["meaningless"] = (study.dimensions, without_meaning.reshape(study.shape), words)
-    texts = {
-        "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
-        "warnings": ("warnings of the run", {i: record.warnings for i, record in records.items()}),
-        "case_file": ("file of the case", {i: f"cases/{study.cases[i].name}.nc" for i in records}),
-    }
-    for name, (long_name, said) in texts.items():
-        values = np.array([said.get(i, "") for i in _indices(study)], dtype=object)
-        result[name] = (study.dimensions, values.reshape(study.shape), {"long_name": long_name})
+    for name, (of_case, missing, attributes) in _variables(study, records, failures).items():
+        values = np.array([of_case.get(i, missing) for i in range(len(study.cases))], dtype=type(missing) if missing != "" else object)
+        result[name] = (study.dimensions, values.reshape(study.shape), attributes)
     curves, why_not = _curves(study, records)
     result = result.assign(curves)
     return result.assign_attrs(
@@ -77,17 +65,27 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
     )
 
 
-def _further(records: Mapping[int, CaseRecord]) -> dict[str, tuple[str, str]]:
-    """Units and long names of the further numbers that some record has."""
+def _variables(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, Failure]) -> dict[str, tuple[dict, Any, dict]]:
+    """By name the values of the cases that have one, what stands for the others, and the attributes."""
     known = {name for record in records.values() for name in record.numbers}
-    return {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
+    numbers = NUMBERS | {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
+    found: dict[str, tuple[dict, Any, dict]] = {
+        name: ({i: each.numbers[name] for i, each in records.items() if name in each.numbers}, np.nan, {"units": units, "long_name": words})
+        for name, (units, words) in numbers.items()
+    }
+    without_meaning = {i: int(NO_MEANING in each.warnings) for i, each in records.items()}
+    return found | {
+        "failed": (dict.fromkeys(failures, 1), 0, {"units": "1", "long_name": "whether the case failed"}),
+        "meaningless": (without_meaning, 0, {"units": "1", "long_name": "whether the case's result has no meaning"}),
+        "failure": ({i: failure.reason for i, failure in failures.items()}, "", {"long_name": "why the case failed"}),
+        "warnings": ({i: each.warnings for i, each in records.items()}, "", {"long_name": "warnings of the run"}),
+        "case_file": ({i: f"cases/{study.cases[i].name}.nc" for i in records}, "", {"long_name": "file of the case"}),
+    }
 
 
 def save_study(dataset: xr.Dataset, directory: Path) -> Path:
     """Write the combined dataset, aside first and with a digest at its end. Raises ComputationError where it cannot be written."""
-    with written_aside(directory, written := []) as aside:
-        save(dataset, aside / STUDY_FILE)
-    return written[0]
+    return write_whole(directory / STUDY_FILE, lambda aside: save(dataset, aside))
 
 
 def load_combined(path: Path) -> xr.Dataset:
@@ -96,10 +94,6 @@ def load_combined(path: Path) -> xr.Dataset:
     if "peak_to_peak_transmission_error" not in result or "study" not in result.attrs:
         raise ComputationError(f"{path}: holds no study of this program (no peak_to_peak_transmission_error, no study text)")
     return result
-
-
-def _indices(study: Study) -> range:
-    return range(len(study.cases))
 
 
 def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -30,15 +29,6 @@ class CaseRecord:
     curves: dict[str, np.ndarray]
     labels: dict[str, dict[str, str]] = field(default_factory=dict)
     warnings: str = ""
-
-    def digest(self) -> str:
-        """Hash of numbers and curves."""
-        digest = hashlib.sha256()
-        for name, values in sorted({**self.numbers, **self.curves, "mesh_phase": self.mesh_phase}.items()):
-            array = np.ascontiguousarray(values, dtype=float)
-            digest.update(f"{name} {array.shape}\n".encode())
-            digest.update(array.tobytes())
-        return digest.hexdigest()
 
 
 def record_of(run: xr.Dataset) -> CaseRecord:

@@ -28,7 +28,7 @@ from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
 from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target.choose import choose
-from fenics_gears.studies.accuracy_target.limits import TargetNotReached
+from fenics_gears.studies.accuracy_target.trial_runs import TargetNotReached
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import SilentProgress
 

@@ -80,7 +80,7 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     assert total[-1] == pytest.approx(friction * forces[0][-1, :n].sum(), rel=1e-9)
 
 
-@pytest.mark.parametrize("steps", [10, 40, 100])
+@pytest.mark.parametrize("steps", [10, pytest.param(40, marks=pytest.mark.nightly), 100])
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
 def test_no_step_fails_at_the_pitch_point(changes, steps, paper_scene, paper_pair, stand_in_flanks, measured):
     """Any length of step: slip may turn within one. No step fails, and 1e-12 mm change nothing."""

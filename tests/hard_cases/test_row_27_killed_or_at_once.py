@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
 from tests.studies.conftest import command, environment, folder, gears, stamps, undrawn, write_study  # noqa: F401
-from tests.studies.test_run_study import FOUR, FIVE, load, stopped_in_the_middle
+from tests.studies.test_run_study import FIVE, FOUR, load, stopped_in_the_middle
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import accumulate
 
 import numpy as np
 import xarray as xr
@@ -250,12 +251,8 @@ class AccuracyStudy:
 
 def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:
     """The quickest settings that together take no longer than `budget` (s), in the order in which they were run."""
-    spent, chosen = 0.0, set()
-    for setting in sorted(seconds, key=seconds.__getitem__):
-        spent += seconds[setting]
-        if spent > budget:
-            break
-        chosen.add(setting)
+    quickest = sorted(seconds, key=seconds.__getitem__)
+    chosen = {setting for setting, spent in zip(quickest, accumulate(seconds[each] for each in quickest)) if spent <= budget}
     return [setting for setting in seconds if setting in chosen]
 
 

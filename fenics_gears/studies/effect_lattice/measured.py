@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import xarray as xr
@@ -113,16 +112,20 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
     for tangential in (False, True):
         compile_kernels(tangential)
     progress.stage("condense, and answers")
-    store, benches = GearStore(None, cycles=False), []
+    store, benches, kept = GearStore(None, cycles=False), [], 0.0
     for done, subset in enumerate(subsets):
         progress.update(done, len(subsets), subset.name)
         try:
-            benches.append(Bench(subset, store))
+            bench = Bench(subset, store)
         except GearsError as error:
             skipped.append(Skipped(subset.name, str(error).splitlines()[0]))
+            continue
+        kept += bench.bytes
+        if kept > MOST_BYTES:
+            bench.cycle = None
+        benches.append(bench)
     if not benches:
         raise ComputationError("no subset of the effects could be run: " + "; ".join(f"{each.name}: {each.reason}" for each in skipped))
-    _keep_what_fits(benches)
     progress.stage("times")
     for turn in range(rounds):
         for done, bench in enumerate(benches):
@@ -150,14 +153,17 @@ def at_one_accuracy(scene: Scene) -> Scene:
 
 
 class Bench:
-    """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot be run."""
+    """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot be run.
+
+    `cycle`: the contact operators; None where they are to be built again for every timed run. `bytes`: of them.
+    """
 
     def __init__(self, subset: Subset, store: GearStore):
         self.subset, self._store, self._model = subset, store, model_of(subset.scene)
-        self._gears, self._cycle, self._operators = self._build()
-        self._whole = self._run(subset.scene, self._gears, self._cycle)
+        self._gears, self.cycle, self._seconds = self._build()
+        self._whole = self._run(subset.scene, self.cycle)
         self._step_times: list[float] = []
-        operators = [self._cycle.position(step).operator for step in range(self._cycle.steps)]
+        operators = [self.cycle.position(step).operator for step in range(self.cycle.steps)]
         self.bytes = sum(operator.compliance.nbytes for operator in operators)
         self._contact_rows = sum(len(operator.jacobian) for operator in operators) / len(operators)
 
@@ -169,22 +175,18 @@ class Bench:
             cycle.position(step)
         return gears, cycle, time.perf_counter() - begun
 
-    def _run(self, scene: Scene, gears: tuple, cycle: Cycle) -> xr.Dataset:
-        result = simulate(scene, preparation=lambda model, progress, cache: (gears, cycle))
+    def _run(self, scene: Scene, cycle: Cycle) -> xr.Dataset:
+        result = simulate(scene, preparation=lambda model, progress, cache: (self._gears, cycle))
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
         return result
-
-    def forget(self) -> None:
-        """Free the contact operators; they are built again for every timed run."""
-        self._cycle = None
 
     def time_steps(self) -> None:
         """One more timed run, of the scene's first mesh cycles."""
         motion = self._model.scene.motion
         cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
         shorter = replace(self.subset.scene, motion=replace(motion, mesh_cycles=cycles, recorded_cycles=1))
-        timed = self._run(shorter, self._gears, self._cycle if self._cycle is not None else self._build()[1])
+        timed = self._run(shorter, self.cycle if self.cycle is not None else self._build()[1])
         self._step_times.append(timed.attrs["time_march"] / timed.attrs["steps"])
 
     def row(self) -> Row:
@@ -199,7 +201,7 @@ class Bench:
             iterations=run.attrs["newton_iterations_total"] / run.attrs["steps"],
             step_times=tuple(self._step_times),
             condense=sum(gear.timings["time_mesh"] + gear.timings["time_condense"] for gear in self._gears),
-            operators=self._operators,
+            operators=self._seconds,
             transmission_error=run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"],
             peak_force=largest_normal_force(run),
             remarks=tuple(_remarks(self.subset, run)),
@@ -211,11 +213,3 @@ def _remarks(subset: Subset, run: xr.Dataset) -> list[str]:
     if subset.scene.inertia is not None and subset.scene.damping is None:
         found.append("undamped: the vibration of the start rings on in the answer")
     return found + run.attrs["warnings"].splitlines()
-
-
-def _keep_what_fits(benches: Sequence[Bench]) -> None:
-    kept = 0.0
-    for bench in benches:
-        kept += bench.bytes
-        if kept > MOST_BYTES:
-            bench.forget()
