@@ -22,7 +22,7 @@ from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
-FINE = replace(COARSE, steps_per_mesh_cycle=200)
+FINE = replace(COARSE, steps_per_mesh_cycle=100)
 
 
 @pytest.fixture(scope="module")

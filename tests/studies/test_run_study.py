@@ -16,7 +16,7 @@ from fenics_gears.studies import work
 from fenics_gears.studies.combine import combined
 from fenics_gears.studies.study_file import load_study
 
-TWO = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n'
+TWO = 'without = ["inertia", "damping", "friction"]\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n'
 FOUR = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nfriction = ["absent", "present"]\n'
 THREE = 'without = ["inertia", "damping"]\n[sweep]\nfriction.coefficient = [0.1, 0.3, 0.2]\n'
 

@@ -35,7 +35,7 @@ def test_routes_agree_at_the_papers_resolution(case, element, paper_cases, both_
 
 def test_routes_approach_each_other(paper_cases, both_routes):
     """Other method: with the same arms of the normal forces nothing but discretisation is between the routes, of order one at least."""
-    sizes = (0.24, 0.12)
+    sizes = (0.16, 0.08)
     errors = [
         distance(*both_routes(paper_cases["200 Hz"], size=size, preparation=with_involute_arms))[0] for size in sizes
     ]
