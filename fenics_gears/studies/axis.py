@@ -120,7 +120,7 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
         raise AxisError(f'has the spacing {as_written(spacing)}.{hint} Allowed: "linear", "logarithmic".')
     given = {name: table[name] for name in ("start", "stop", "step") if name in table}
     ends, unit = _ends(given)
-    numbers = _stepped(*ends, spacing) if "step" in table else _counted(*ends, table["count"], spacing)
+    numbers = _stepped(ends[0], ends[1], ends[2], spacing) if "step" in table else _counted(ends[0], ends[1], table["count"], spacing)
     if unit:
         return tuple(f"{number:.12g} {unit}" for number in numbers)
     whole = isinstance(table["start"], int) and isinstance(table["stop"], int) and np.all(numbers == np.round(numbers))
