@@ -104,7 +104,7 @@ KINDS = {
 }
 
 
-# By day every field has one mistake of each kind, another one than its neighbours; by night all of them.
+# By day every field has one mistake of every other kind, another one than its neighbours; by night all of them.
 breadth = pytest.mark.parametrize("every", [pytest.param(False, id="one each"), pytest.param(True, id="all", marks=pytest.mark.nightly)])
 
 
@@ -119,6 +119,7 @@ def tries_of(every: bool, mistakes) -> list[tuple[Field, str]]:
 def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind, every):
     """Every field that the kind of mistake can be made in; "negative" and "zero" only where the field's own range leaves them out."""
     tries = tries_of(every, KINDS[kind])
+    tries = tries if every else tries[list(KINDS).index(kind) % 2 :: 2]
     wrong = []
     for field, literal in tries:
         said = outcome(scene_with(field.path, literal))
