@@ -15,7 +15,7 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.studies.record import CaseRecord, record_of
+from fenics_gears.studies.combine import CaseRecord, record_of
 from fenics_gears.studies.study import Case, Study
 from fenics_gears.system.output import write_whole
 

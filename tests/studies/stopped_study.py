@@ -17,10 +17,10 @@ from fenics_gears.studies import run_study, work
 done = 0
 
 
-def run_case(task, tick=None):
+def run_case(directory, case, tick=None):
     """As the program does, then the signal."""
     global done
-    outcome = work.run_case(task, tick)
+    outcome = work.run_case(directory, case, tick)
     done += 1
     if done == int(sys.argv[2]):
         if os.environ.get("OMPI_COMM_WORLD_RANK", "0") != sys.argv[3]:
