@@ -167,7 +167,9 @@ def test_csv_holds_every_row_with_units_in_its_names(report, tmp_path):
     """Authority: identity; what is written is what was measured."""
     table.write_csv(report, tmp_path / "effects.csv")
     with open(tmp_path / "effects.csv", encoding="utf-8", newline="") as file:
-        lines = list(csv.DictReader(file))
+        reader = csv.DictReader(file)
+        lines = list(reader)
+    assert tuple(reader.fieldnames) == table.CSV_COLUMNS  # by which the report knows the file
     assert [line["effects"] for line in lines] == [row.subset.name for row in report.rows]
     assert all(float(line["step_time_s"]) == row.step_time for line, row in zip(lines, report.rows))
     assert all(None not in line and None not in line.values() for line in lines)
