@@ -21,7 +21,7 @@ def scene_file(tmp_path_factory):
     text = (CHECKOUT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
     for old, new in (
         ('condensation = "once"', 'condensation = "every step"'),
-        ("steps_per_mesh_cycle = 100", "steps_per_mesh_cycle = 3"),
+        ("steps_per_mesh_cycle = 100", "steps_per_mesh_cycle = 2"),
         ("mesh_cycles = 30", "mesh_cycles = 2"),
         ("contact_nodes = 20 ", "contact_nodes = 8 "),
         ('"0.08 mm"', '"0.3 mm"'),

@@ -176,7 +176,8 @@ def test_a_window_that_cuts_contact_off_is_lengthened(scene):
 
 
 def refusal(scene, monkeypatch):
-    """What is said of 0.1 % with little memory."""
+    """What is said of 0.1 % with little memory; few larger targets are tried."""
+    monkeypatch.setattr(choosing, "REACHABLE", 2.0)
     monkeypatch.setattr(trial_runs, "MOST_BYTES", 4e7)
     with pytest.raises(TargetNotReached, match=r"accuracy.target = 0.1 %.*contact operators and gears.*sharp edges.*; [\d.]+ % can be") as failure:
         choose(scene, 0.001, SilentProgress())
