@@ -76,8 +76,8 @@ def run_one(file: Path, directory: Path) -> tuple[int, str, float]:
     computed = len(outcome.records) - outcome.kept
     words = f"{computed} runs" + (f", {outcome.kept} kept" if outcome.kept else "")
     if outcome.failures:
-        index, failure = next(iter(outcome.failures.items()))
-        words += f"; {len(outcome.failures)} failed, the first {outcome.study.cases[index]}: {failure.reason}"
+        index, reason = next(iter(outcome.failures.items()))
+        words += f"; {len(outcome.failures)} failed, the first {outcome.study.cases[index]}: {reason}"
     code = INTERRUPTED if outcome.interrupted else ComputationError.exit_code if outcome.failures else 0
     return code, words, time.perf_counter() - begun
 

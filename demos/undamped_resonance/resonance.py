@@ -32,8 +32,8 @@ def compute(study: Path, directory: Path) -> int:
     except GearsError as error:
         print(error, file=sys.stderr)
         return error.exit_code
-    for index, failure in outcome.failures.items():
-        print(f"{outcome.study.cases[index]}: {failure.reason}", file=sys.stderr)
+    for index, reason in outcome.failures.items():
+        print(f"{outcome.study.cases[index]}: {reason}", file=sys.stderr)
     if outcome.interrupted:
         return 130
     return ComputationError.exit_code if outcome.failures else 0

@@ -110,5 +110,4 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("wall_time", "s", "wall time of the case", IN_STUDIES),
     ResultAttribute("case_key", "", "hash of all that the case's result depends on", IN_STUDIES),
     ResultAttribute("case_values", "", "the swept values, as JSON", IN_STUDIES),
-    ResultAttribute("record_digest", "", "digest of what `study.nc` took from the case", IN_STUDIES),
 )

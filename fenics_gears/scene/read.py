@@ -26,15 +26,27 @@ def load_scene(path: str | os.PathLike) -> data.Scene:
     Raises SceneError, naming every mistake at once, where the file cannot be read or is wrong.
     """
     path = Path(path)
+    return scene_from_text(text_of(path, "scene"), path.stem, source=str(path), directory=path.parent)
+
+
+def text_of(path: Path, kind: str) -> str:
+    """The text of a file that should be a "scene" or a "study". Raises SceneError where it cannot be read."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        return path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise SceneError(f"{path}: there is no such file{_nearest_file(path)}") from None
     except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a scene is a TOML file") from None
+        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a {kind} is a TOML file") from None
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    return scene_from_text(text, path.stem, source=str(path), directory=path.parent)
+
+
+def parsed(text: str, source: str) -> dict[str, Any]:
+    """What a TOML text holds, its numbers as they were written. Raises SceneError, which calls the text `source`."""
+    try:
+        return tomllib.loads(text, parse_float=WrittenFloat)
+    except (ValueError, RecursionError) as error:
+        raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
 
 
 def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: str | os.PathLike = ".") -> data.Scene:
@@ -66,10 +78,7 @@ def scene_from_text(
     Raises SceneError, naming every mistake at once.
     """
     source = source or name
-    try:
-        tree = tomllib.loads(text, parse_float=WrittenFloat)
-    except (ValueError, RecursionError) as error:
-        raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
+    tree = parsed(text, source)
     if "sweep" in tree and "gears" not in tree:
         raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. Nothing was computed or written.")
     checked, problems = problems_of_schema(tree)

@@ -68,7 +68,7 @@ def values_of(path: Path, written: Any) -> tuple[Any, ...]:
     elif isinstance(written, list):
         values = tuple(written)
     else:
-        raise AxisError(f"is one value. Allowed: a list of values, or a range such as {_example(path)}. A field of one value belongs in [set].")
+        raise AxisError("is one value. Allowed: a list of values, or a range such as { start = ..., stop = ..., count = 20 }. A field of one value belongs in [set].")
     if not values:
         raise AxisError("is an empty list. Allowed: at least one value.")
     if len(values) > MOST_VALUES:
@@ -89,25 +89,19 @@ def _check(path: Path, value: Any) -> None:
 
 
 def _number(value: Any, unit: str) -> float | None:
+    """A value as a number of units, NaN for an absent one; None for what is no number."""
     if value == ABSENT:
         return math.nan
-    if isinstance(value, bool) or isinstance(value, Mapping):
+    if isinstance(value, (bool, Mapping)):
         return None
-    if isinstance(value, (int, float)):
-        return float(value)
     try:
-        return units.quantity(value)[0] / _factor(unit)
+        return float(value) if isinstance(value, (int, float)) else units.quantity(value)[0] / _factor(unit)
     except units.QuantityError:
         return None
 
 
 def _factor(unit: str) -> float:
     return units.quantity(f"1 {unit}")[0]
-
-
-def _example(path: Path) -> str:
-    frequency = path == ("motion", "mesh_frequency")
-    return '{ start = "50 Hz", stop = "1000 Hz", count = 20 }' if frequency else "{ start = ..., stop = ..., count = 20 }"
 
 
 def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
@@ -124,32 +118,35 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
     if spacing not in SPACINGS:
         hint = did_you_mean(spacing, SPACINGS) if isinstance(spacing, str) else ""
         raise AxisError(f'has the spacing {as_written(spacing)}.{hint} Allowed: "linear", "logarithmic".')
-    start, stop, step, unit = _ends(table)
-    if step is not None:
-        return _written(_stepped(start, stop, step, spacing), unit, table)
-    return _written(_counted(start, stop, table["count"], spacing), unit, table)
+    given = {name: table[name] for name in ("start", "stop", "step") if name in table}
+    ends, unit = _ends(given)
+    numbers = _stepped(ends[0], ends[1], ends[2], spacing) if "step" in table else _counted(ends[0], ends[1], table["count"], spacing)
+    if unit:
+        return tuple(f"{number:.12g} {unit}" for number in numbers)
+    whole = isinstance(table["start"], int) and isinstance(table["stop"], int) and np.all(numbers == np.round(numbers))
+    return tuple(int(number) if whole else float(f"{number:.15g}") for number in numbers)
 
 
-def _ends(table: Mapping[str, Any]) -> tuple[float, float, float | None, str]:
-    """Start, stop and step as numbers in the unit of the start, and that unit."""
-    given = [table["start"], table["stop"], *([table["step"]] if "step" in table else [])]
-    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in given):
-        numbers, unit = [float(value) for value in given], ""
+def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
+    """Start, stop and step, if any, as numbers in the unit of the start, and that unit."""
+    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in given.values()):
+        numbers, unit = [float(value) for value in given.values()], ""
     else:
-        for name in ("start", "stop", "step"):
-            if name in table and not isinstance(table[name], str):
-                raise AxisError(f"has {name} = {as_written(table[name])} beside a text with a unit. Allowed: all with units, or all bare numbers.")
+        for name, value in given.items():
+            if not isinstance(value, str):
+                raise AxisError(f"has {name} = {as_written(value)} beside a text with a unit. Allowed: all with units, or all bare numbers.")
         try:
-            quantities = [units.quantity(value) for value in given]
+            quantities = [units.quantity(value) for value in given.values()]
         except units.QuantityError as error:
             raise AxisError(f"has an end that {error}") from None
-        if len({kind for _, kind in quantities}) > 1:
-            raise AxisError(f"mixes {' and '.join(dict.fromkeys(kind for _, kind in quantities))}.")
-        unit = units.unit_of(given[0])
+        kinds = dict.fromkeys(kind for _, kind in quantities)
+        if len(kinds) > 1:
+            raise AxisError(f"mixes {' and '.join(kinds)}.")
+        unit = units.unit_of(given["start"])
         numbers = [number / _factor(unit) for number, _ in quantities]
     if not all(map(math.isfinite, numbers)):
         raise AxisError("has an end that is not a finite number.")
-    return numbers[0], numbers[1], numbers[2] if len(numbers) > 2 else None, unit
+    return numbers, unit
 
 
 def _counted(start: float, stop: float, count: Any, spacing: str) -> np.ndarray:
@@ -174,11 +171,3 @@ def _stepped(start: float, stop: float, step: float, spacing: str) -> np.ndarray
         raise AxisError(f"has {steps:.3g} values. Allowed: up to {MOST_VALUES}.")
     # The stop is reached even if round-off puts it beyond the last step.
     return start + step * np.arange(math.floor(steps * (1 + 1e-12) + 1e-9) + 1)
-
-
-def _written(numbers: np.ndarray, unit: str, table: Mapping[str, Any]) -> tuple[Any, ...]:
-    """The numbers as TOML values, whole numbers where start and stop are whole."""
-    if unit:
-        return tuple(f"{number:.12g} {unit}" for number in numbers)
-    whole = isinstance(table["start"], int) and isinstance(table["stop"], int) and np.all(numbers == np.round(numbers))
-    return tuple(int(number) if whole else float(f"{number:.15g}") for number in numbers)

@@ -15,31 +15,27 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.studies.record import CaseRecord, record_of
+from fenics_gears.studies.combine import CaseRecord, record_of
 from fenics_gears.studies.study import Case, Study
-from fenics_gears.system.output import written_aside
+from fenics_gears.system.output import write_whole
 
 LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"
 
 
 def save_case(run: xr.Dataset, case: Case, directory: Path) -> CaseRecord:
-    """Write the run of a case, aside first, and return its record; a note on an earlier failure goes."""
-    record = record_of(run)
-    attributes = {"case_key": case.key, "case_values": json.dumps(case.values), "record_digest": record.digest()}
-    results.save(run.assign_attrs(attributes), directory / f"{case.name}{ENDING}")
+    """Write the run of a case and return its record; a note on an earlier failure goes."""
+    results.save(run.assign_attrs(case_key=case.key, case_values=json.dumps(case.values)), directory / f"{case.name}{ENDING}")
     (directory / f"{case.name}{FAILED_ENDING}").unlink(missing_ok=True)
-    return record
+    return record_of(run)
 
 
 def save_failure(case: Case, reason: str, details: str, directory: Path) -> None:
     """Write why a case failed, and its scene."""
-    aside = directory / f".{case.name}.{os.getpid()}.part"
     text = f"{case} failed: {reason}\n\n{details}\nIts scene:\n\n{case.scene.text}"
     try:
-        aside.write_text(text, encoding="utf-8")
-        os.replace(aside, directory / f"{case.name}{FAILED_ENDING}")
-    except OSError as error:
+        write_whole(directory / f"{case.name}{FAILED_ENDING}", lambda aside: aside.write_text(text, encoding="utf-8"))
+    except ComputationError as error:
         LOGGER.warning("%s: the note on its failure could not be written: %s", case, error)
 
 
@@ -63,11 +59,9 @@ def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, CaseRecord
 def _undamaged(path: Path, case: Case) -> CaseRecord | None:
     try:
         run = results.load(path)
-        record = record_of(run)
-        expected = (case.key, 1, record.digest())
-        if tuple(run.attrs.get(name) for name in ("case_key", "complete", "record_digest")) != expected:
+        if (run.attrs.get("case_key"), run.attrs.get("complete")) != (case.key, 1):
             raise ValueError("it does not hold what was written into it")
-        return record
+        return record_of(run)
     # A damaged HDF5 file is reported by many types, RuntimeError and KeyError among them.
     except Exception as error:
         LOGGER.warning("%s is not usable and its case is computed again: %s", path, error)
@@ -94,7 +88,7 @@ def sole_writer(directory: Path) -> Iterator[None]:
             LOGGER.debug("%s: no locks on this file system: %s", directory, error)
         for left in (directory / "cases").glob(".*.part"):
             left.unlink(missing_ok=True)
-        for left in directory.glob(".unfinished-*"):
+        for left in directory.rglob(".unfinished-*"):
             shutil.rmtree(left, ignore_errors=True)
         yield
 
@@ -110,6 +104,5 @@ def base_changed(study: Study, directory: Path) -> bool:
     except (OSError, ValueError, AttributeError):
         before = None
     index = {"title": study.title, "base_scene": study.base_key, "cases": {case.name: case.values for case in study.cases}}
-    with written_aside(directory, []) as aside:
-        (aside / path.name).write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8")
+    write_whole(path, lambda aside: aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8"))
     return before is not None and before != study.base_key

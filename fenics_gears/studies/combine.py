@@ -1,9 +1,11 @@
-"""The dataset of a study: the records of all cases over the swept fields."""
+"""The dataset of a study: what it takes from the run of each case, over the swept fields."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -11,15 +13,16 @@ import xarray as xr
 import fenics_gears
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
+from fenics_gears.results.pairs import shown
+from fenics_gears.results.settled import of_settled
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
-from fenics_gears.studies.record import CURVES, CaseRecord
 from fenics_gears.studies.study import Study
-from fenics_gears.studies.work import Failure
-from fenics_gears.system.output import written_aside
+from fenics_gears.system.output import write_whole
 
 STUDY_FILE = "study.nc"
 # 800 MB; beyond, the curves stay in the files of the cases.
@@ -34,9 +37,44 @@ NUMBERS = {
     "steps_per_mesh_cycle": ("1", "steps per mesh cycle"),
     "wall_time": ("s", "wall time of the run"),
 }
+# Curves of the last cycles, taken where a run has them.
+CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness")
 
 
-def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, Failure]) -> xr.Dataset:
+@dataclass(frozen=True)
+class CaseRecord:
+    """Numbers and curves of one run.
+
+    `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase`
+    (steps,): mesh cycles since the first recorded step; `labels`: units and long name of each curve; `warnings`: those of the run.
+    """
+
+    numbers: dict[str, float]
+    mesh_phase: np.ndarray
+    curves: dict[str, np.ndarray]
+    labels: dict[str, dict[str, str]] = field(default_factory=dict)
+    warnings: str = ""
+
+
+def record_of(run: xr.Dataset) -> CaseRecord:
+    """The record of a complete run; the wall time is the attribute `wall_time`, s."""
+    numbers = {
+        "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
+        "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
+        "max_normal_force": largest_normal_force(of_settled(run)),
+        "newton_iterations": float(run.attrs["newton_iterations_total"]),
+        "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
+        "wall_time": float(run.attrs["wall_time"]),
+    }
+    numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
+    last = shown(run)
+    phase = last["mesh_phase"].values
+    curves = {name: last[name].values for name in CURVES if name in run}
+    labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
+    return CaseRecord(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))
+
+
+def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, str]) -> xr.Dataset:
     """The dataset of the cases so far; NaN where a case has no result or lacks a number.
 
     The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed and
@@ -45,22 +83,9 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
     result = xr.Dataset(coords={name: coordinate for axis in study.axes for name, coordinate in [_coordinate(axis, study)]})
     if study.combine == "zip":
         result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
-    for name, (units, long_name) in (NUMBERS | _further(records)).items():
-        values = [records[i].numbers.get(name, np.nan) if i in records else np.nan for i in _indices(study)]
-        result[name] = (study.dimensions, np.array(values).reshape(study.shape), {"units": units, "long_name": long_name})
-    failed = np.array([int(i in failures) for i in _indices(study)])
-    result["failed"] = (study.dimensions, failed.reshape(study.shape), {"units": "1", "long_name": "whether the case failed"})
-    without_meaning = np.array([int(i in records and NO_MEANING in records[i].warnings) for i in _indices(study)])
-    words = {"units": "1", "long_name": "whether the case's result has no meaning"}
-    result["meaningless"] = (study.dimensions, without_meaning.reshape(study.shape), words)
-    texts = {
-        "failure": ("why the case failed", {i: failure.reason for i, failure in failures.items()}),
-        "warnings": ("warnings of the run", {i: record.warnings for i, record in records.items()}),
-        "case_file": ("file of the case", {i: f"cases/{study.cases[i].name}.nc" for i in records}),
-    }
-    for name, (long_name, said) in texts.items():
-        values = np.array([said.get(i, "") for i in _indices(study)], dtype=object)
-        result[name] = (study.dimensions, values.reshape(study.shape), {"long_name": long_name})
+    for name, (of_case, missing, attributes) in _variables(study, records, failures).items():
+        values = np.array([of_case.get(i, missing) for i in range(len(study.cases))], dtype=type(missing) if missing != "" else object)
+        result[name] = (study.dimensions, values.reshape(study.shape), attributes)
     curves, why_not = _curves(study, records)
     result = result.assign(curves)
     return result.assign_attrs(
@@ -77,17 +102,27 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
     )
 
 
-def _further(records: Mapping[int, CaseRecord]) -> dict[str, tuple[str, str]]:
-    """Units and long names of the further numbers that some record has."""
+def _variables(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, str]) -> dict[str, tuple[dict, Any, dict]]:
+    """By name the values of the cases that have one, what stands for the others, and the attributes."""
     known = {name for record in records.values() for name in record.numbers}
-    return {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
+    numbers = NUMBERS | {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
+    found: dict[str, tuple[dict, Any, dict]] = {
+        name: ({i: each.numbers[name] for i, each in records.items() if name in each.numbers}, np.nan, {"units": units, "long_name": words})
+        for name, (units, words) in numbers.items()
+    }
+    without_meaning = {i: int(NO_MEANING in each.warnings) for i, each in records.items()}
+    return found | {
+        "failed": (dict.fromkeys(failures, 1), 0, {"units": "1", "long_name": "whether the case failed"}),
+        "meaningless": (without_meaning, 0, {"units": "1", "long_name": "whether the case's result has no meaning"}),
+        "failure": (failures, "", {"long_name": "why the case failed"}),
+        "warnings": ({i: each.warnings for i, each in records.items()}, "", {"long_name": "warnings of the run"}),
+        "case_file": ({i: f"cases/{study.cases[i].name}.nc" for i in records}, "", {"long_name": "file of the case"}),
+    }
 
 
 def save_study(dataset: xr.Dataset, directory: Path) -> Path:
     """Write the combined dataset, aside first and with a digest at its end. Raises ComputationError where it cannot be written."""
-    with written_aside(directory, written := []) as aside:
-        save(dataset, aside / STUDY_FILE)
-    return written[0]
+    return write_whole(directory / STUDY_FILE, lambda aside: save(dataset, aside))
 
 
 def load_combined(path: Path) -> xr.Dataset:
@@ -96,10 +131,6 @@ def load_combined(path: Path) -> xr.Dataset:
     if "peak_to_peak_transmission_error" not in result or "study" not in result.attrs:
         raise ComputationError(f"{path}: holds no study of this program (no peak_to_peak_transmission_error, no study text)")
     return result
-
-
-def _indices(study: Study) -> range:
-    return range(len(study.cases))
 
 
 def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:

@@ -1,4 +1,4 @@
-"""Sizes of the gears that a study keeps while it sweeps a size that a designer would change them with. The curves do not show this, so it is said."""
+"""Remarks on sizes of the gears that a study leaves as they are although a designer would change them with a swept one; curves do not show it."""
 
 from __future__ import annotations
 

@@ -1,11 +1,12 @@
-"""The machine on which a time was measured: processor, threads, versions of the program and its libraries."""
+"""What `gears accuracy` and `gears effects` share: the machine on which times were measured, and the CSV file of the numbers."""
 
 from __future__ import annotations
 
+import csv
 import importlib.metadata
 import os
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import fenics_gears
@@ -54,3 +55,12 @@ def versions(packages: Sequence[str] = PACKAGES) -> str:
         except importlib.metadata.PackageNotFoundError:
             continue
     return ", ".join(found)
+
+
+def write_lines(file: Path, lines: Sequence[Mapping[str, object]], machine: Mapping[str, str]) -> None:
+    """Write a line for each of `lines` to a CSV file, each with the machine's words; a name that a line lacks is empty in it."""
+    columns = dict.fromkeys(name for line in (*lines, machine) for name in line)
+    with open(file, "w", encoding="utf-8", newline="") as opened:
+        writer = csv.DictWriter(opened, list(columns), restval="")
+        writer.writeheader()
+        writer.writerows({**line, **machine} for line in lines)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 import logging
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from fenics_gears.studies.case_files import base_changed, kept_records, sole_writer
-from fenics_gears.studies.combine import combined, save_study
+from fenics_gears.studies.combine import CaseRecord, combined, save_study
 from fenics_gears.studies.ranks import Alone, Together, ranks
-from fenics_gears.studies.record import CaseRecord
 from fenics_gears.studies.study import Case, Study
 from fenics_gears.studies.study_file import load_study
-from fenics_gears.studies.work import CaseTask, Failure, condense, gear_tasks, in_order_of_sharing, run_case
+from fenics_gears.studies.work import condense, gear_tasks, in_order_of_sharing, run_case
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import Progress
@@ -23,13 +23,13 @@ LOGGER = logging.getLogger(__name__)
 
 @dataclass
 class Outcome:
-    """Results and failures of a study so far, by the case's index; `kept`: how many results were there before."""
+    """Results of a study so far, and why cases failed, by the case's index; `kept`: how many results were there before."""
 
     study: Study
     file: Path | None = None
     kept: int = 0
     records: dict[int, CaseRecord] = field(default_factory=dict)
-    failures: dict[int, Failure] = field(default_factory=dict)
+    failures: dict[int, str] = field(default_factory=dict)
     interrupted: bool = False
 
 
@@ -102,15 +102,15 @@ def _compute(missing: list[Case], directory: Path, team: Alone | Together, outco
         failed = len(outcome.failures)
         progress.update(len(outcome.records) - outcome.kept + failed, len(missing), f"{failed} failed" if failed else "")
 
-    def finished(index: int, result: CaseRecord | Failure | Exception) -> None:
+    def finished(index: int, result: CaseRecord | str | Exception) -> None:
         case = missing[index]
         if isinstance(result, CaseRecord):
             outcome.records[case.index] = result
             return
         # An exception is one that the worker could not even report, such as an MPI error.
-        failure = result if isinstance(result, Failure) else Failure(f"{type(result).__name__}: {result}")
-        outcome.failures[case.index] = failure
-        LOGGER.warning("%s failed: %s", case, failure.reason.splitlines()[0])
+        reason = result if isinstance(result, str) else f"{type(result).__name__}: {result}"
+        outcome.failures[case.index] = reason
+        LOGGER.warning("%s failed: %s", case, reason.splitlines()[0])
 
-    team.run(run_case, [CaseTask(case, directory) for case in missing], finished, count)
+    team.run(functools.partial(run_case, directory), missing, finished, count)
     count()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,11 +12,11 @@ from typing import Any
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, line_numbers
-from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
+from fenics_gears.inputs.written import as_toml, as_written
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
-from fenics_gears.scene.read import load_scene, scene_from_text
+from fenics_gears.scene.read import load_scene, parsed, scene_from_text, text_of
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
@@ -83,7 +82,8 @@ def load_study(path: str | Path) -> Study:
     Raises SceneError, naming every mistake at once, before anything is computed.
     """
     path = Path(path)
-    text, tree = _parsed(path)
+    text = text_of(path, "study")
+    tree = parsed(text, str(path))
     if "gears" in tree and "sweep" not in tree:
         raise SceneError(f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written.")
     # A swept field has one name here, whether its dots are written bare or within quotes.
@@ -94,7 +94,7 @@ def load_study(path: str | Path) -> Study:
     mistakes.check()
     scene_file = path.parent / tree["scene"]
     base = load_scene(scene_file)
-    scene_tree = tomllib.loads(base.text, parse_float=WrittenFloat)
+    scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
     cases = _cases(path, scene_file.parent, changes, scene_tree, mistakes)
@@ -109,23 +109,6 @@ def load_study(path: str | Path) -> Study:
         scene_text=base.text,
         base_key=scene_key(base),
     )
-
-
-def _parsed(path: Path) -> tuple[str, dict[str, Any]]:
-    """The text of a study file, and the tree that it holds."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        neighbours = [each.name for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
-        raise SceneError(f"{path}: there is no such file.{did_you_mean(path.name, neighbours)}") from None
-    except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a study is a TOML file") from None
-    except (OSError, ValueError) as error:
-        raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    try:
-        return text, tomllib.loads(text, parse_float=WrittenFloat)
-    except (ValueError, RecursionError) as error:
-        raise SceneError(f"{path}: is not valid TOML: {error}\nNothing was computed or written.") from None
 
 
 def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:

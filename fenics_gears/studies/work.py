@@ -1,4 +1,4 @@
-"""The two tasks of a study's processes: condense a gear, run a case. A case that fails becomes a `Failure`."""
+"""The two tasks of a study's processes: condense a gear, run a case. Of a case that fails the reason is kept."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.studies.case_files import save_case, save_failure
+from fenics_gears.studies.combine import CaseRecord
 from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, own_gear_store
-from fenics_gears.studies.record import CaseRecord
 from fenics_gears.studies.simulate import simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.system.progress import SilentProgress
@@ -31,21 +31,6 @@ class GearTask:
     scene: Scene
     name: str
     reach: Reach
-
-
-@dataclass(frozen=True)
-class CaseTask:
-    """A case to be run, and the directory its file goes to."""
-
-    case: Case
-    directory: Path
-
-
-@dataclass(frozen=True)
-class Failure:
-    """A case without a result, and why."""
-
-    reason: str
 
 
 def gear_tasks(cases: list[Case]) -> list[GearTask]:
@@ -80,20 +65,21 @@ def condense(task: GearTask, tick: Tick | None = None) -> None:
     own_gear_store().gear(model_of(task.scene), task.name, task.reach, user_cache())
 
 
-def run_case(task: CaseTask, tick: Tick | None = None) -> CaseRecord | Failure:
-    """Run a case and write its file; a failure is written too. Raises KeyboardInterrupt where Ctrl-C ended it."""
+def run_case(directory: Path, case: Case, tick: Tick | None = None) -> CaseRecord | str:
+    """Run a case and write its file, or why it failed, into a directory; return its record, or that reason. Raises KeyboardInterrupt where Ctrl-C
+    ended it."""
     begun = time.perf_counter()
     try:
-        run = simulate(task.case.scene, progress=Ticking(tick), preparation=own_gear_store().prepared)
+        run = simulate(case.scene, progress=Ticking(tick), preparation=own_gear_store().prepared)
         if not run.attrs["complete"]:
             raise KeyboardInterrupt
-        return save_case(run.assign_attrs(wall_time=time.perf_counter() - begun), task.case, task.directory)
+        return save_case(run.assign_attrs(wall_time=time.perf_counter() - begun), case, directory)
     except Exception as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
         reason = str(error) if isinstance(error, GearsError) else f"{type(error).__name__}: {error}"
-        save_failure(task.case, reason, traceback.format_exc(), task.directory)
-        return Failure(reason)
+        save_failure(case, reason, traceback.format_exc(), directory)
+        return reason
 
 
 class Ticking(SilentProgress):

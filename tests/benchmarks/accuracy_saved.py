@@ -14,7 +14,7 @@ from fenics_gears.studies.accuracy.measures import MEASURES, judged
 from fenics_gears.studies.accuracy.refinement import fine, refinements
 from fenics_gears.studies.accuracy.report import OWN, AccuracyReport, LevelResult, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import Times
-from fenics_gears.studies.accuracy.setting import half_width, own_setting
+from fenics_gears.studies.accuracy.setting import own_setting
 from fenics_gears.studies.accuracy.table import ORDERED
 
 MACHINE = ("processor", "load", "threads", "versions")
@@ -44,7 +44,7 @@ def saved_report(scene: Scene, file: Path) -> AccuracyReport:
     failures = tuple((line["name"], line["setting"]) for line in lines if line["kind"] == "failed")
     rounds = max(each.times.rounds for each in settings)
     return AccuracyReport(
-        scene, half_width(scene), fine(scene), results, tuple(settings), tuple(models), _errors(reference), failures,
+        scene, fine(scene), results, tuple(settings), tuple(models), _errors(reference), failures,
         {name: reference[name] for name in MACHINE}, rounds, float("nan"),
     )  # fmt: skip
 

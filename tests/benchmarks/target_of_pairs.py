@@ -25,10 +25,10 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance
-from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
+from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target.choose import choose
-from fenics_gears.studies.accuracy_target.limits import TargetNotReached
+from fenics_gears.studies.accuracy_target.trial_runs import TargetNotReached
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import SilentProgress
 
@@ -101,7 +101,7 @@ def in_turns(scene: Scene, settings: tuple[Setting, ...]) -> tuple[Times, ...]:
     times = [Times() for _ in settings]
     for _ in range(ROUNDS):
         for place, setting in enumerate(settings):
-            run, _ = run_afresh(replace(scene, accuracy=setting.accuracy(scene.gears.module)))
+            run, _ = run_sharing(replace(scene, accuracy=setting.accuracy(scene.gears.module)), shared_gears())
             times[place] = times[place].and_also(run)
     return tuple(times)
 
@@ -119,7 +119,7 @@ def rows_of(name: str, scene: Scene, not_reached: list[str]) -> tuple[list[Row],
             print(f"  {reason}", flush=True)
             not_reached.append(f"{name} at {100.0 * target:g} %: {reason}")
             continue
-        run, _ = run_afresh(replace(scene, accuracy=chosen.accuracy))
+        run, _ = run_sharing(replace(scene, accuracy=chosen.accuracy), shared_gears())
         true = true_error(answer(run, window), known)
         if all(error > target for _, error, _ in candidates):
             candidates = sorted(candidates + searched(scene, known, window, FINER, MORE_STEPS), key=lambda each: each[0])

@@ -4,6 +4,7 @@ import ast
 import inspect
 import itertools
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -140,10 +141,11 @@ def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(
     assert own <= loaded[section]
 
 
-def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_and_no_finite_elements_for_rigid_flanks(loaded):
-    """Authority: house rule 9, for what several effects share."""
+def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks(loaded):
+    """Authority: house rule 9, for what several effects share, and for the cheaper models of the mesh."""
+    assert not [name for name in loaded[TEETH] if name.startswith("fenics_gears.") and re.search("spring|stiffness_table|iso_6336", name)]
     assert not {"fenics_gears.contact.deviating_cycle", *METHODS["corner_contact"]} & loaded[TEETH]
     assert "cvxopt" not in loaded[TEETH]
-    assert not {"dolfinx", "gmsh", "petsc4py"} & loaded["nothing"]
+    assert not {"dolfinx", "gmsh", "petsc4py", "fenics_gears.elasticity.ring"} & loaded["nothing"]
     # Otherwise nothing could be said of what was not loaded.
-    assert "fenics_gears.contact.newton" in loaded[TEETH]
+    assert "fenics_gears.contact.newton" in loaded[TEETH] and "fenics_gears.contact.rigid_cycle" in loaded["nothing"]

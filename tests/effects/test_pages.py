@@ -14,6 +14,8 @@ from tests.effects.examples import scene_of, text_of
 
 import fenics_gears
 from fenics_gears.scene.data import Scene
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.simulate import simulate
 
 PACKAGE = Path(fenics_gears.__file__).parent
 GUIDE = effects_table.PAGE.with_name("adding_an_effect.md")
@@ -78,43 +80,61 @@ print(json.dumps(found))
 
 @pytest.fixture(scope="module")
 def plain():
-    """What the bare scene gives in the package as it is, its gears taken from the cache, which a first run fills."""
-    for _ in range(2):
-        printed = run(PACKAGE.parent, "-c", PROGRAM, given=json.dumps([text_of("tooth_elasticity").replace('"437 N m"', '"400 N m"')]))
-    return json.loads(printed)[0]
+    """What the bare scene gives in the package as it is, its gears taken from the cache, which a run in this process has filled."""
+    text = text_of("tooth_elasticity").replace('"437 N m"', '"400 N m"')
+    simulate(scene_from_text(text))
+    return json.loads(run(PACKAGE.parent, "-c", PROGRAM, given=json.dumps([text])))[0]
+
+
+CHECK = """
+import contextlib, io
+from fenics_gears.commands.cli import main
+said = []
+for name in ("with", "without", "wrong"):
+    with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+        code = main(["check", f"{name}.toml"])
+    said.append([code, out.getvalue(), err.getvalue()])
+print(json.dumps(said))
+"""
 
 
 @pytest.fixture(scope="module")
-def runs(extended, plain):
-    """What a bare scene, one with the brake, the bare one under the whole torque and one with shafts and brake give in the extended package."""
-    brake = block("toml", "[brake]").replace("20 N m", "37 N m")
+def printed(extended, plain):
+    """What a process in the extended package prints: runs of a bare scene, one with the brake, the bare one under the whole torque and one with
+    shafts and brake; and what `gears check` says of a scene with the brake, without it, and of a wrong one."""
+    brake = block("toml", "[brake]")
+    scenes = {"with": text_of() + brake, "without": text_of(), "wrong": text_of("coast_flanks").replace('"437 N m"', '"-437 N m"') + brake}
+    for name, text in scenes.items():
+        (extended / f"{name}.toml").write_text(text, encoding="utf-8")
+    brake = brake.replace("20 N m", "37 N m")
     bare, shafts = text_of("tooth_elasticity"), text_of("tooth_elasticity", "shafts")
     less, whole = bare.replace('"437 N m"', '"400 N m"'), bare
     texts = [less, less + brake, whole, shafts.replace('"437 N m"', '"400 N m"') + brake]
-    printed = run(extended, "-c", PROGRAM, given=json.dumps(texts))
-    return json.loads(printed.splitlines()[-1])
+    return [json.loads(line) for line in run(extended, "-c", PROGRAM + CHECK, given=json.dumps(texts)).splitlines()[-2:]]
 
 
-def test_the_guides_effect_is_named_by_check_on_and_off(extended):
+@pytest.fixture(scope="module")
+def runs(printed):
+    """The four runs."""
+    return printed[0]
+
+
+def test_the_guides_effect_is_named_by_check_on_and_off(printed):
     """Authority: the guide; one entry in the list is enough."""
-    for name, text in (("with", text_of() + block("toml", "[brake]")), ("without", text_of())):
-        (extended / f"{name}.toml").write_text(text, encoding="utf-8")
-        lines = run(extended, "-m", "fenics_gears", "check", f"{name}.toml").splitlines()
-        line = next(line.split(maxsplit=2) for line in lines if line.split()[:1] == ["brake"])
-        if name == "with":
-            assert line[1] == "on" and "brake torque on the wheel" in line[2] and "work_brake" in line[2]
-        else:
-            assert line[1:] == ["off", "no brake"]
+    lines = []
+    for code, said, _ in printed[1][:2]:
+        assert code == 0
+        lines.append(next(line.split(maxsplit=2) for line in said.splitlines() if line.split()[:1] == ["brake"]))
+    on, off = lines
+    assert on[1] == "on" and "brake torque on the wheel" in on[2] and "work_brake" in on[2]
+    assert off[1:] == ["off", "no brake"]
 
 
-def test_the_guides_rule_refuses_with_place_value_and_remedy(extended):
+def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
     """Authority: the guide; a rule's Problem is a message with all that a user needs."""
-    (extended / "wrong.toml").write_text(text_of("coast_flanks").replace('"437 N m"', '"-437 N m"') + block("toml", "[brake]"), encoding="utf-8")
-    environment = {**os.environ, "PYTHONPATH": str(extended)}
-    call = [sys.executable, "-P", "-m", "fenics_gears", "check", "wrong.toml"]
-    done = subprocess.run(call, cwd=extended, env=environment, capture_output=True, text=True)
-    assert done.returncode == 2
-    assert "load.wheel_torque" in done.stderr and "-437 N m" in done.stderr and "cannot stand beside a brake" in done.stderr
+    code, _, said = printed[1][2]
+    assert code == 2
+    assert "load.wheel_torque" in said and "-437 N m" in said and "cannot stand beside a brake" in said
 
 
 def test_the_guides_effect_has_its_known_answer(runs):

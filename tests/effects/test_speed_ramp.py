@@ -1,8 +1,6 @@
 """``[speed_ramp]``: the clock, the inertia forces of the accelerating frame, and what the section says when it is wrong."""
 
 import re
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -183,10 +181,10 @@ def test_mean_mesh_force_while_rolling_is_the_momentum_balance(paper_scene, pape
 
 
 def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
-    """Known limit: a ramp that takes 400 mesh cycles from 300 to 400 Hz, clear of resonance, has in each cycle the peak-to-peak transmission error
+    """Known limit: a ramp that takes 200 mesh cycles from 300 to 350 Hz, clear of resonance, has in each cycle the peak-to-peak transmission error
     of a steady run at the cycle's frequency, within 2 %."""
     scene = frictionless(paper_scene)
-    model = model_of(replace(coarse(scene, 400, 1, start=300.0), speed_ramp=SpeedRamp(400.0)))
+    model = model_of(replace(coarse(scene, 200, 1, start=300.0), speed_ramp=SpeedRamp(350.0)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
     # Every step is kept, but without pressures.
     marcher = Marcher(cycle, model.equations_of_motion)
@@ -194,7 +192,7 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     states = np.array([record.state.position for record in records])
     error = model.drivetrain.value(states, "rotation_2") + 16 / 24 * model.drivetrain.value(states, "rotation_1")
     frequency = np.array([model.clock.mesh_frequency(record.step) for record in records])
-    for number in (100, 200, 300, 390):
+    for number in (100, 190):
         within = slice(40 * number, 40 * (number + 1) + 1)
         steady = simulate(coarse(scene, 60, 1, start=float(frequency[within].mean())))
         assert np.ptp(error[within]) == pytest.approx(steady.attrs["peak_to_peak_transmission_error"], rel=0.02)
@@ -270,15 +268,7 @@ def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_sc
 
 
 def test_without_the_section_there_is_nothing_of_it(paper_scene):
-    """House rule 9: no variable, one clock of equal steps, no import."""
+    """House rule 9: no variable, one clock of equal steps. What is imported is told by test_every_effect.py."""
     model = model_of(paper_scene)
     assert isinstance(model.clock, SteadyClock) and model.loads == ()
     assert not {variable.name for variable in effect_named("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
-    program = (
-        "import sys; from fenics_gears import load_scene; from fenics_gears.model.model import model_of\n"
-        f"model = model_of(load_scene({str(Path(__file__).parents[2] / 'demos' / 'lundvall2004.toml')!r})); model.clock, model.loads\n"
-        "import fenics_gears.simulation.simulate, fenics_gears.results\n"
-        "assert 'fenics_gears.dynamics.speed_ramp' not in sys.modules\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr

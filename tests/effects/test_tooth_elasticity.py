@@ -1,7 +1,5 @@
 """Rigid flanks: a scene without `[gears.material]` has the kinematic transmission error of its geometry."""
 
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -107,24 +105,6 @@ def test_friction_needs_elastic_teeth(paper_scene):
     text = paper_scene.text.replace("[gears.material]\n", "").replace('youngs_modulus = "206 GPa"\n', "").replace("poissons_ratio = 0.3\n", "")
     with pytest.raises(SceneError, match=r"\[friction\]\n    needs the section \[gears.material\], which is missing"):
         scene_from_text(text)
-
-
-def test_neither_route_imports_the_other(tmp_path):
-    """House rule 9: a scene with rigid flanks loads no elasticity, one with elastic ones no rigid cycle."""
-    code = """
-import sys
-from dataclasses import replace
-from fenics_gears import load_scene
-from fenics_gears.scene.data import Motion
-from fenics_gears.effects import without
-from fenics_gears.simulation.simulate import simulate
-scene = without(load_scene("demos/lundvall2004.toml"), "tooth_elasticity", "friction", "inertia", "damping")
-simulate(replace(scene, motion=Motion(200.0, 1, 1)))
-assert "fenics_gears.contact.rigid_cycle" in sys.modules
-print([name for name in ("dolfinx", "gmsh", "petsc4py.PETSc", "fenics_gears.elasticity.ring") if name in sys.modules])
-"""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert done.stdout.strip() == "[]", done.stderr
 
 
 def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):

@@ -111,7 +111,7 @@ def test_first_order_elements(element, errors, measured):
 
 def test_peak_that_a_run_reports(paper_scene, measured):
     """The same through a whole run at the default accuracy, b/h = 4.6 at the pitch point: what the result's attribute is made of."""
-    scene = frictionless(teeth_alone(replace(paper_scene, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))))
+    scene = frictionless(teeth_alone(replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=25), motion=Motion(200.0, 1, 1))))
     pair, result = model_of(scene).pair, simulate(scene)
     phases = (pair.pitch_point - pair.path_start) / pair.base_pitch
     step = [int(np.argmin(np.abs(result.mesh_phase.values - phases)))]

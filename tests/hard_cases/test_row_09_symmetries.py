@@ -106,7 +106,7 @@ def test_gears_swapped(element, relieved, scene, measured):
     assert max(changes) <= 1e-10
 
 
-@pytest.mark.parametrize("element", ["stand-in", "P1", "P2", "Q1", "Q1 incompatible", "Q2"])
+@pytest.mark.parametrize("element", ["stand-in", "P1", "P2", *(pytest.param(name, marks=pytest.mark.nightly) for name in ("Q1", "Q1 incompatible")), "Q2"])
 def test_mirrored_pair(element, scene, measured):
     """Exact identity: mirrored at the line of centres the pair drives on its coast flanks; without backlash these stand as the drive
     flanks do at another phase, and the wheel gives way as far the other way."""

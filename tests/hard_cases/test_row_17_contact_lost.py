@@ -22,7 +22,7 @@ from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
-FINE = replace(COARSE, steps_per_mesh_cycle=200)
+FINE = replace(COARSE, steps_per_mesh_cycle=100)
 
 
 @pytest.fixture(scope="module")
@@ -180,7 +180,7 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(paper_sce
 def test_undamped_resonance_crosses_the_backlash_and_comes_back(both_flanks, paper_pair, measured):
     """Claim 10 and what the paper's model lacks: undamped at resonance the teeth part, cross the backlash, touch on the coast flanks and
     return, again and again; in free flight, centres fixed, both openings sum to the backlash but for the hat average."""
-    fine = replace(COARSE, steps_per_mesh_cycle=320)
+    fine = replace(COARSE, steps_per_mesh_cycle=160)
     result = simulate(replace(both_flanks, damping=None, bearings=None, accuracy=fine, motion=Motion(270.0, 40, 40)))
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
     free = ~driving & ~coasting

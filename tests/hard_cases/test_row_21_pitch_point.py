@@ -46,7 +46,7 @@ def on_line(record):
 
 @pytest.mark.parametrize("friction", [0.1, 0.3])
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
-@pytest.mark.parametrize("absent", [(), ("shafts", "bearings")], ids=["elastic shafts", "rigid shafts"])
+@pytest.mark.parametrize("absent", [pytest.param((), id="elastic shafts"), pytest.param(("shafts", "bearings"), id="rigid shafts", marks=pytest.mark.nightly)])
 def test_friction_turns_through_stick(absent, changes, friction, paper_scene, paper_pair, stand_in_flanks, measured):
     """Known course: the nodes slip backward, stick, slip forward; none turns from one slip to the other without sticking between.
 
@@ -80,7 +80,7 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     assert total[-1] == pytest.approx(friction * forces[0][-1, :n].sum(), rel=1e-9)
 
 
-@pytest.mark.parametrize("steps", [10, 40, 100])
+@pytest.mark.parametrize("steps", [10, pytest.param(40, marks=pytest.mark.nightly), 100])
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
 def test_no_step_fails_at_the_pitch_point(changes, steps, paper_scene, paper_pair, stand_in_flanks, measured):
     """Any length of step: slip may turn within one. No step fails, and 1e-12 mm change nothing."""

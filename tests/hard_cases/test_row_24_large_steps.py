@@ -82,7 +82,7 @@ def test_inertia_that_does_not_matter_is_named_and_its_effect_is_of_the_size_sai
     """Measured against the quasi-static solver: the estimate of the difference is right within a factor of ten."""
     from fenics_gears.dynamics.guidance import effect_of_inertia
 
-    scene = replace(coarse, friction=None, accuracy=replace(COARSE, steps_per_mesh_cycle=1000), motion=Motion(1.0, 2, 1))
+    scene = replace(coarse, friction=None, accuracy=replace(COARSE, steps_per_mesh_cycle=600), motion=Motion(1.0, 2, 1))
     (said,) = [words for words in model_of(scene).warnings if "inertia hardly matters" in words]
     assert "leave out [inertia] and [damping]" in said
     labels = [label for label, _, _ in dict(describe(scene))["Expected cost (about)"]]

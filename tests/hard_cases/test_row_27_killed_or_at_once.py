@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import command, environment, folder, gears, stamps, write_study  # noqa: F401
-from tests.studies.test_run_study import FOUR, SIX, load, stopped_in_the_middle
+from tests.studies.conftest import command, environment, folder, gears, stamps, undrawn, write_study  # noqa: F401
+from tests.studies.test_run_study import FIVE, FOUR, load, stopped_in_the_middle
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -36,12 +36,12 @@ def kills(folder, measured, moments, what):
     """Kill a run on an empty cache at so many moments of its time; every result and cache entry that is there is the whole one."""
     reference = Path("usual")
     begun = time.monotonic()
-    assert gears(folder, "run", "pair.toml", "--output", reference, "--quiet").returncode == 0
+    assert gears(folder, "run", "pair.toml", "--output", reference, "--quiet", "--no-pictures").returncode == 0
     lasts = time.monotonic() - begun
     usual, killed, kept = results.load(reference / "run.nc"), 0, 0
     for number in range(moments):
         directory, own = folder / f"out{number}", folder / f"cache{number}"
-        call = command("run", "pair.toml", "--output", directory, "--quiet")
+        call = command("run", "pair.toml", "--output", directory, "--quiet", "--no-pictures")
         # Half of them while files are written, near the end.
         moment = lasts * (0.3 + 1.1 * number / moments)
         killed += killed_after(moment, call, folder, FENICS_GEARS_CACHE=str(own))
@@ -50,7 +50,7 @@ def kills(folder, measured, moments, what):
             kept += 1
         for entry in own.glob("*.h5"):
             assert Cache(own).load(entry.stem) is not None
-    ended = gears(folder, "run", "pair.toml", "--output", directory, "--quiet")
+    ended = gears(folder, "run", "pair.toml", "--output", directory, "--quiet", "--no-pictures")
     again = results.load(directory / "run.nc").transmission_error.equals(usual.transmission_error)
     measured(what, f"{killed} of {moments} killed, {kept} whole results, none half", "no half result, run again the same to the bit")
     assert ended.returncode == 0 and again
@@ -67,13 +67,13 @@ def test_a_run_killed_between_its_files(folder, measured, number, what):
         "os.replace = killed\n"
         "cli.main(sys.argv[2:])\n"
     )
-    call = [sys.executable, "-c", program, str(number), "run", "pair.toml", "--output", "here", "--quiet"]
+    call = [sys.executable, "-c", program, str(number), "run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]
     ended = subprocess.run(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": "own"}, timeout=60)
     results_kept, entries = list(Path("here").glob("*.nc")), list(Path("own").glob("*.h5"))
     measured(f"a run killed {what}", f"{len(results_kept)} results, {len(entries)} gears kept", "no half of either, run again the same to the bit")
     assert ended.returncode == -signal.SIGKILL and results_kept == [] and len(entries) == number - 1
     assert all(Cache(Path("own")).load(entry.stem) is not None for entry in entries)
-    assert main(["run", "pair.toml", "--output", "usual", "--quiet"]) == main(["run", "pair.toml", "--output", "here", "--quiet"]) == 0
+    assert main(["run", "pair.toml", "--output", "usual", "--quiet", "--no-pictures"]) == main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]) == 0
     assert results.load("here/run.nc").transmission_error.equals(results.load("usual/run.nc").transmission_error)
 
 
@@ -83,7 +83,7 @@ def test_a_run_killed_at_many_moments(folder, measured):
     kills(folder, measured, 60, "a run killed, by night")
 
 
-@pytest.mark.parametrize("pauses", [(0.0, 0.011), pytest.param((0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)])
 def test_writers_killed_while_they_write(tmp_path, measured, pauses):
     """Processes that do nothing but store one large cache entry and one result again and again, killed: readers see whole ones."""
     program = (
@@ -129,9 +129,9 @@ def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, measured, capsys):
+def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, undrawn, measured, capsys):
     """kill -9: nothing lost, nothing computed twice, nothing left half-written."""
-    study = write_study(folder, SIX)
+    study = write_study(folder, FIVE)
     assert stopped_in_the_middle(folder, study, signal.SIGKILL).returncode == -signal.SIGKILL
     before = stamps("here")
     again = main(["study", str(study), "--output", "here"])
@@ -139,8 +139,8 @@ def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, measured, cap
     repeated = sum(after[name] != before[name] for name in before)
     measured("study killed: cases computed again", f"{repeated} of {len(before)} done", "none")
     assert len(before) == 3 and repeated == 0
-    assert again == 0 and "3 kept, 3 to be computed" in capsys.readouterr().err
-    assert len(after) == 6 and left_over("here")[1] == []
+    assert again == 0 and "3 kept, 2 to be computed" in capsys.readouterr().err
+    assert len(after) == 5 and left_over("here")[1] == []
     assert load("here").attrs["complete"] == 1
 
 
@@ -148,13 +148,13 @@ def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, measured, cap
 def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     """Processes condense the same gears into one cache at the same time: each has the number of a run alone, to the bit."""
     own = tmp_path / "shared"
-    calls = [command("run", "pair.toml", "--output", f"out{number}", "--quiet") for number in range(count)]
+    calls = [command("run", "pair.toml", "--output", f"out{number}", "--quiet", "--no-pictures") for number in range(count)]
     processes = [
         subprocess.Popen(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": str(own)}, stderr=subprocess.PIPE, text=True) for call in calls
     ]
     said = [process.communicate(timeout=120)[1] for process in processes]
     assert [process.returncode for process in processes] == [0] * count, said
-    assert main(["run", "pair.toml", "--output", "alone", "--quiet"]) == 0
+    assert main(["run", "pair.toml", "--output", "alone", "--quiet", "--no-pictures"]) == 0
     alone = results.load("alone/run.nc").transmission_error
     same = sum(results.load(f"out{number}/run.nc").transmission_error.equals(alone) for number in range(count))
     names, unfinished = left_over(own)

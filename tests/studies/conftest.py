@@ -27,6 +27,12 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Studies in this process are not drawn, which takes longer than their runs; the first test of test_run_study.py draws one."""
+    monkeypatch.setattr("fenics_gears.show.plots.draw_study", lambda file: [])
+
+
 def write_study(folder, text, name="study.toml"):
     """Write a study file of the coarse scene."""
     path = Path(folder) / name

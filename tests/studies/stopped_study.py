@@ -2,11 +2,15 @@
 
 The process sends itself the signal when it has done so many cases, which is the same moment every time; one from outside is not. Under
 mpirun only the rank of that number does, and every other one that has done as many waits for mpirun to end it.
+Alone the process has no mpi4py, for a study alone must run where MPI is absent or broken.
 """
 
 import os
 import signal
 import sys
+
+if "OMPI_COMM_WORLD_RANK" not in os.environ:
+    sys.modules["mpi4py"] = None
 
 from fenics_gears.commands import cli
 from fenics_gears.studies import run_study, work
@@ -14,10 +18,10 @@ from fenics_gears.studies import run_study, work
 done = 0
 
 
-def run_case(task, tick=None):
+def run_case(directory, case, tick=None):
     """As the program does, then the signal."""
     global done
-    outcome = work.run_case(task, tick)
+    outcome = work.run_case(directory, case, tick)
     done += 1
     if done == int(sys.argv[2]):
         if os.environ.get("OMPI_COMM_WORLD_RANK", "0") != sys.argv[3]:

@@ -31,27 +31,20 @@ def test_what_is_kept_is_named(swept, kept):
     assert all(words in sentence for words, sentence in zip(kept, said))
 
 
-def test_a_study_says_it_in_summary_and_dataset(folder, capsys):
-    """The interface."""
+def test_a_study_says_it_in_summary_and_dataset_and_gives_transmission_errors_as_lengths_first(folder, undrawn, capsys):
+    """The interface. Unit conversion: a length at the wheel's base circle is the angle times its radius."""
     import xarray
 
-    study = write_study(folder, "[sweep]\ngears.pinion.profile_shift = [0.19, 0.196]")
+    sweep = '[sweep]\ngears.pinion.profile_shift = [0.19, 0.196]\nload.wheel_torque = ["100 N m", "400 N m"]'
+    study = write_study(folder, 'combine = "zip"\n' + sweep)
     assert main(["study", str(study), "--output", "here"]) == 0
+    printed = capsys.readouterr().out
     words = "gears.pinion.profile_shift is swept and gears.pinion.tip_diameter, gears.pinion.root_diameter and gears.centre_distance are kept"
-    assert words in capsys.readouterr().out
-    with xarray.open_dataset("here/study.nc", engine="h5netcdf") as opened:
-        assert opened.attrs["remarks"].startswith(words)
-
-
-def test_the_summary_gives_transmission_errors_as_lengths_first(folder, capsys):
-    """Unit conversion: a length at the wheel's base circle is the angle times its radius."""
-    import xarray
-
-    study = write_study(folder, "[sweep]\nload.wheel_torque = [\"100 N m\", \"400 N m\"]")
-    assert main(["study", str(study), "--output", "here"]) == 0
-    (line,) = [each for each in capsys.readouterr().out.splitlines() if "transmission error, peak to peak" in each]
+    assert words in printed
+    (line,) = [each for each in printed.splitlines() if "transmission error, peak to peak" in each]
     said = line.partition("peak to peak")[2].split()
     with xarray.open_dataset("here/study.nc", engine="h5netcdf") as opened:
+        assert opened.attrs["remarks"].startswith(words)
         angles = opened.peak_to_peak_transmission_error.values
     with xarray.open_dataset(next((folder / "here" / "cases").glob("*.nc")), engine="h5netcdf") as case:
         lengths = angles * case.attrs["base_radius_wheel"] * 1e3

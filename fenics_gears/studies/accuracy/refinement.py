@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf
+from math import isclose
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
@@ -95,23 +95,24 @@ def fine(scene: Scene, quick: bool = False) -> Setting:
 def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     """All settings with their levels, the scene's own values among them."""
     base, unit, values = fine(scene, quick), half_width(scene), QUICK if quick else FULL
-    sizes = {
-        (FLANK, "flank"): [(unit / each, unit / each) for each in values["flank elements"]],
-        (NODES, "spacing"): [(unit / each, unit / each) for each in values["contact nodes"]],
-        (BODY, "body"): [(each, each) for each in values["body elements"]],
-        (STEPS, "steps"): [(each, 1.0 / each) for each in values["steps"]],
-        (LENGTH, "length"): [(each * base.length, None) for each in values["contact length"]],
+    found = {
+        "flank": (FLANK, [unit / each for each in values["flank elements"]]),
+        "spacing": (NODES, [unit / each for each in values["contact nodes"]]),
+        "body": (BODY, values["body elements"]),
+        "steps": (STEPS, values["steps"]),
+        "length": (LENGTH, [each * base.length for each in values["contact length"]]),
+        **{field: (field.replace("_", " "), options) for field, options in (QUICK_CHOICES if quick else CHOICES).items()},
+        "elastic_teeth": ("elastic teeth", (1, None)),
     }
     orders = {**expected_orders(scene), LENGTH: (None, "nothing, once all that touches is inside")}
-    found = [Refinement(name, field, _levels(base, field, found, unit), *orders[name]) for (name, field), found in sizes.items()]
-    choices = {**(QUICK_CHOICES if quick else CHOICES), "elastic_teeth": (1, None)}
-    for field, options in choices.items():
-        levels = _levels(base, field, [(option, None) for option in options], unit)
-        found.append(Refinement(field.replace("_", " "), field, levels, None, "a choice"))
+    all_of_them = [
+        Refinement(name, field, tuple(_level(base, field, each, unit) for each in levels), *orders.get(name, (None, "a choice")))
+        for field, (name, levels) in found.items()
+    ]
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
     if not quick and scene.coast_flanks is None and scene.corner_contact is None:
-        found.append(condensation(scene))
-    return tuple(_with_own(each, each.base or base, own_setting(scene), unit) for each in found)
+        all_of_them.append(condensation(scene))
+    return tuple(_with_own(each, each.base or base, own_setting(scene), unit) for each in all_of_them)
 
 
 def condensation(scene: Scene) -> Refinement:
@@ -144,9 +145,10 @@ def _order_in_time(scene: Scene) -> tuple[float, str]:
     return (2.0, "average acceleration: h^2") if model.time_scales.averages_acceleration else (1.0, "backward Euler: h")
 
 
-def _levels(base: Setting, field: str, values, unit: float) -> tuple[Level, ...]:
-    """Levels of values, each with its size."""
-    return tuple(Level(_label(field, value, unit), replace(base, **{field: value}), size) for value, size in values)
+def _level(base: Setting, field: str, value, unit: float, own: bool = False) -> Level:
+    """The level at which a field of `base` has a value; what goes to zero is the size, or the length of a step."""
+    size = 1.0 / value if field == "steps" else value if field in ("flank", "spacing", "body") else None
+    return Level(_label(field, value, unit), replace(base, **{field: value}), size, own)
 
 
 def _label(field: str, value, unit: float) -> str:
@@ -158,24 +160,16 @@ def _label(field: str, value, unit: float) -> str:
 
 
 def _with_own(refinement: Refinement, base: Setting, mine: Setting, unit: float) -> Refinement:
-    """The refinement with the scene's own value as a level, where it is none."""
+    """The refinement with the scene's own value as a level, where it is none: between coarser and finer ones, before choices."""
     if refinement.level_of(mine) is not None:
         return refinement
-    value = getattr(mine, refinement.field)
-    sized = any(level.size is not None for level in refinement.levels)
-    size = (1.0 / value if refinement.field == "steps" else value) if sized else None
-    level = Level(_label(refinement.field, value, unit), replace(base, **{refinement.field: value}), size, own=True)
-    return replace(refinement, levels=tuple(sorted((level, *refinement.levels), key=lambda each: -_coarseness(refinement, each))))
+    level = _level(base, refinement.field, getattr(mine, refinement.field), unit, own=True)
 
+    def coarseness(each: Level) -> float:
+        return each.size or (-each.setting.length if refinement.field == "length" else float(each.own))
 
-def _coarseness(refinement: Refinement, level: Level) -> float:
-    """Large for coarse levels; choices stay in their order, the scene's own first."""
-    if level.size is not None:
-        return level.size
-    return -level.setting.length if refinement.field == "length" else inf if level.own else 0.0
+    return replace(refinement, levels=tuple(sorted((level, *refinement.levels), key=coarseness, reverse=True)))
 
 
 def _same(one, other) -> bool:
-    if isinstance(one, float) and isinstance(other, float):
-        return abs(one - other) <= 1e-9 * max(abs(one), abs(other))
-    return one == other
+    return isclose(one, other, rel_tol=1e-9) if isinstance(one, float) and isinstance(other, float) else one == other

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import accumulate
 
 import numpy as np
 import xarray as xr
@@ -17,8 +18,8 @@ from fenics_gears.studies.accuracy.convergence import Limit, last_of, richardson
 from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, distance, distances, judged
 from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement, checked_model, fine, refinements
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.studies.accuracy.runs import Times, run_afresh, run_sharing, shared_gears
-from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting
+from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
+from fenics_gears.studies.accuracy.setting import Setting, own_setting
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
@@ -78,7 +79,6 @@ class AccuracyReport:
     """
 
     scene: Scene
-    half_width: float
     fine: Setting
     refinements: tuple[RefinementResult, ...]
     settings: tuple[WholeResult, ...]
@@ -119,8 +119,7 @@ def measure(
     reference, uncertainty = study.reference(results)
     settings, models = study.whole_runs(results, reference)
     return AccuracyReport(
-        scene, half_width(scene), study.base, results, settings, models, uncertainty, tuple(study.failures), machine(),
-        study.rounds, seconds_on_single,
+        scene, study.base, results, settings, models, uncertainty, tuple(study.failures), machine(), study.rounds, seconds_on_single,
     )  # fmt: skip
 
 
@@ -217,14 +216,14 @@ class AccuracyStudy:
                 self._known[setting] = answers, times.and_also(run_sharing(setting.of(self.scene), gears)[0])
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
-        """Run every scene once a round, so that other load of the machine affects all of them alike."""
+        """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them alike."""
         self.progress.stage("whole settings")
         answers, times, left = {}, {}, dict(scenes)
         for turn in range(self.rounds):
             for place, (name, scene) in enumerate(list(left.items())):
                 self.progress.update(turn * len(scenes) + place, self.rounds * len(scenes), name)
                 try:
-                    run, cycle = run_afresh(scene)
+                    run, cycle = run_sharing(scene, shared_gears())
                     if name not in answers:
                         answers[name] = self._answer(run, scene, cycle)
                 except GearsError as error:
@@ -250,12 +249,8 @@ class AccuracyStudy:
 
 def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:
     """The quickest settings that together take no longer than `budget` (s), in the order in which they were run."""
-    spent, chosen = 0.0, set()
-    for setting in sorted(seconds, key=seconds.__getitem__):
-        spent += seconds[setting]
-        if spent > budget:
-            break
-        chosen.add(setting)
+    quickest = sorted(seconds, key=seconds.__getitem__)
+    chosen = {setting for setting, spent in zip(quickest, accumulate(seconds[each] for each in quickest)) if spent <= budget}
     return [setting for setting in seconds if setting in chosen]
 
 

@@ -1,9 +1,8 @@
-"""Runs without the cache, with shared gears or with gears of their own, and their times: the median of several rounds, stage by stage."""
+"""Runs without the cache that may share gears, and their times: the median of several rounds, stage by stage."""
 
 from __future__ import annotations
 
 import statistics
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import xarray as xr
@@ -11,7 +10,6 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.system.progress import Progress, SilentProgress
@@ -51,9 +49,9 @@ class Times:
         return statistics.median(getattr(self, stage))
 
 
-def run_afresh(scene: Scene) -> tuple[xr.Dataset, Cycle]:
-    """A run that neither reads nor writes the cache, and its mesh cycle. Raises KeyboardInterrupt on Ctrl-C in its march."""
-    return _run(scene, lambda model: prepared(model, SilentProgress(), None))
+def shared_gears(most: int | None = None) -> GearStore:
+    """A store for runs that are timed: it shares gears, but no mesh cycles; `most`: how many gears are kept."""
+    return GearStore(most, cycles=False)
 
 
 def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
@@ -61,22 +59,12 @@ def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None
 
     Raises KeyboardInterrupt on Ctrl-C, or from `progress`.
     """
-    return _run(scene, lambda model: gears.prepared(model, SilentProgress(), None), progress)
-
-
-def shared_gears(most: int | None = None) -> GearStore:
-    """A store for runs that are timed: it shares gears, but no mesh cycles; `most`: how many gears are kept."""
-    return GearStore(most, cycles=False)
-
-
-def _run(scene: Scene, prepare: Callable[[Model], tuple], progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
-    """A complete run of a scene whose gears and mesh cycle `prepare(model)` makes."""
     cycles = []
 
     def preparation(model: Model, progress, cache):
-        gears, cycle = prepare(model)
+        compliances, cycle = gears.prepared(model, SilentProgress(), None)
         cycles.append(cycle)
-        return gears, cycle
+        return compliances, cycle
 
     result = simulate(scene, progress=progress, preparation=preparation)
     if not result.attrs["complete"]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from math import isnan
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.measures import MEASURES, judged
 from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import STAGES, Times
+from fenics_gears.studies.machine import write_lines
 
 # Measures whose observed orders are shown.
 ORDERED = ("T_E", "T_EPP", "root stress")
@@ -135,25 +135,11 @@ def timed(report: AccuracyReport) -> str:
     return words + f"{again} of {len(counts)} single settings as often, and the others, which take longest, once, to stay within {report.seconds_on_single:g} s."
 
 
-CSV_COLUMNS = (
-    "kind", "name", "setting", "size", "own", *(f"error_{name.replace(' ', '_')}" for name in MEASURES), "judged_error", "charged_error",
-    "time_mesh_s", "time_condense_s", "time_march_s", "time_s", "timed_runs", *(f"order_{name.replace(' ', '_')}" for name in ORDERED),
-    "order_expected", "on_front",
-    "limited_by", "processor", "load", "threads", "versions",
-)  # fmt: skip
-
-
 def write_csv(report: AccuracyReport, file: Path) -> None:
     """All numbers: a line for each level, whole setting, cheaper model, the reference's uncertainty, and what did not run."""
-    with open(file, "w", encoding="utf-8", newline="") as opened:
-        writer = csv.DictWriter(opened, CSV_COLUMNS, restval="")
-        writer.writeheader()
-        for line in (*_level_lines(report), *_whole_lines(report)):
-            writer.writerow({**line, **report.machine})
-        uncertain = _errors(report.uncertainty)
-        writer.writerow({"kind": "reference", "name": "uncertainty", **uncertain, **report.machine})
-        for name, reason in report.failures:
-            writer.writerow({"kind": "failed", "name": name, "setting": reason, **report.machine})
+    uncertain = {"kind": "reference", "name": "uncertainty", **_errors(report.uncertainty)}
+    failed = [{"kind": "failed", "name": name, "setting": reason} for name, reason in report.failures]
+    write_lines(file, [*_level_lines(report), *_whole_lines(report), uncertain, *failed], report.machine)
 
 
 def _level_lines(report: AccuracyReport):

@@ -11,8 +11,7 @@ from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.convergence import SAFETY, ErrorCurve, largest_part, total_error
 from fenics_gears.studies.accuracy.measures import distance
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.limits import TargetNotReached
-from fenics_gears.studies.accuracy_target.trial_runs import BODY, FLANK, STEPS, Sizes, TrialRuns
+from fenics_gears.studies.accuracy_target.trial_runs import BODY, FLANK, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import Progress
 
 # Ratio of neighbouring sizes in the search; the best between them is at most a tenth cheaper.
@@ -98,13 +97,11 @@ def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
 def _chosen(scene: Scene, target: float, runs: TrialRuns) -> Chosen:
     """Choose, check, and choose again by the checked errors: finer where these are too large, cheaper where they are far below the target."""
     _lengthen_window(runs)
-    factors: dict[str, float] = {}
     accepted, sizes_accepted = None, None
     for _ in range(MOST_CHECKS):
-        sizes, curves = _refined_until_reached(runs, target, factors)
+        sizes, curves = _refined_until_reached(runs, target)
         worst = largest_part(_errors_at(curves, sizes))
-        _check(runs, sizes, worst, curves, factors)
-        checked = [_corrected(curve, factors) for curve in curves]
+        checked = _checked(runs, sizes, worst, curves)
         error = _error_together(checked, sizes)
         if error <= target and (accepted is None or runs.cost(sizes) < runs.cost(sizes_accepted)):
             settled = accepted is not None
@@ -127,29 +124,26 @@ def _lengthen_window(runs: TrialRuns) -> None:
     raise TargetNotReached("contact reaches the ends of the contact window however long it is")
 
 
-def _refined_until_reached(runs: TrialRuns, target: float, factors: dict[str, float]) -> tuple[Sizes, list[ErrorCurve]]:
+def _refined_until_reached(runs: TrialRuns, target: float) -> tuple[Sizes, list[ErrorCurve]]:
     """The cheapest sizes; levels are added until they reach the target."""
     for _ in range(MOST_REFINED):
-        curves = [_corrected(curve, factors) for curve in runs.curves()]
+        curves = runs.curves()
         sizes = _cheapest(runs, curves, target)
         if sizes is not None:
             return sizes, curves
         try:
             runs.refine(largest_part({curve.name: curve.largest(curve.finest) for curve in curves}))
         except TargetNotReached as reason:
-            raise TargetNotReached(f"{reason}; {_reachable(runs, target, factors)}") from None
+            raise TargetNotReached(f"{reason}; {_reachable(runs, target)}") from None
     raise TargetNotReached(f"not after {MOST_REFINED} halvings")
 
 
-def _reachable(runs: TrialRuns, target: float, factors: dict[str, float]) -> str:
+def _reachable(runs: TrialRuns, target: float) -> str:
     """The smallest target that the present levels reach, checked as a choice is, in words."""
     for larger in target * REACHABLE ** np.arange(1, 30):
-        curves = [_corrected(curve, factors) for curve in runs.curves()]
+        curves = runs.curves()
         sizes = _cheapest(runs, curves, larger)
-        if sizes is None:
-            continue
-        _check(runs, sizes, largest_part(_errors_at(curves, sizes)), curves, factors)
-        if _error_together([_corrected(curve, factors) for curve in curves], sizes) <= larger:
+        if sizes is not None and _error_together(_checked(runs, sizes, largest_part(_errors_at(curves, sizes)), curves), sizes) <= larger:
             return f"{100.0 * larger:.2g} % can be reached"
     return "nothing near it can be"
 
@@ -160,8 +154,8 @@ def _cheapest(runs: TrialRuns, curves: Sequence[ErrorCurve], target: float) -> S
     return None if sizes is None else {**sizes, STEPS: 1.0 / round(1.0 / sizes[STEPS])}
 
 
-def _check(runs: TrialRuns, sizes: Sizes, name: str, curves: list[ErrorCurve], factors: dict[str, float]) -> None:
-    """Correct a setting's errors by a run with half its size, the others as chosen; they are at most halved.
+def _checked(runs: TrialRuns, sizes: Sizes, name: str, curves: list[ErrorCurve]) -> list[ErrorCurve]:
+    """The curves, the named setting's errors corrected by a run with half its size, the others as chosen; they are at most halved.
 
     Where that run is beyond the limits, by one with twice the size.
     """
@@ -170,11 +164,8 @@ def _check(runs: TrialRuns, sizes: Sizes, name: str, curves: list[ErrorCurve], f
     # Twice as many steps first: the chosen ones may be among them.
     other, chosen = (runs.answer(runs.setting(each)) for each in ({**sizes, name: factor * sizes[name]}, sizes))
     found = max(SAFETY * distance(chosen, other, measure) / abs(1.0 - factor**fit.used) for measure, fit in curve.fits.items())
-    factors[name] = curve.factor * max(found / curve.largest(sizes[name]), LEAST_CORRECTION)
-
-
-def _corrected(curve: ErrorCurve, factors: dict[str, float]) -> ErrorCurve:
-    return replace(curve, factor=factors.get(curve.name, 1.0))
+    runs.factors[name] = curve.factor * max(found / curve.largest(sizes[name]), LEAST_CORRECTION)
+    return runs.curves()
 
 
 def _errors_at(curves: Sequence[ErrorCurve], sizes: Sizes) -> dict[str, float]:

@@ -2,27 +2,37 @@
 
 Flank elements and contact nodes are refined together, as in the program's defaults. Where a tip's edge presses, closer nodes alone pass part of
 their error on to the elements; together their error falls with a clear order.
+
+What a run with some sizes costs is counted, by the weights of `fenics_gears.model.cost`, so that a scene gets the same settings on every
+machine. Only ratios of costs matter.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import inf
 
+import numpy as np
+
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.errors import ComputationError, GearsError
-from fenics_gears.model.model import model_of
+from fenics_gears.model import cost
+from fenics_gears.model.cost import SECTOR_UNKNOWNS, flank_bytes, flank_unknowns, loaded_pairs, operator_bytes
+from fenics_gears.model.model import MOST_STORED_BYTES, Model, model_of
 from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.scene.data import Output, Scene
+from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
+from fenics_gears.scene.schema import MOST_CONTACT_NODES
 from fenics_gears.studies.accuracy.convergence import ErrorCurve, error_curve
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
 from fenics_gears.studies.accuracy.refinement import BODY, NODES, STEPS, expected_orders
 from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, half_width, without_settings
-from fenics_gears.studies.accuracy_target.limits import Limits, Size, TargetNotReached
 from fenics_gears.studies.work import Ticking
 
-ELEMENT = "P2"
+ELEMENT, ORDER = "P2", 2
 FLANK = "flank elements and contact nodes"
 NAMES = (FLANK, BODY, STEPS)
 # Coarsest level: elements in a half-width, body elements in parts of their default, steps in a cycle; and the number of levels.
@@ -34,20 +44,89 @@ BASE_LEVEL = {FLANK: 2, BODY: 2, STEPS: 2}
 KEPT_GEARS = 4
 # Factor by which the contact window is lengthened where contact reaches its end.
 LONGER = 1.25
+# Most memory for the contact operators and condensed flanks of a run.
+MOST_BYTES = 4e9
 
+Size = float | np.ndarray
 Sizes = dict[str, float]
+
+
+class TargetNotReached(ComputationError):
+    """No settings within the limits reach the target."""
+
+
+class Limits:
+    """Limits and costs of a scene's runs; its `[accuracy]` is empty.
+
+    Sizes are those of flank elements (mm), body elements (parts of their default) and steps (mesh cycles), `length` that of the contact
+    window (mm). Arrays of sizes are broadcast.
+    """
+
+    def __init__(self, scene: Scene):
+        self._model: Model = model_of(scene)
+        self._gears = self._model.pair.pinion, self._model.pair.wheel
+        self._friction, self._module = scene.friction is not None, scene.gears.module
+        self._pairs = loaded_pairs(self._model)
+
+    def cost(self, flank: Size, body: Size, step: Size, length: float) -> Size:
+        """Cost of the whole run: meshing and condensing both gears, contact operators of a mesh cycle, all steps."""
+        of_body, per_node = SECTOR_UNKNOWNS[ELEMENT]
+        total = 0.0
+        for gear in self._gears:
+            dofs = flank_unknowns(gear, ORDER, flank)
+            # In the plane half the size is four times as many.
+            unknowns = of_body * np.asarray(body, dtype=float) ** -2 + 0.5 * per_node * dofs
+            total = total + cost.GEAR + cost.UNKNOWN * unknowns + cost.FLANK_CUBE * dofs**3
+        loaded, positions = self._pairs * self._nodes(flank, length), 1.0 / np.asarray(step, dtype=float)
+        rows = loaded * (2 if self._friction else 1)
+        of_step = cost.STEP + cost.ROWS_SQUARE * rows**2
+        of_operator = cost.PAIR * self._pairs + cost.NODES_SQUARE * loaded**2
+        return total + positions * (of_operator + self._model.scene.motion.mesh_cycles * of_step)
+
+    def bytes_of(self, flank: Size, step: Size, length: float) -> Size:
+        """Memory of contact operators over one mesh cycle, and of both gears."""
+        rows = self._pairs * self._nodes(flank, length) * (2 if self._friction else 1)
+        return operator_bytes(1.0 / step, rows, self._friction) + sum(flank_bytes(flank_unknowns(gear, ORDER, flank)) for gear in self._gears)
+
+    def stored_bytes(self, flank: Size, step: Size, length: float) -> Size:
+        """Size of the scene's own result: curves of all steps, and the contact fields that it stores."""
+        grid, steps = self._model.resolution.contact_grid, self._model.resolution.steps_per_mesh_cycle
+        curves = replace(self._model, contact_cycles=0).stored_bytes
+        fields = self._model.stored_bytes - curves
+        return (curves + fields * self._nodes(flank, length) / grid.nodes) / (step * steps)
+
+    def too_fine(self, flank: Size, body: Size, length: float) -> Size:
+        """Whether elements or contact nodes are finer than a scene file may ask for."""
+        body_size = body * DEFAULT_SIZES[ORDER].body * self._module
+        too_fine = (flank < FINEST_ELEMENT * self._module) | (body_size < FINEST_BODY * self._module)
+        return too_fine | (body_size < flank) | (self._nodes(flank, length) > MOST_CONTACT_NODES)
+
+    def allowed(self, flank: Size, body: Size, step: Size, length: float, stored: bool = True) -> Size:
+        """Whether a run may have these sizes; `stored`: with the whole of its result, as the run that is asked for has it."""
+        held = (self.bytes_of(flank, step, length) <= MOST_BYTES) & ~np.asarray(self.too_fine(flank, body, length))
+        return held & (self.stored_bytes(flank, step, length) <= (MOST_STORED_BYTES if stored else inf))
+
+    def why_not(self, flank: float, body: float, length: float) -> str:
+        """Which limit a run exceeds, in words that follow "the next halving of ..."."""
+        if self.too_fine(flank, body, length):
+            return f"takes elements or contact nodes finer than a scene may ask for ({FINEST_ELEMENT:g} modules on the flank, {MOST_CONTACT_NODES} nodes)"
+        return f"takes more than {MOST_BYTES / 1e9:g} GB for contact operators and gears"
+
+    def _nodes(self, flank: Size, length: float) -> Size:
+        return length / (NODE_SPACING * flank) + 2.0
 
 
 class TrialRuns:
     """Trial runs, each setting once; gears are condensed once for all runs that share them.
 
+    `factors`: by setting, the correction of its errors that a check found.
     `begun`: called before each run with its settings in words; `tick`: called often during a run, may raise KeyboardInterrupt.
     """
 
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
         self.scene = replace(without_settings(scene), output=Output(), motion=replace(scene.motion, recorded_cycles=1))
         self._begun, self._tick, self._gears = begun, tick, shared_gears(KEPT_GEARS)
-        self._limits = Limits(without_settings(scene), ELEMENT)
+        self._limits = Limits(without_settings(scene))
         self._unit, model = half_width(self.scene), model_of(self.scene)
         self.length = model.resolution.contact_grid.length
         orders = expected_orders(self.scene)
@@ -59,6 +138,7 @@ class TrialRuns:
         self._levels = {**dict.fromkeys(NAMES, LEVELS), STEPS: LEVELS + self._steps_stand_alone}
         self._known: dict[Setting, Answer] = {}
         self._cut: dict[float, bool] = {}
+        self.factors: dict[str, float] = {}
         self.runs = 0
 
     def setting(self, sizes: Sizes) -> Setting:
@@ -87,7 +167,7 @@ class TrialRuns:
         for name in NAMES[::-1]:
             sizes = [self._size(name, level) for level in range(self._levels[name])]
             answers = [self.answer(self.setting({**self._base_sizes(), name: size})) for size in sizes[::-1]]
-            found[name] = error_curve(name, sizes, answers[::-1], self._expected[name])
+            found[name] = replace(error_curve(name, sizes, answers[::-1], self._expected[name]), factor=self.factors.get(name, 1.0))
         return [found[name] for name in NAMES]
 
     def window_cuts_contact(self) -> bool:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.effects import effects_on
 from fenics_gears.errors import ComputationError, GearsError, SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP
@@ -18,7 +16,6 @@ from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.studies.effect_lattice.cost_model import Expectation, StepWork, expected_ratio
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
 from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.studies.machine import machine
@@ -45,7 +42,6 @@ class Row:
     closed_nodes: float
     most_closed_nodes: int
     iterations: float
-    work: StepWork
     step_times: tuple[float, ...]
     condense: float
     operators: float
@@ -64,6 +60,20 @@ class Row:
         return self.coordinates + self.contact_rows
 
     @property
+    def operations(self) -> float:
+        """Floating-point operations of a step, as many as its Newton iterations need.
+
+        An iteration of `contact.newton` sets up and solves a dense system of N = c closed nodes + k centre coordinates (a slipping node's
+        tangential force is no unknown) and multiplies out the displacement of all m contact rows: 2/3 N^3 + 2 N^2 (elimination, substitution)
+        + N^2, and 2 c^2 with friction (assembly) + 2 m (l + k), with l = c loaded rows, 2 c with friction. With friction a step multiplies out
+        once, m (m + k), what the material points had moved before.
+        """
+        friction = self.subset.scene.friction is not None
+        closed, rows, size = self.closed_nodes, self.contact_rows, self.closed_nodes + self.coordinates
+        loaded, assembling, history = (2.0 * closed, 2.0 * closed**2, rows * (rows + self.coordinates)) if friction else (closed, 0.0, 0.0)
+        return self.iterations * (2.0 / 3.0 * size**3 + 3.0 * size**2 + assembling + 2.0 * rows * (loaded + self.coordinates)) + history
+
+    @property
     def step_time(self) -> float:
         """Median time of a step, s."""
         return statistics.median(self.step_times)
@@ -71,21 +81,22 @@ class Row:
 
 @dataclass(frozen=True)
 class EffectReport:
-    """All rows of a scene, what was left out and why, the ratio of full to bare scene (measured round by round, s/s), and the machine.
-
-    `ratios` (rounds,) is empty where bare and full scene are the same or one failed; then `expected` is None.
-    """
+    """All rows of a scene, what was left out and why, and the machine."""
 
     scene: Scene
     rows: tuple[Row, ...]
     skipped: tuple[Skipped, ...]
-    ratios: tuple[float, ...]
-    expected: Expectation | None
     machine: dict[str, str]
 
     def row(self, kind: str, effect: str = "") -> Row | None:
         """The row of that kind of subset; None where it is not there."""
         return next((each for each in self.rows if (each.subset.kind, each.subset.effect) == (kind, effect)), None)
+
+    @property
+    def ratios(self) -> tuple[float, ...]:
+        """Time of a step of the full scene by that of the bare one, in each round; empty where one of them is missing."""
+        bare, full = self.row(BARE), self.row(ALL)
+        return () if bare is None or full is None else tuple(large / small for small, large in zip(bare.step_times, full.step_times))
 
     def reference(self, row: Row) -> Row | None:
         """What a row is compared with: the bare scene for an effect alone, the full one for an effect left out; else None."""
@@ -101,23 +112,26 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
     for tangential in (False, True):
         compile_kernels(tangential)
     progress.stage("condense, and answers")
-    store, benches = GearStore(None, cycles=False), []
+    store, benches, kept = GearStore(None, cycles=False), [], 0.0
     for done, subset in enumerate(subsets):
         progress.update(done, len(subsets), subset.name)
         try:
-            benches.append(Bench(subset, store))
+            bench = Bench(subset, store)
         except GearsError as error:
             skipped.append(Skipped(subset.name, str(error).splitlines()[0]))
+            continue
+        kept += bench.bytes
+        if kept > MOST_BYTES:
+            bench.cycle = None
+        benches.append(bench)
     if not benches:
         raise ComputationError("no subset of the effects could be run: " + "; ".join(f"{each.name}: {each.reason}" for each in skipped))
-    _keep_what_fits(benches)
     progress.stage("times")
     for turn in range(rounds):
         for done, bench in enumerate(benches):
             progress.update(turn * len(benches) + done, rounds * len(benches), bench.subset.name)
             bench.time_steps()
-    rows = tuple(bench.row() for bench in benches)
-    return EffectReport(scene, rows, tuple(skipped), *_full_by_bare(rows), machine())
+    return EffectReport(scene, tuple(bench.row() for bench in benches), tuple(skipped), machine())
 
 
 def at_one_accuracy(scene: Scene) -> Scene:
@@ -139,14 +153,17 @@ def at_one_accuracy(scene: Scene) -> Scene:
 
 
 class Bench:
-    """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot be run."""
+    """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot be run.
+
+    `cycle`: the contact operators; None where they are to be built again for every timed run. `bytes`: of them.
+    """
 
     def __init__(self, subset: Subset, store: GearStore):
         self.subset, self._store, self._model = subset, store, model_of(subset.scene)
-        self._gears, self._cycle, self._operators = self._build()
-        self._whole = self._run(subset.scene, self._gears, self._cycle)
+        self._gears, self.cycle, self._seconds = self._build()
+        self._whole = self._run(subset.scene, self.cycle)
         self._step_times: list[float] = []
-        operators = [self._cycle.position(step).operator for step in range(self._cycle.steps)]
+        operators = [self.cycle.position(step).operator for step in range(self.cycle.steps)]
         self.bytes = sum(operator.compliance.nbytes for operator in operators)
         self._contact_rows = sum(len(operator.jacobian) for operator in operators) / len(operators)
 
@@ -158,51 +175,37 @@ class Bench:
             cycle.position(step)
         return gears, cycle, time.perf_counter() - begun
 
-    def _run(self, scene: Scene, gears: tuple, cycle: Cycle) -> xr.Dataset:
-        result = simulate(scene, preparation=lambda model, progress, cache: (gears, cycle))
+    def _run(self, scene: Scene, cycle: Cycle) -> xr.Dataset:
+        result = simulate(scene, preparation=lambda model, progress, cache: (self._gears, cycle))
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
         return result
-
-    def forget(self) -> None:
-        """Free the contact operators; they are built again for every timed run."""
-        self._cycle = None
 
     def time_steps(self) -> None:
         """One more timed run, of the scene's first mesh cycles."""
         motion = self._model.scene.motion
         cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
         shorter = replace(self.subset.scene, motion=replace(motion, mesh_cycles=cycles, recorded_cycles=1))
-        self._timed = self._run(shorter, self._gears, self._cycle if self._cycle is not None else self._build()[1])
-        self._step_times.append(self._timed.attrs["time_march"] / self._timed.attrs["steps"])
+        timed = self._run(shorter, self.cycle if self.cycle is not None else self._build()[1])
+        self._step_times.append(timed.attrs["time_march"] / timed.attrs["steps"])
 
     def row(self) -> Row:
         """What was measured."""
-        run, coordinates = self._whole, len(self._model.drivetrain.coordinates)
-        closed, scene = float(run.closed_nodes.mean()), self._model.scene
-        iterations = self._timed.attrs["newton_iterations_total"] / self._timed.attrs["steps"]
+        run = self._whole
         return Row(
             subset=self.subset,
-            coordinates=coordinates,
+            coordinates=len(self._model.drivetrain.coordinates),
             contact_rows=self._contact_rows,
-            closed_nodes=closed,
+            closed_nodes=float(run.closed_nodes.mean()),
             most_closed_nodes=int(run.closed_nodes.max()),
             iterations=run.attrs["newton_iterations_total"] / run.attrs["steps"],
-            work=StepWork(
-                coordinates, self._contact_rows, closed, iterations, scene.inertia is not None, scene.friction is not None, _varying(scene)
-            ),
             step_times=tuple(self._step_times),
             condense=sum(gear.timings["time_mesh"] + gear.timings["time_condense"] for gear in self._gears),
-            operators=self._operators,
+            operators=self._seconds,
             transmission_error=run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"],
             peak_force=largest_normal_force(run),
             remarks=tuple(_remarks(self.subset, run)),
         )
-
-
-def _varying(scene: Scene) -> int:
-    """How many of a scene's effects change gaps, loads or the step's length at every step."""
-    return sum(any((each.gaps, each.load, each.clock)) for each in effects_on(scene))
 
 
 def _remarks(subset: Subset, run: xr.Dataset) -> list[str]:
@@ -210,22 +213,3 @@ def _remarks(subset: Subset, run: xr.Dataset) -> list[str]:
     if subset.scene.inertia is not None and subset.scene.damping is None:
         found.append("undamped: the vibration of the start rings on in the answer")
     return found + run.attrs["warnings"].splitlines()
-
-
-def _keep_what_fits(benches: Sequence[Bench]) -> None:
-    kept = 0.0
-    for bench in benches:
-        kept += bench.bytes
-        if kept > MOST_BYTES:
-            bench.forget()
-
-
-def _full_by_bare(rows: tuple[Row, ...]) -> tuple[tuple[float, ...], Expectation | None]:
-    """Ratio of the times of a step of full and bare scene in every round, and what the unknowns lead one to expect."""
-    ends = {row.subset.kind: row for row in rows if row.subset.kind in (BARE, ALL)}
-    if len(ends) < 2:
-        return (), None
-    bare, full = ends[BARE], ends[ALL]
-    others = [(row.work, row.step_time) for row in rows if row.subset.kind in (ALONE, LEFT_OUT) and row.elastic]
-    ratios = tuple(large / small for small, large in zip(bare.step_times, full.step_times))
-    return ratios, expected_ratio(bare.work, full.work, others)

@@ -66,29 +66,21 @@ def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
     every = frozenset(each.section for each in effects_on(scene))
     base = every & {BASE}
     problem = functools.cache(functools.partial(_problem, scene))
-    wanted = [(NOTHING, "", frozenset())] if base else []
-    wanted += [(BARE, "", base)]
+    # A set with several names keeps the first one here.
+    wanted: list[tuple[str, str, Sections | None]] = [(ALL, "", every), *([(NOTHING, "", frozenset())] if base else []), (BARE, "", base)]
     wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in in_order(every - base)]
     wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in in_order(every)]
-    wanted += [(ALL, "", every)]
-    return _without_repetition(scene, wanted, every, problem)
-
-
-def _without_repetition(scene: Scene, wanted, every: Sections, problem: Valid) -> tuple[list[Subset], list[Skipped]]:
-    """The valid ones among the wanted sets, each once; of several names of a set the plainest is taken: bare and all before the others."""
-    first = {sections: (kind, name) for kind, name, sections in reversed(wanted) if sections is not None}
-    first |= {sections: (kind, name) for kind, name, sections in wanted if kind in (NOTHING, BARE)}
-    first[every] = (ALL, "")
-    subsets, skipped = [], []
+    found: dict[Sections, Subset] = {}
+    skipped = []
     for kind, name, sections in wanted:
-        if sections is not None and not problem(sections):
-            if first[sections] == (kind, name):
-                left = every - sections
-                subsets.append(Subset(kind, name, sections, without(scene, *in_order(left)), _beside(kind, name, sections, left)))
-            continue
-        asked = sections if sections is not None else every - {name} if kind == LEFT_OUT else every & {BASE, name}
-        skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
-    return subsets, skipped
+        if sections is None or problem(sections):
+            asked = sections if sections is not None else every - {name} if kind == LEFT_OUT else every & {BASE, name}
+            skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
+        elif sections not in found:
+            left = every - sections
+            found[sections] = Subset(kind, name, sections, without(scene, *in_order(left)), _beside(kind, name, sections, left))
+    whole, *others = found.values()
+    return [*others, whole], skipped
 
 
 def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import re
 import statistics
 from pathlib import Path
 
 from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
 from fenics_gears.studies.effect_lattice.subsets import ALL, BARE, in_order
+from fenics_gears.studies.machine import write_lines
 
 MICRO, MILLI = 1e6, 1e3
 NUMBERS_OF_ONE = " (numbers of the first row that says so)"
@@ -84,20 +84,15 @@ def _words(remark: str) -> str:
 def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: bare against full scene, measured and expected."""
     bare, full = report.row(BARE), report.row(ALL)
-    if report.expected is None:
+    if not report.ratios:
         return []
     low, high = min(report.ratios), max(report.ratios)
-    expected = report.expected
-    rows = [
+    return [
         ("unknowns", f"{bare.unknowns:.1f} and {full.unknowns:.1f}, ratio {full.unknowns / bare.unknowns:.2f}", ""),
         ("time a step", f"{bare.step_time * MICRO:.1f} and {full.step_time * MICRO:.1f}", "us"),
         ("ratio measured", f"{statistics.median(report.ratios):.2f}, {low:.2f} to {high:.2f} in {len(report.ratios)} rounds", ""),
-        ("ratio expected of the arithmetic alone", f"{expected.arithmetic:.2f}, as if a step were nothing else", ""),
+        ("ratio expected of the arithmetic alone", f"{full.operations / bare.operations:.2f}, as if a step were nothing else", ""),
     ]
-    if expected.fitted is not None:
-        words = f"{expected.fitted:.2f} ({expected.small * MICRO:.1f} and {expected.large * MICRO:.1f} us, fitted to the other rows)"
-        rows.append(("ratio expected with the own time of a step", words, ""))
-    return rows
 
 
 def needs_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
@@ -126,23 +121,15 @@ CSV_COLUMNS = (
 
 def write_csv(report: EffectReport, file: Path) -> None:
     """All numbers of a report, a line for each subset and each one that was skipped; changes are relative."""
-    with open(file, "w", encoding="utf-8", newline="") as opened:
-        writer = csv.DictWriter(opened, CSV_COLUMNS, restval="")
-        writer.writeheader()
-        for row in report.rows:
-            writer.writerow(_line(report, row) | report.machine)
-        for each in report.skipped:
-            writer.writerow({"effects": each.name, "remarks": f"skipped: {each.reason}"} | report.machine)
+    skipped = [{"effects": each.name, "remarks": f"skipped: {each.reason}"} for each in report.skipped]
+    write_lines(file, [*(dict(zip(CSV_COLUMNS, _line(report, row))) for row in report.rows), *skipped], report.machine)
 
 
-def _line(report: EffectReport, row: Row) -> dict:
+def _line(report: EffectReport, row: Row) -> tuple:
     reference = report.reference(row)
-    return {
-        "effects": row.subset.name, "sections": " ".join(sorted(row.subset.sections)), "centre_coordinates": row.coordinates,
-        "contact_rows": row.contact_rows, "closed_nodes_mean": row.closed_nodes, "closed_nodes_max": row.most_closed_nodes,
-        "newton_iterations_per_step": row.iterations, "operations_per_step": row.work.operations, "step_time_s": row.step_time,
-        "step_time_least_s": min(row.step_times), "step_time_most_s": max(row.step_times), "operators_s": row.operators,
-        "condensing_s": row.condense, "transmission_error_peak_to_peak_mm": row.transmission_error, "peak_force_N": row.peak_force,
-        "change_of_transmission_error": change(report, row, "transmission_error"), "change_of_peak_force": change(report, row, "peak_force"),
-        "compared_with": "" if reference is None else reference.subset.name, "remarks": "; ".join(row.remarks),
-    }  # fmt: skip
+    return (
+        row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes, row.most_closed_nodes,
+        row.iterations, row.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators, row.condense,
+        row.transmission_error, row.peak_force, change(report, row, "transmission_error"), change(report, row, "peak_force"),
+        "" if reference is None else reference.subset.name, "; ".join(row.remarks),
+    )  # fmt: skip

@@ -19,11 +19,12 @@ from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.studies.accuracy.measures import JUDGED, answer, distance, judged_answer
+from fenics_gears.studies.accuracy.runs import run_sharing
 from fenics_gears.studies.accuracy.setting import Setting, half_width
 from fenics_gears.studies.accuracy_target import choose as choosing
-from fenics_gears.studies.accuracy_target import limits, trial_runs
+from fenics_gears.studies.accuracy_target import trial_runs
 from fenics_gears.studies.accuracy_target.choose import choose
-from fenics_gears.studies.accuracy_target.limits import TargetNotReached
+from fenics_gears.studies.accuracy_target.trial_runs import Limits, TargetNotReached
 from fenics_gears.studies.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
@@ -44,6 +45,21 @@ def text(paper_scene):
 @pytest.fixture(scope="module")
 def scene(text):
     return scene_from_text(text)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def runs_once():
+    """Every trial run is made once for all tests here."""
+    made = {}
+
+    def once(scene, gears, progress):
+        if scene not in made:
+            made[scene] = run_sharing(scene, gears, progress)
+        return made[scene]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(trial_runs, "run_sharing", once)
+        yield once
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +104,7 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
 
 def test_a_scene_without_text_can_have_a_target(scene, monkeypatch):
     """A scene made in Python; settings go to its data alone."""
-    monkeypatch.setattr("fenics_gears.studies.accuracy_target.run.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, 0.05, {"x": 0.05}, (), 1))
+    monkeypatch.setattr("fenics_gears.studies.accuracy_target.choose.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, 0.05, {"x": 0.05}, (), 1))
     result = simulate(replace(scene, text=""))
     assert result.attrs["scene"] == "" and result.attrs["element"] == "P1"
 
@@ -102,15 +118,20 @@ def test_a_tighter_target_takes_finer_settings(scene, run):
     assert tighter.setting.flank <= half_width(scene) / trial_runs.COARSEST[trial_runs.FLANK]
 
 
-def test_the_clock_has_no_say(scene, monkeypatch):
-    """Identity: with a clock that says anything, the same settings are chosen, by the same runs."""
-    def chosen_by(clock):
-        monkeypatch.setattr(time, "perf_counter", clock)
-        found = choose(scene, 0.2, SilentProgress())
-        return found.setting, found.estimated_error, found.runs
-
+def test_the_clock_has_no_say(scene, run, runs_once, monkeypatch):
+    """Identity: with a clock, and times of the trial runs, that say anything the same settings are chosen, by as many runs."""
     random = np.random.default_rng(5)
-    assert chosen_by(lambda: float(random.uniform(0.0, 1e3))) == chosen_by(lambda: 0.0)
+
+    def timed_at_random(scene, gears, progress):
+        found, cycle = runs_once(scene, gears, progress)
+        return found.assign_attrs({name: random.uniform(0.0, 1e3) for name in found.attrs if name.startswith("time_")}), cycle
+
+    monkeypatch.setattr(trial_runs, "run_sharing", timed_at_random)
+    monkeypatch.setattr(time, "perf_counter", lambda: float(random.uniform(0.0, 1e3)))
+    found = choose(scene, TARGET, SilentProgress())
+    assert found.estimated_error == run.attrs["estimated_error"] and found.runs == run.attrs["target_runs"]
+    chosen = found.accuracy.flank_element_size, found.accuracy.steps_per_mesh_cycle, found.accuracy.contact_nodes
+    assert chosen == tuple(run.attrs[name] for name in ("flank_element_size", "steps_per_mesh_cycle", "contact_nodes"))
 
 
 def test_every_other_step_of_a_run_is_a_run_of_half_the_steps(scene):
@@ -131,7 +152,7 @@ def test_every_other_step_of_a_run_is_a_run_of_half_the_steps(scene):
 def test_the_cost_of_any_sizes_is_that_of_the_scene_with_them(scene):
     """Authority: the cost that `gears check` shows, of the scene with these settings, but for what no size changes the share of: the blocks of
     compliance and the two positions that begin a run. Finer is dearer in every size; friction has twice the rows."""
-    bounds, fine = limits.Limits(replace(scene, accuracy=Accuracy()), "P2"), dict(flank=0.04, body=1.0, step=0.01)
+    bounds, fine = Limits(replace(scene, accuracy=Accuracy())), dict(flank=0.04, body=1.0, step=0.01)
     ratios = []
     for sizes in (fine, {**fine, "flank": 0.08}, {**fine, "step": 0.005}):
         setting = Setting("P2", sizes["flank"], NODE_SPACING * sizes["flank"], 3.0, 1.0, round(1.0 / sizes["step"]))
@@ -142,7 +163,7 @@ def test_the_cost_of_any_sizes_is_that_of_the_scene_with_them(scene):
     assert ratios == pytest.approx([1.0] * 3, rel=0.2)
     plain = dict(**fine, length=3.0)
     assert all(bounds.cost(**{**plain, name: 0.5 * plain[name]}) > bounds.cost(**plain) for name in fine)
-    assert limits.Limits(replace(scene, accuracy=Accuracy(), friction=Friction(0.1)), "P2").cost(**plain) > bounds.cost(**plain)
+    assert Limits(replace(scene, accuracy=Accuracy(), friction=Friction(0.1))).cost(**plain) > bounds.cost(**plain)
 
 
 def test_a_window_that_cuts_contact_off_is_lengthened(scene):
@@ -155,8 +176,9 @@ def test_a_window_that_cuts_contact_off_is_lengthened(scene):
 
 
 def refusal(scene, monkeypatch):
-    """What is said of 0.1 % with little memory."""
-    monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
+    """What is said of 0.1 % with little memory; few larger targets are tried."""
+    monkeypatch.setattr(choosing, "REACHABLE", 2.0)
+    monkeypatch.setattr(trial_runs, "MOST_BYTES", 4e7)
     with pytest.raises(TargetNotReached, match=r"accuracy.target = 0.1 %.*contact operators and gears.*sharp edges.*; [\d.]+ % can be") as failure:
         choose(scene, 0.001, SilentProgress())
     return failure.value
@@ -177,7 +199,7 @@ def test_the_target_named_instead_can_be_reached(scene, monkeypatch):
 @pytest.mark.nightly
 def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
     """Its contact is narrower than any element that trial runs begin with."""
-    monkeypatch.setattr(limits, "MOST_BYTES", 7e7)
+    monkeypatch.setattr(trial_runs, "MOST_BYTES", 7e7)
     with pytest.raises(TargetNotReached, match=r"because the contact's half-width under this load is only 0\.0\d+ mm"):
         choose(scene_from_text(text.replace('"437 N m"', '"1 N m"')), 0.001, SilentProgress())
 
@@ -186,10 +208,10 @@ def test_a_light_load_is_named_as_the_reason(text, monkeypatch):
 def test_no_run_that_chooses_is_beyond_the_limits(scene, monkeypatch):
     """The check, which halves a size at settings that just fit, least of all."""
     tried, run = [], trial_runs.TrialRuns._run
-    monkeypatch.setattr(limits, "MOST_BYTES", 1.5e8)
+    monkeypatch.setattr(trial_runs, "MOST_BYTES", 1.5e8)
 
     def noted(runs, setting):
-        tried.append(limits.Limits(scene, "P2").bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
+        tried.append(Limits(scene).bytes_of(setting.flank, 1.0 / setting.steps, setting.length))
         return run(runs, setting)
 
     monkeypatch.setattr(trial_runs.TrialRuns, "_run", noted)
@@ -210,16 +232,16 @@ def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
 
 def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
     """The schema's own bounds: the chosen settings are written into a scene."""
-    bounds, module = limits.Limits(scene, "P2"), scene.gears.module
+    bounds, module = Limits(scene), scene.gears.module
     assert bounds.allowed(0.01 * module, 1.0, 0.05, 1.0) and not bounds.allowed(0.9e-3 * module, 1.0, 0.05, 1.0)
     assert "finer than a scene may ask for" in bounds.why_not(0.9e-3 * module, 1.0, 1.0)
     many_cycles = replace(scene, motion=Motion(200.0, 600, 600))
-    assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 5e-3, 1.0)
-    assert not limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0)
-    assert limits.Limits(many_cycles, "P2").allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
+    assert Limits(many_cycles).allowed(0.01 * module, 1.0, 5e-3, 1.0)
+    assert not Limits(many_cycles).allowed(0.01 * module, 1.0, 1e-4, 1.0)
+    assert Limits(many_cycles).allowed(0.01 * module, 1.0, 1e-4, 1.0, stored=False)
 
 
-def test_choosing_can_be_interrupted_within_a_run(scene):
+def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
     """Ctrl-C becomes a KeyboardInterrupt at a step of the first run, not at its end."""
     class Interrupted(SilentProgress):
         said = 0
@@ -229,6 +251,7 @@ def test_choosing_can_be_interrupted_within_a_run(scene):
             if self.said == 5:
                 raise KeyboardInterrupt
 
+    monkeypatch.setattr(trial_runs, "run_sharing", run_sharing)
     progress = Interrupted()
     with pytest.raises(KeyboardInterrupt):
         choose(scene, TARGET, progress)
