@@ -23,7 +23,7 @@ MESH_ORDERS_SHOWN, DECADES, LEAST_AMPLITUDE = 4.5, 3, 1e-4
 LEAST_PART = 1e-5
 # Of the largest force; what varies by less is the solver's tolerance.
 LEAST_VARIATION = 1e-6
-ERROR, FORCE, BETWEEN = "Transmission error", "Mesh force", "between mesh orders"
+ERROR, FORCE, BETWEEN, OF_ERROR = "Transmission error", "Mesh force", "between mesh orders", "Orders of the transmission error"
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def order_spectrum(run: Run) -> Chart | None:
     top = max(float(lines.amplitudes[lines.orders <= highest].max()), 10.0 * LEAST_AMPLITUDE)
     bottom = max(LEAST_AMPLITUDE, top * 10.0**-DECADES)
     seen = (lines.orders <= highest) & (lines.amplitudes > bottom)
-    caption = f"Orders of the transmission error, {run.cycles:.4g} mesh cycles"
+    caption = f"{OF_ERROR}, {run.cycles:.4g} mesh cycles"
     if lines.exact:
         kinds = np.array([origin(order, teeth) for order in lines.orders])
         curves = _by_origin(lines, kinds, seen, 0.004 * highest, 0.0025 * highest)

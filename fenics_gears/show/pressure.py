@@ -15,6 +15,8 @@ EDGE_NOTE = " The pressure at a tip's edge does not converge with the mesh."
 SIDES = {"": "drive flanks", "coast_": "coast flanks"}
 # A tip that enters or leaves contact presses with its edge; these few cells would leave one colour for all others.
 COMMON_SHARE, CLIPPED = 98.0, 1.2  # per cent of the cells that the colours span; times that, from which they end there
+# Relative; cycles that repeat differ by less.
+SAME = 1e-6
 ROWS, MOST_COLUMNS = 260, 640
 # From light to dark in lightness, so that zero lies close to the paper and grey print keeps the order.
 COLOURS = ("#FDE9B8", "#F6A04D", "#D9483B", "#8A1A63", "#2A0A4A")
@@ -51,7 +53,8 @@ def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np
     highest = float(np.nanmax(field.values, initial=0.0))
     caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
     if highest > field.limit * (1 + 1e-9):
-        step = np.unravel_index(np.argmax(pressure), pressure.shape)[0]
+        # Of cycles that repeat, the last.
+        step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]
         caption += f", beyond the colours up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
     curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
     if run.pair is not None:

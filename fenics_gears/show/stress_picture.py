@@ -307,5 +307,4 @@ def _time(seconds: float) -> str:
 
 def save_picture(figure: Figure, path: Path | BinaryIO) -> None:
     """Save the picture as PNG, in the pixels it was drawn in."""
-    FigureCanvasAgg(figure)
-    figure.savefig(path, dpi=figure.dpi, metadata={"Software": None})
+    FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})
