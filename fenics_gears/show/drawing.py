@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
@@ -28,8 +28,8 @@ WIDTH, GAP = 10.0, 0.12
 PANEL = 0.0086
 # Heights of a line of the heading and of a title, of a row of a legend and of flags, and of tick labels below an axis.
 HEADING_LINE, LINE, LEGEND_ROW, FLAG_ROW, TICK_ROW = 0.25, 0.22, 0.265, 0.236, 0.33
-# Widths of a letter at a tick and in a legend, and of what a legend's entry has besides.
-LETTER, LEGEND_LETTER, LEGEND_HANDLE = 0.106, 0.092, 0.56
+# Widths of a letter at a tick, in a flag and in a legend, and of what a legend's entry has besides.
+LETTER, FLAG_LETTER, LEGEND_LETTER, LEGEND_HANDLE = 0.106, 0.092, 0.092, 0.56
 # A tick and the gap to its label; room of an axis' title; half a tick label beyond an axis' end; a colour bar and the room before it.
 TICK, TITLE, HALF_LABEL, BAR, BAR_GAP = 0.05, 0.28, 0.3, 0.2, 0.24
 # Least distance of ticks on an upright and on a level axis.
@@ -68,6 +68,12 @@ class Panel:
     def has_grid(self) -> bool:
         """Whether lines lead from the ticks across; colours and drawings have none."""
         return self.chart.field is None and not self.chart.equal
+
+    @property
+    def overhang(self) -> float:
+        """Width of a flag's words beyond the end of the first axis."""
+        first, last = self.chart.x_range or (0.0, 1.0)
+        return max((FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first) for flag in self.chart.flags), default=0.0)
 
     @property
     def legend_columns(self) -> int:
@@ -133,7 +139,7 @@ def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
             bottom -= panel.height
         scales = [_draw(axes, panel) for axes, panel in zip(every, panels)]
     left = GAP + max(own.width for own, *_ in scales)
-    right = WIDTH - max([HALF_LABEL, *(GAP + sum(each.width for each in beside) for _, *beside in scales if beside)])
+    right = WIDTH - max([HALF_LABEL, *(panel.overhang for panel in panels), *(GAP + sum(each.width for each in beside) for _, *beside in scales if beside)])
     for axes, panel, (own, *beside) in zip(every, panels, scales):
         _, bottom, _, high = axes.get_position().bounds
         axes.set_position((left / WIDTH, bottom, (right - left) / WIDTH, high))
@@ -215,7 +221,7 @@ def _written(places: np.ndarray, logarithmic: bool = False) -> list[str]:
 def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
     """Grid and ticks of the first axis; its labels where it is named."""
     chart = panel.chart
-    labels = list(dict.fromkeys(each for curve in chart.curves for each in np.asarray(curve.x).tolist() if isinstance(each, str)))
+    labels = list(dict.fromkeys(str(each) for curve in chart.curves if np.asarray(curve.x).dtype.kind not in "fiu" for each in curve.x))
     logarithmic = "x" in chart.logarithmic
     places = np.arange(len(labels)) if labels else _ticks(axes.get_xlim(), width / APART_LEVEL, logarithmic)
     across = axes.get_xaxis_transform()
@@ -252,7 +258,10 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
             axes.plot(x, edge, color=curve.colour, linewidth=curve.width)
         return
     if curve.mode == BARS:
-        axes.bar(x, y, curve.width, color=curve.colour, label=label)
+        # Thousands of bars in one artist.
+        left, right, foot = x - 0.5 * curve.width, x + 0.5 * curve.width, np.zeros_like(y)
+        corners = np.stack([left, foot, left, y, right, y, right, foot], axis=1).reshape(-1, 4, 2)
+        axes.add_collection(PolyCollection(corners, facecolors=curve.colour, edgecolors="none", label=label))
         return
     if chart.x_range is not None and not chart.equal:
         near = (x >= chart.x_range[0] - 1e-9) & (x <= chart.x_range[1] + 1e-9)
@@ -270,7 +279,7 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
         up, right = 1 if "top" in curve.beside else -1, 1 if "right" in curve.beside else -1
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
-            ha="left" if right > 0 else "right", va="bottom" if up > 0 else "top",
+            ha="left" if right > 0 else "right", va="bottom" if up > 0 else "top", bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
         )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import PolyCollection
 from matplotlib.text import Annotation, Text
 from tests.show.synthetic import made_up_run
 
@@ -79,7 +80,8 @@ def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
     flags = {text.get_text().strip(): text.xy for text in axes.texts if isinstance(text, Annotation)}
     assert {"mesh", "2 × mesh", "run-out of the pinion", "ghost order: 90 waves on the wheel"} <= set(flags)
     assert axes.get_yscale() == "log"
-    bars = {each.get_label(): [(bar.get_x() + 0.5 * bar.get_width(), bar.get_height()) for bar in each] for each in axes.containers}
+    drawn = [each for each in axes.collections if isinstance(each, PolyCollection)]
+    bars = {each.get_label(): [(path.vertices[:4, 0].mean(), path.vertices[:, 1].max()) for path in each.get_paths()] for each in drawn}
     # The base radius of the made-up result is 50 mm.
     assert bars["mesh"] == [pytest.approx((16.0, 3e-7 * 50e3), rel=1e-9)]
     assert (1.0, 2e-7 * 50e3) in [pytest.approx(bar, rel=1e-9) for bar in bars["turn of either gear"] + bars["turn of the pinion"]]

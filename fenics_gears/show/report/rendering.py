@@ -36,7 +36,7 @@ def plotly_library() -> str:
     from plotly.offline import get_plotlyjs
 
     # No time stamp, so that the same run gives the same page.
-    return base64.b64encode(gzip.compress(get_plotlyjs().encode(), mtime=0)).decode()
+    return base64.b64encode(gzip.compress(get_plotlyjs().encode(), compresslevel=6, mtime=0)).decode()
 
 
 def _has_chart(block: Block) -> bool:
@@ -51,7 +51,7 @@ def _figure(chart: Chart):
     """A chart as JSON of a plotly figure that may stand in a script element."""
     from jinja2.utils import htmlsafe_json_dumps
 
-    return htmlsafe_json_dumps(figure(chart), dumps=lambda each, **_: each.to_json())
+    return htmlsafe_json_dumps(figure(chart), separators=(",", ":"))
 
 
 def _still(chart: Chart) -> str:

@@ -131,7 +131,7 @@ def test_large_and_small_values_have_powers_of_ten_on_their_axis():
     """Their tick labels would else run into the axis' title."""
     for size, wanted in ((1e-5, "e"), (1.0, "none"), (9e5, "none"), (4e7, "e")):
         drawn = figure(Chart("", [Curve("", np.arange(2.0), size * np.arange(2.0))], "", ""))
-        assert drawn.layout.yaxis.exponentformat == wanted and drawn.layout.yaxis.title.standoff
+        assert drawn["layout"]["yaxis"]["exponentformat"] == wanted and drawn["layout"]["yaxis"]["title"]["standoff"]
 
 
 def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):

@@ -23,6 +23,7 @@ from fenics_gears.show.run import Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[3]
+pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = [
     "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
     "versions", "scene",

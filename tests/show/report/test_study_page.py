@@ -15,6 +15,7 @@ from fenics_gears.show.report.study_page import _summary, standing_out
 from fenics_gears.show.study_charts import over_parameter, result_charts
 from fenics_gears.studies.combine import load_combined, save_study
 
+pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = ["summary", "failures", "warnings", "results", "outstanding", "cases", "effort", "versions", "study", "scene"]
 
 
@@ -167,7 +168,7 @@ def test_words_are_drawn_over_the_field_with_most_of_them(tmp_path):
     """Where no field has numbers, that with most values is the axis."""
     few = drawn(tmp_path, element=["P1", "P2"], friction=["absent", "a < b", "<b>c</b>"])
     assert [curve.name for curve in few.curves] == ["element P1 N", "element P2 N"]
-    assert list(figure(few).data[0].x) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
+    assert list(figure(few)["data"][0]["x"]) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
 
 
 def test_cases_that_stand_out_are_the_extremes(tmp_path):
