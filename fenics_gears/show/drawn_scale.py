@@ -49,12 +49,12 @@ def outer_loop(mesh: GearsInMesh, gear: int) -> np.ndarray:
         follows.setdefault(first, []).append(second)
         follows.setdefault(second, []).append(first)
     # Nodes at the ends of sectors are there twice, once for either sector.
-    twins = cKDTree(body.points[list(follows)]).query_pairs(1e-7 * mesh.pair.pinion.module)
     names = list(follows)
+    twins = cKDTree(body.points[names]).query_pairs(1e-7 * mesh.pair.pinion.module)
     for one, other in twins:
         follows[names[one]].append(names[other])
         follows[names[other]].append(names[one])
-    start = max(follows, key=lambda node: float(np.sum((body.points[node] - body.centre) ** 2)))
+    start = names[int(np.argmax(np.linalg.norm(body.points[names] - body.centre, axis=1)))]
     loop, last, node = [start], None, start
     while True:
         ahead = [each for each in follows[node] if each != last]

@@ -1,4 +1,4 @@
-"""Two gears in mesh as grids for VTK: coloured bodies seen from the front, and a file that ParaView opens.
+"""Two gears in mesh where they are drawn, and as a file that ParaView opens.
 
 Pictures have the line of centres upright, the pinion above; files have the frame of the line of action.
 """
@@ -48,24 +48,6 @@ def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
 def largest_movement(mesh: GearsInMesh) -> float:
     """Largest displacement (mm) among those drawn at scale 1."""
     return max(float(np.linalg.norm(shown_points(mesh, gear, 1.0) - shown_points(mesh, gear, 0.0), axis=1).max()) for gear in (0, 1))
-
-
-def surface(points: np.ndarray, cells: np.ndarray, values: np.ndarray):
-    """Plane cells with a value at each node, as pyvista has it."""
-    import pyvista
-
-    faces = np.column_stack([np.full(len(cells), cells.shape[1]), cells]).ravel()
-    mesh = pyvista.PolyData(np.column_stack([points, np.zeros(len(points))]), faces)
-    mesh.point_data["value"] = values
-    return mesh
-
-
-def outline(points: np.ndarray, sides: np.ndarray):
-    """Lines along sides (k, 2), as pyvista has them, before the bodies they bound."""
-    import pyvista
-
-    lines = np.column_stack([np.full(len(sides), 2), sides]).ravel()
-    return pyvista.PolyData(np.column_stack([points, np.ones(len(points))]), lines=lines)
 
 
 def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> None:

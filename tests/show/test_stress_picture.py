@@ -203,7 +203,7 @@ def test_no_such_run_is_refused(tmp_path, capsys):
 
 
 def test_command_line_does_not_load_vtk():
-    """Rule of the platform: neither the package nor its command line imports pyvista; only a picture does."""
+    """Rule of the platform: neither the package nor its command line imports pyvista; only a file for ParaView does."""
     code = "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture; print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "False"]
