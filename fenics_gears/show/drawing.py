@@ -168,9 +168,7 @@ def _draw(axes: Axes, panel: Panel) -> list[Scale]:
     # A title whose height is given is not moved out of the way of others, which takes long to find out.
     axes.set_title(panel.title, y=1.0, pad=72.0 * (0.6 * GAP + LEGEND_ROW * panel.legend_rows), parse_math=False)
     if chart.has_legend:
-        axes.legend(
-            loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=panel.legend_columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4, labelspacing=0.25
-        )
+        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=panel.legend_columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4, labelspacing=0.25)
     if chart.flags:
         _draw_flags(axes, panel)
     for axis in (axes.xaxis, axes.yaxis):

@@ -101,12 +101,16 @@ def _merged(gears: tuple[GearInSpace, ...]) -> tuple[np.ndarray, np.ndarray, dic
         return np.column_stack([plane, np.zeros(len(plane))])
 
     stress = np.vstack([body.stress for body in gears])
-    return points, cells, {
-        "displacement": in_space("displacement"),
-        "elastic_displacement": in_space("elastic"),
-        "stress_xx": stress[:, 0],
-        "stress_yy": stress[:, 1],
-        "stress_xy": stress[:, 2],
-        "stress_zz": stress[:, 3],
-        "von_mises_stress": np.concatenate([body.von_mises for body in gears]),
-    }
+    return (
+        points,
+        cells,
+        {
+            "displacement": in_space("displacement"),
+            "elastic_displacement": in_space("elastic"),
+            "stress_xx": stress[:, 0],
+            "stress_yy": stress[:, 1],
+            "stress_xy": stress[:, 2],
+            "stress_zz": stress[:, 3],
+            "von_mises_stress": np.concatenate([body.von_mises for body in gears]),
+        },
+    )

@@ -75,9 +75,7 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
 
 
 @styled
-def stress_picture(
-    mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0, beyond: bool = False
-) -> Figure:
+def stress_picture(mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0, beyond: bool = False) -> Figure:
     """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
 
     scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether this mesh exceeds it

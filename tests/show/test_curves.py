@@ -33,8 +33,7 @@ def curve(axes, which=-1):
 
 
 @pytest.mark.parametrize(
-    ("unit", "wanted", "expected"),
-    [("rad", "µrad", 1e6), ("mm", "µm", 1e3), ("N mm", "N m", 1e-3), ("MPa", "MPa", 1.0), ("rad", "deg", 180 / np.pi), ("kN", "N", 1e3)],
+    ("unit", "wanted", "expected"), [("rad", "µrad", 1e6), ("mm", "µm", 1e3), ("N mm", "N m", 1e-3), ("MPa", "MPa", 1.0), ("rad", "deg", 180 / np.pi), ("kN", "N", 1e3)]
 )
 def test_factors_are_those_of_the_si(unit, wanted, expected):
     """Authority: the SI's prefixes."""
@@ -55,10 +54,7 @@ def test_transmission_error_and_the_wheels_sideways_motion():
     """Authority: the dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
     run = made_up_run()
     above, below = transmission_error(run).get_axes()
-    for axes, name, values in [
-        (above, "Transmission error (µm)", run["transmission_error"].values * 50e3),
-        (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3),
-    ]:
+    for axes, name, values in [(above, "Transmission error (µm)", run["transmission_error"].values * 50e3), (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3)]:
         x, y = curve(axes)
         assert name in words(axes)
         np.testing.assert_array_equal(x, run["mesh_phase"].values)

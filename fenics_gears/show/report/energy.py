@@ -48,13 +48,7 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     rows += [row(f"lost to {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
-    rows.append(
-        (
-            "not explained by any of these",
-            f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}",
-            f"{UNIT} at most, at any of their steps",
-        )
-    )
+    rows.append(("not explained by any of these", f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}", f"{UNIT} at most, at any of their steps"))
     return rows
 
 

@@ -94,9 +94,7 @@ def _layout(chart: Chart) -> dict:
 def _scales(chart: Chart) -> dict:
     """Buttons for a linear and a logarithmic scale."""
     choices = {"linear": "linear", "logarithmic": "log"}
-    buttons = [
-        {"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()
-    ]
+    buttons = [{"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()]
     return {
         "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03, "yanchor": "bottom",
         "active": int("y" in chart.logarithmic), "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12}, "bgcolor": "white", "bordercolor": "#C4C9CE",
@@ -112,13 +110,10 @@ def _flag(layout: dict, chart: Chart) -> None:
     tops = [1.0 - FLAG_ROW * (max(rows) - row + 1) / inside for row in rows]
     place = {"xref": "x", "yref": "paper"}
     layout["shapes"] = [
-        {"type": "line", "x0": flag.x, "x1": flag.x, "y0": end - 0.06, "y1": top, "line": {"color": flag.colour, "width": 0.8}} | place
-        for flag, top in zip(chart.flags, tops)
+        {"type": "line", "x0": flag.x, "x1": flag.x, "y0": end - 0.06, "y1": top, "line": {"color": flag.colour, "width": 0.8}} | place for flag, top in zip(chart.flags, tops)
     ]
     at = {"showarrow": False, "xanchor": "left", "yanchor": "bottom"} | place
-    layout["annotations"] = [
-        {"x": flag.x, "y": top, "text": escaped(flag.words), "font": {"color": flag.colour, "size": 12}} | at for flag, top in zip(chart.flags, tops)
-    ]
+    layout["annotations"] = [{"x": flag.x, "y": top, "text": escaped(flag.words), "font": {"color": flag.colour, "size": 12}} | at for flag, top in zip(chart.flags, tops)]
 
 
 def _words(curve: Curve) -> list[dict]:

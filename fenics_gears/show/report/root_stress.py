@@ -45,11 +45,7 @@ def _over_time(run: Run) -> list[Chart]:
     plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
     for gear in gears:
         curves = [(words, each, PALETTE[number % len(PALETTE)]) for words, each, number in run.of_pairs("root_stress_maximum", "MPa", gear=gear)]
-        plots.append(
-            over_time(
-                run, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)
-            )
-        )
+        plots.append(over_time(run, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)))
     section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "slot")
     at_section = in_unit(section, "MPa")
     curves = [
@@ -77,14 +73,9 @@ def _along_fillets(run: Run) -> list[Chart]:
         time, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
         along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point")[time, slot], "MPa")
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
-        curves = [
-            Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES)
-            for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)
-        ]
+        curves = [Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES) for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)]
         phase = float(own["mesh_phase"].values[time])
-        caption = (
-            f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
-        )
+        caption = f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
         note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
         plots.append(Chart(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
     return plots
