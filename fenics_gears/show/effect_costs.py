@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.show.run_scene import conditions
+from fenics_gears.show.run import conditions
 from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
 from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_percent, own_remarks

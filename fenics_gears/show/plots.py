@@ -23,8 +23,7 @@ from fenics_gears.show.motion import error_by_cycle, error_values, transmission_
 from fenics_gears.show.orders import OF_ERROR, order_spectrum
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
 from fenics_gears.show.pressure import pressure_maps
-from fenics_gears.show.run import Run
-from fenics_gears.show.run_scene import conditions
+from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.output import written_aside
 
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, over_time
-from fenics_gears.show.forces import least
-from fenics_gears.show.panels import DARK, PALETTE
+from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
+from fenics_gears.show.panels import DARK
 from fenics_gears.show.run import Run
 from fenics_gears.show.units import factor
 
@@ -31,12 +30,10 @@ def has_pressure(run: Run) -> bool:
 def largest_pressures(run: Run) -> list[Chart]:
     """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with a tip's edge; none of results without them."""
     names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at tips' edges"}
-    curves = [(words, run.values(name, "MPa"), colour) for (name, words), colour in zip(names.items(), PALETTE) if name in run.dataset]
-    curves = [curve for place, curve in enumerate(curves) if place == 0 or curve[1].any()]
-    if not curves:
-        return []
-    note = "Averaged over five contact nodes." + (EDGE_NOTE if len(curves) > 1 else "")
-    return [over_time(run, "Largest contact pressure", "Pressure (MPa)", curves, least=least(curves[0][1]), note=note)]
+    if "largest_edge_pressure" in run.dataset and not run.dataset["largest_edge_pressure"].any():
+        del names["largest_edge_pressure"]
+    note = "Averaged over five contact nodes." + (EDGE_NOTE if names.keys() <= set(run.dataset) and len(names) > 1 else "")
+    return of_variables(run, "Largest contact pressure", "Pressure", "MPa", names, note=note, height=300)
 
 
 def pressure_maps(run: Run) -> list[Chart]:

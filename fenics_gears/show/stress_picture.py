@@ -22,7 +22,7 @@ from matplotlib.tri import Triangulation
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
-from fenics_gears.show.run_scene import conditions, scene_of
+from fenics_gears.show.run import conditions, scene_of
 from fenics_gears.show.stress_grid import shown_points, upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
 

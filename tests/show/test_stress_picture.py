@@ -98,7 +98,7 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
 def test_no_tooth_is_missing(run):
     """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
     from fenics_gears.show.drawn_scale import outer_loop
-    from fenics_gears.show.run_scene import scene_of
+    from fenics_gears.show.run import scene_of
     from fenics_gears.show.stress_grid import shown_points
     from fenics_gears.simulation.run_stresses import RunStresses
 

@@ -24,6 +24,7 @@ def rendered(page: Page) -> str:
 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"figure": _figure, "still": _still, "height": height, "base64": _base64, "number": number_text, "code": _with_code}
+    environment.filters["kind"] = lambda block: type(block).__name__
     drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
         page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)), library=Markup(plotly_library()) if drawn else "",
@@ -40,7 +41,7 @@ def plotly_library() -> str:
 
 
 def _has_chart(block: Block) -> bool:
-    return any(map(_has_chart, block.blocks)) if isinstance(block, Fold | Beside) else block.kind == "chart"
+    return any(map(_has_chart, block.blocks)) if isinstance(block, Fold | Beside) else isinstance(block, Chart)
 
 
 def _own_file(name: str) -> str:
