@@ -16,13 +16,14 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import NullLocator
 
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, Chart, Curve
 from fenics_gears.show.panels import DARK, GRID, styled
 from fenics_gears.show.thinning import thinned
+from fenics_gears.show.ticks import ticks, written
 
-DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6)), "dashdot": (0, (6, 2, 1, 2))}
+DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6))}
 WIDTH, GAP = 10.0, 0.12
 # The inside of a panel for each pixel of a chart's height.
 PANEL = 0.0086
@@ -175,13 +176,13 @@ def _draw(axes: Axes, panel: Panel) -> list[Scale]:
         axis.set_major_locator(NullLocator())
         axis.set_minor_locator(NullLocator())
     ends, logarithmic = np.array(axes.get_ylim()), "y" in chart.logarithmic
-    places = _ticks(ends, panel.inside / APART_UPRIGHT, logarithmic)
-    own = Scale(axes, places, _written(places, logarithmic), chart.y_title)
+    places = ticks(ends, panel.inside / APART_UPRIGHT, logarithmic)
+    own = Scale(axes, places, written(places, logarithmic), chart.y_title)
     if chart.second is None:
         return [own, *bars]
     factor, offset = chart.second.factor, chart.second.offset
-    places = _ticks(offset + factor * ends, panel.inside / APART_UPRIGHT)
-    return [own, Scale(axes, (places - offset) / factor, _written(places), chart.second.title), *bars]
+    places = ticks(offset + factor * ends, panel.inside / APART_UPRIGHT)
+    return [own, Scale(axes, (places - offset) / factor, written(places), chart.second.title), *bars]
 
 
 def _set_ends(axes: Axes, chart: Chart) -> None:
@@ -195,38 +196,17 @@ def _set_ends(axes: Axes, chart: Chart) -> None:
         axes.set_ylim(*chart.limits)
 
 
-def _ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.ndarray:
-    """Round numbers (n,) between an axis' ends."""
-    low, high = sorted(ends)
-    if logarithmic:
-        places, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)).tick_values(low, high), 0.0
-    else:
-        places, beyond = MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10]).tick_values(low, high), 1e-9 * (high - low)
-    return places[(places >= low - beyond) & (places <= high + beyond)]
-
-
-def _written(places: np.ndarray, logarithmic: bool = False) -> list[str]:
-    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small."""
-    if logarithmic or len(places) < 2 or not 1e-4 <= np.abs(places).max() < 1e6:
-        words = [f"{place:g}" for place in places]
-    else:
-        step = places[1] - places[0]
-        decimals = next(count for count in range(12) if np.abs(np.round(places, count) - places).max() < 1e-3 * step)
-        words = [f"{place:.{decimals}f}" for place in np.round(places, decimals) + 0.0]
-    return [each.replace("-", "−") for each in words]
-
-
 def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
     """Grid and ticks of the first axis; its labels where it is named."""
     chart = panel.chart
     labels = list(dict.fromkeys(str(each) for curve in chart.curves if np.asarray(curve.x).dtype.kind not in "fiu" for each in curve.x))
     logarithmic = "x" in chart.logarithmic
-    places = np.arange(len(labels)) if labels else _ticks(axes.get_xlim(), width / APART_LEVEL, logarithmic)
+    places = np.arange(len(labels)) if labels else ticks(axes.get_xlim(), width / APART_LEVEL, logarithmic)
     across = axes.get_xaxis_transform()
     if panel.has_grid:
         _draw_lines(axes, [((place, 0.0), (place, 1.0)) for place in places], across, GRID)
     _draw_lines(axes, [((place, 0.0), (place, -TICK / panel.inside)) for place in places], across)
-    for place, label in zip(places, labels or _written(places, logarithmic)) if panel.named else ():
+    for place, label in zip(places, labels or written(places, logarithmic)) if panel.named else ():
         axes.text(place, -2.0 * TICK / panel.inside, label, transform=across, ha="center", va="top", parse_math=False)
     axes.xaxis.set_label_coords(0.5, -TICK_ROW / panel.inside)
 
@@ -290,8 +270,8 @@ def _draw_field(axes: Axes, panel: Panel) -> Scale:
     drawn = axes.pcolormesh(field.x, field.y, np.ma.masked_invalid(field.values), cmap=colours, vmin=lowest, vmax=field.limit, rasterized=True)
     beside = axes.figure.add_axes((0.9, 0.1, 0.02, 0.8), label=BAR_NAME)
     axes.figure.colorbar(drawn, cax=beside, extend="max" if beyond else "neither", ticks=NullLocator()).outline.set_visible(False)
-    places = _ticks((lowest, field.limit), panel.inside / APART_UPRIGHT)
-    return Scale(beside, places, _written(places), field.title)
+    places = ticks((lowest, field.limit), panel.inside / APART_UPRIGHT)
+    return Scale(beside, places, written(places), field.title)
 
 
 def _draw_flags(axes: Axes, panel: Panel) -> None:
@@ -307,10 +287,3 @@ def _draw_flags(axes: Axes, panel: Panel) -> None:
             f" {flag.words}", (flag.x, max(flag.y, low)), xytext=(flag.x, top), textcoords=("data", "axes fraction"), fontsize=11, color=flag.colour,
             va="bottom", arrowprops={"arrowstyle": "-", "color": flag.colour, "linewidth": 0.8, "relpos": (0.0, 0.0), "shrinkA": 0.0, "shrinkB": 0.0},
         )  # fmt: skip
-
-
-def heading(subject: str, title: str, *more: str) -> str:
-    """Subject and title in lines that fit a picture's width."""
-    title = " ".join(title.split())
-    first = textwrap.shorten(f"{subject}: {title}" if title else subject, LETTERS, placeholder=" …")
-    return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import textwrap
 import zlib
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -17,7 +18,7 @@ from matplotlib.figure import Figure
 from fenics_gears.errors import ComputationError
 from fenics_gears.show import PICTURE_FILES
 from fenics_gears.show.chart import Chart
-from fenics_gears.show.drawing import heading, picture
+from fenics_gears.show.drawing import LETTERS, picture
 from fenics_gears.show.forces import mesh_forces, pair_forces, shaft_torques
 from fenics_gears.show.motion import error_by_cycle, error_values, transmission_error, wheels_shaft
 from fenics_gears.show.orders import OF_ERROR, order_spectrum
@@ -78,6 +79,13 @@ def _heading(run: Run, subject: str) -> str:
     if not run.complete:
         more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")
     return heading(subject, str(run.dataset.attrs.get("title", "")), *more)
+
+
+def heading(subject: str, title: str, *more: str) -> str:
+    """Subject and title in lines that fit a picture's width."""
+    title = " ".join(title.split())
+    first = textwrap.shorten(f"{subject}: {title}" if title else subject, LETTERS, placeholder=" …")
+    return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])
 
 
 def _check_steps(run: Run) -> None:

@@ -8,6 +8,7 @@ from tests.show.synthetic import BARE, made_up_run, right_scale, words
 from fenics_gears.errors import ComputationError
 from fenics_gears.results import by_pair
 from fenics_gears.show.plots import run_figures
+from fenics_gears.show.ticks import ticks, written
 from fenics_gears.show.units import factor, in_unit
 
 
@@ -213,3 +214,18 @@ def test_a_heading_with_every_effect_stays_on_the_paper(paper_scene):
     figure = transmission_error(made_up_run(scene=paper_scene.text + "\n" + sections))
     FigureCanvasAgg(figure).draw()
     assert figure._suptitle.get_window_extent().x1 <= figure.bbox.x1
+
+
+@pytest.mark.parametrize(("ends", "logarithmic", "expected"), [
+    ((-6.2, 5.1), False, ["−5.0", "−2.5", "0.0", "2.5", "5.0"]),
+    ((7990.0, 10010.0), False, ["8000", "8500", "9000", "9500", "10000"]),
+    ((0.0, 3.1e-7), False, ["0", "1e−07", "2e−07", "3e−07"]),
+    ((27.99999, 28.00001), False, ["27.999990", "27.999995", "28.000000", "28.000005", "28.000010"]),
+    ((0.002, 30.0), True, ["0.01", "0.1", "1", "10"]),
+    ((20.0, 150.0), True, ["20", "50", "100"]),
+])  # fmt: skip
+def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logarithmic, expected):
+    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten within the ends; what is written is the place itself."""
+    places = ticks(ends, 5.0, logarithmic)
+    assert written(places, logarithmic) == expected
+    np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))

@@ -82,6 +82,14 @@ def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
     assert figure.get_axes()[0].get_title(loc="left").endswith("beyond the colours up to 9000 MPa at mesh cycle 29.00")
 
 
+def test_of_cycles_that_repeat_the_last_one_is_named():
+    """Authority: by construction the peak stands a mesh cycle later again, lower by round-off."""
+    run = made_up_run(steps=101)
+    for step, peak in ((25, 9000.0), (75, 9000.0 * (1.0 - 1e-14))):
+        run["contact_pressure"][step, np.flatnonzero(run["contact_pressure"].values[step, :, 2] > 0.0)[0], 2] = peak
+    assert contact_pressure(run).get_axes()[0].get_title(loc="left").endswith("at mesh cycle 29.50")
+
+
 def test_pitch_point_and_the_wheels_axis(paper_scene):
     """Authority: at the pitch point either roll angle is tan(alpha_w) (exact); the paper's alpha_w is 22.44 deg."""
     (axes, _) = contact_pressure(made_up_run(scene=paper_scene.text)).get_axes()

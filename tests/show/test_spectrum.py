@@ -111,4 +111,6 @@ def test_a_run_of_a_turn_has_the_picture_and_a_shorter_one_has_not(paper_scene):
     assert order_spectrum(made_up_turns("")) is None
     windowed = order_spectrum(made_up_turns(paper_scene.text, 20.0)).axes[0]
     title = windowed.get_title(loc="left")
+    # What is drawn is said once, by the heading.
+    assert windowed.figure._suptitle.get_text().startswith("Orders of the transmission error") and "rders" not in title
     assert "20 mesh cycles" in title and "repeats after 48" in title

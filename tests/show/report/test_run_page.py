@@ -2,6 +2,7 @@
 
 import base64
 import csv
+import json
 import re
 import subprocess
 import sys
@@ -73,6 +74,15 @@ def test_every_chart_is_an_image_before_any_script_runs(report):
     assert list(images) == list(dict.fromkeys(captions(page))) and len(images) > 15
     drawn = base64.b64decode(images["Normal force of the mesh"].partition(",")[2]).decode()
     assert "<svg" in drawn and "Normal force (N)" in drawn and "Time (mesh cycles since the start)" in drawn
+
+
+def test_every_chart_is_one_that_plotly_knows(report):
+    """Authority: plotly's own Python classes, which refuse names and values that its browser library does not read."""
+    from plotly.graph_objects import Figure
+
+    page = seen(report)
+    charts = [Figure(json.loads(script)) for script in page.scripts[: page.plots]]
+    assert len(charts) > 15 and all(chart.data for chart in charts)
 
 
 def test_the_page_is_well_formed(report):
