@@ -30,6 +30,8 @@ from fenics_gears.simulation.run_stresses import GearsInMesh
 COLOURS = LinearSegmentedColormap.from_list("stress", [
     (0.0, "#F1F3F5"), (0.1, "#B4D0E8"), (0.24, "#539FD0"), (0.4, "#35A388"), (0.58, "#F0D24A"), (0.79, "#EB7A2F"), (1.0, "#A90E18"),
 ])  # fmt: skip
+# Triangles of a gear in a panel, at least: with fewer their edges are seen in the colours.
+LEAST_TRIANGLES = 20_000
 # The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the roots.
 ROOTS_IN_COLOURS = 3.0
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
@@ -146,10 +148,10 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
         points = shown_points(mesh, gear, scale)
         cells, sides = (_in_view(points, part, view) for part in (body.cells, body.outline))
         if len(cells):
-            # Four corners are two triangles.
-            triangles = np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])
+            x, y, stress = _triangles(points, cells, body.von_mises).reshape(-1, 3).T
             # `tripcolor` does the same and takes three times as long, for the edges of all triangles.
-            axes.add_collection(TriMesh(Triangulation(*points.T, triangles), array=body.von_mises, cmap=COLOURS, norm=Normalize(0.0, limit)), autolim=False)
+            triangles = Triangulation(x, y, np.arange(len(x)).reshape(-1, 3))
+            axes.add_collection(TriMesh(triangles, array=stress, cmap=COLOURS, norm=Normalize(0.0, limit)), autolim=False)
             # Sides apart from each other in one line.
             x, y = np.insert(points[sides], 2, np.nan, axis=1).reshape(-1, 2).T
             axes.plot(x, y, color=DARK, linewidth=0.9, solid_capstyle="round")
@@ -160,6 +162,17 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
         spine.set_visible(True)
         spine.set_color("#BBBBBB")
     return axes
+
+
+def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until there are many, since colours are blended between corners."""
+    # Four corners are two triangles.
+    corners = np.column_stack([points, values])[np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])]
+    while len(corners) < LEAST_TRIANGLES:
+        a, b, c = corners.transpose(1, 0, 2)
+        ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+        corners = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3, 3)
+    return corners
 
 
 def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
