@@ -145,6 +145,7 @@ def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
     from fenics_gears.show import stress_animation
 
     monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 3)
+    monkeypatch.setattr(stress_animation, "SAMPLED", 1)
     assert main(["picture", str(run), "--animate", "--output", str(tmp_path / "turn.gif"), "--quiet"]) == 0
     with image.open(tmp_path / "turn.gif") as moving:
         assert (moving.n_frames, moving.size) == (3, (960, 540))
