@@ -79,7 +79,7 @@ def _draw(options, runs, dataset, index: int, path: Path, progress) -> None:
 
 def _loaded(file: Path):
     """A run's result and its scene."""
-    from fenics_gears.show.run_scene import scene_of
+    from fenics_gears.show.run import scene_of
     dataset = loaded_run(file)
     scene = scene_of(dataset)
     if scene is None:

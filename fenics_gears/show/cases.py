@@ -102,15 +102,8 @@ class Cases:
     @cached_property
     def states(self) -> list[str]:
         """The state of each case: one of `STATES`."""
-        done, failed, warned = (
-            np.isfinite(self.numbers("peak_to_peak_transmission_error")),
-            self.dataset["failed"].values.ravel(),
-            self.texts("warnings"),
-        )
-        return [
-            STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3]
-            for ready, wrong, said in zip(done, failed, warned)
-        ]
+        done, failed, warned = (np.isfinite(self.numbers("peak_to_peak_transmission_error")), self.dataset["failed"].values.ravel(), self.texts("warnings"))
+        return [STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3] for ready, wrong, said in zip(done, failed, warned)]
 
     def far_off(self, values: np.ndarray) -> np.ndarray:
         """Which cases (n,) have a value that is many times all others' and belongs to a result without meaning."""
@@ -164,11 +157,7 @@ class Cases:
         """What is compared between cases: values (n,), unit, name."""
         scale, unit = self.error_scale
         return {
-            "peak_to_peak_transmission_error": (
-                self.numbers("peak_to_peak_transmission_error") * scale,
-                unit,
-                "Transmission error, peak to peak",
-            ),
+            "peak_to_peak_transmission_error": (self.numbers("peak_to_peak_transmission_error") * scale, unit, "Transmission error, peak to peak"),
             "mean_transmission_error": (self.numbers("mean_transmission_error") * scale, unit, "Transmission error, mean"),
             "max_normal_force": (self.numbers("max_normal_force"), "N", "Largest mesh force"),
         }

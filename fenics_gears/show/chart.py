@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -15,6 +14,8 @@ from fenics_gears.show.panels import DARK, PALETTE, limits
 
 TIME, MESH_CYCLES = "time", "Time (mesh cycles since the start)"
 LINES, MARKERS, MARKED_LINES, BARS, BAND, WORDS = "lines", "markers", "lines+markers", "bars", "band", "words"
+# Smallest span that an axis shows, in parts of the largest value.
+LEAST_SHARE = 0.02
 # Width of a letter in a flag, in parts of the chart's width, on a page of usual width.
 LETTER = 0.0105
 
@@ -94,7 +95,6 @@ class Chart:
     field: Field | None = None
     second: Second | None = None
     flags: Sequence[Flag] = ()
-    kind: ClassVar[str] = "chart"
 
     @property
     def has_legend(self) -> bool:
@@ -138,3 +138,20 @@ def over_time(run, caption: str, y_title: str, curves: Sequence[tuple[str, np.nd
     """Curves of name, values (time,) and colour over the mesh cycles of a run; charts of this kind are zoomed together."""
     drawn = [Curve(name, run.phase, values, colour) for name, values, colour in curves]
     return Chart(caption, drawn, MESH_CYCLES, y_title, linked=TIME, x_range=run.window, **options)
+
+
+def of_variables(run, caption: str, what: str, unit: str, names: dict[str, str], colours: Sequence[str] = PALETTE, least: float = 0.0, **options) -> list[Chart]:
+    """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any. Variables of both
+    gears have a curve for either. least: the smallest span that is shown; without, a part of the largest value."""
+    curves = []
+    for (name, words), colour in zip(names.items(), colours):
+        if name in run.dataset:
+            values = run.values(name, unit)
+            of_gears = zip(run.dataset["gear"].values, values.T, PALETTE[2:4]) if values.ndim == 2 else [(words, values, colour)]
+            curves += [(str(each), part, own) for each, part, own in of_gears]
+    return [over_time(run, caption, f"{what} ({unit})", curves, least=least or span(curves), **{"height": 240, **options})] if curves else []
+
+
+def span(curves: Sequence[tuple[str, np.ndarray, str]]) -> float:
+    """Smallest span that an axis shows of curves, so that round-off fills no chart: a part of their largest value; 1 for nothing but zeros."""
+    return LEAST_SHARE * max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves) or 1.0

@@ -1,45 +1,121 @@
-"""Draws charts by matplotlib: below each other as the picture of a run, or alone as a still image in a page."""
+"""Draws charts by matplotlib: below each other as the picture of a run, or alone as a still image in a page.
+
+Panels, ticks and labels are placed here, by numbers: matplotlib's own layouts and ticks take most of the time of a picture. Lengths are in inches.
+"""
 
 from __future__ import annotations
 
 import io
 import textwrap
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.ticker import NullLocator
 
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, Chart, Curve
-from fenics_gears.show.panels import DARK, styled
+from fenics_gears.show.panels import DARK, GRID, styled
 from fenics_gears.show.thinning import thinned
+from fenics_gears.show.ticks import ticks, written
 
-DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6)), "dashdot": (0, (6, 2, 1, 2))}
-# Points; of a legend's row, of a letter in it, and of what an entry has besides letters.
-LEGEND_ROW, LEGEND_LETTER, LEGEND_HANDLE = 19.0, 6.6, 40.0
-FLAG_ROW = 17.0
-# Inches; letters of a heading's line.
-WIDTH, LETTERS = 10.0, 92
+DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6))}
+WIDTH, GAP = 10.0, 0.12
+# The inside of a panel for each pixel of a chart's height.
+PANEL = 0.0086
+# Heights of a line of the heading and of a title, of a row of a legend and of flags, and of tick labels below an axis.
+HEADING_LINE, LINE, LEGEND_ROW, FLAG_ROW, TICK_ROW = 0.25, 0.22, 0.265, 0.236, 0.33
+# Widths of a letter at a tick, in a flag and in a legend, and of what a legend's entry has besides.
+LETTER, FLAG_LETTER, LEGEND_LETTER, LEGEND_HANDLE = 0.106, 0.092, 0.092, 0.56
+# A tick and the gap to its label; room of an axis' title; half a tick label beyond an axis' end; a colour bar and the room before it.
+TICK, TITLE, HALF_LABEL, BAR, BAR_GAP = 0.05, 0.28, 0.3, 0.2, 0.24
+# Least distance of ticks on an upright and on a level axis.
+APART_UPRIGHT, APART_LEVEL = 0.36, 0.75
+# Letters of a line of heading and titles.
+LETTERS = 92
+BAR_NAME = "colour bar"
 # A still image is 900 points wide: more than these of a curve are not seen in it.
 STILL_POINTS = 1000
 
 
+@dataclass(frozen=True)
+class Panel:
+    """A chart with its title in lines, and whether its first axis is named."""
+
+    chart: Chart
+    title: str = ""
+    named: bool = True
+
+    @property
+    def above(self) -> float:
+        """Height of title and legend."""
+        return GAP + LEGEND_ROW * self.legend_rows + (LINE * (self.title.count("\n") + 1) if self.title else 0.0)
+
+    @property
+    def inside(self) -> float:
+        """Height between the axes' ends."""
+        return PANEL * self.chart.height
+
+    @property
+    def height(self) -> float:
+        """Height of all."""
+        return self.above + self.inside + (TICK_ROW + TITLE) * self.named + GAP
+
+    @property
+    def has_grid(self) -> bool:
+        """Whether lines lead from the ticks across; colours and drawings have none."""
+        return self.chart.field is None and not self.chart.equal
+
+    @property
+    def overhang(self) -> float:
+        """Width of a flag's words beyond the end of the first axis."""
+        first, last = self.chart.x_range or (0.0, 1.0)
+        return max((FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first) for flag in self.chart.flags), default=0.0)
+
+    @property
+    def legend_columns(self) -> int:
+        """Names beside each other; as wide as the widest where they are not all in one row."""
+        widths = [LEGEND_HANDLE + LEGEND_LETTER * len(curve.name) for curve in self.chart.curves if curve.listed]
+        return len(widths) if sum(widths) <= 0.82 * WIDTH else max(1, int(0.82 * WIDTH / max(widths)))
+
+    @property
+    def legend_rows(self) -> int:
+        """Rows of these; none without a legend."""
+        return -(-sum(curve.listed for curve in self.chart.curves) // self.legend_columns) if self.chart.has_legend else 0
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Ticks of an axis of `axes`: places (n,) on it and their labels; the axis' title."""
+
+    axes: Axes
+    places: np.ndarray
+    labels: Sequence[str]
+    title: str
+
+    @property
+    def label_width(self) -> float:
+        """Room of ticks and labels beside an upright axis."""
+        return 2 * TICK + LETTER * max(map(len, self.labels), default=0)
+
+    @property
+    def width(self) -> float:
+        """Room that an upright axis takes, with the colour bar that it may be of."""
+        return self.label_width + TITLE + (BAR_GAP + BAR if self.axes.get_label() == BAR_NAME else 0.0)
+
+
 @styled
 def picture(heading: str, charts: Sequence[Chart], colour: str = DARK) -> Figure:
-    """Charts below each other under a heading."""
-    heights = [chart.height / 100.0 for chart in charts]
-    figure = Figure(figsize=(WIDTH, 1.4 + sum(heights)), layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
-    every = figure.subplots(len(charts), squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
-    for place, (axes, chart) in enumerate(zip(every, charts)):
-        draw(axes, chart, chart.caption)
-        if place + 1 < len(charts) and charts[place + 1].x_title == chart.x_title:
-            axes.set_xlabel("")
+    """Charts below each other under a heading; neighbours of the same first axis have its name once."""
+    following = [chart.x_title for chart in charts[1:]] + [None]
+    panels = [Panel(chart, "\n".join(textwrap.wrap(chart.caption, LETTERS)), chart.x_title != below) for chart, below in zip(charts, following)]
+    figure = _figure(panels, HEADING_LINE * (heading.count("\n") + 1) + GAP)
     # A title may hold dollar signs that are no formula.
-    figure.suptitle(heading, x=0.012, ha="left", fontsize=14, color=colour, parse_math=False)
+    figure.suptitle(heading, x=0.012, y=1.0 - GAP / figure.get_figheight(), ha="left", va="top", fontsize=14, color=colour, parse_math=False)
     return figure
 
 
@@ -48,33 +124,107 @@ def still(chart: Chart) -> bytes:
     """A chart alone as SVG, without its caption and note."""
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-    figure = Figure(figsize=(WIDTH, chart.height / 96.0 + 0.3), layout="constrained")
-    draw(figure.subplots(), chart)
     content = io.BytesIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "fenics_gears", "path.simplify_threshold": 0.3}):
-        FigureCanvasSVG(figure)
-        figure.savefig(content, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
+        FigureCanvasSVG(_figure([Panel(chart)])).print_svg(content, metadata={"Date": None, "Creator": None})
     return content.getvalue()
 
 
-def draw(axes: Axes, chart: Chart, title: str = "") -> None:
-    """One chart, its legend above it where no curve can be, its title above that."""
-    if chart.field is not None:
-        _draw_field(axes, chart)
+def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
+    """Panels below each other, their axes' ends in line, below the heading's height."""
+    height = heading + sum(panel.height for panel in panels)
+    figure, bottom, every = Figure(figsize=(WIDTH, height)), height - heading, []
+    with matplotlib.rc_context({"axes.grid": False}):
+        for panel in panels:
+            every.append(figure.add_axes((0.1, (bottom - panel.above - panel.inside) / height, 0.8, panel.inside / height)))
+            bottom -= panel.height
+        scales = [_draw(axes, panel) for axes, panel in zip(every, panels)]
+    left = GAP + max(own.width for own, *_ in scales)
+    right = WIDTH - max([HALF_LABEL, *(panel.overhang for panel in panels), *(GAP + sum(each.width for each in beside) for _, *beside in scales if beside)])
+    for axes, panel, (own, *beside) in zip(every, panels, scales):
+        _, bottom, _, high = axes.get_position().bounds
+        axes.set_position((left / WIDTH, bottom, (right - left) / WIDTH, high))
+        axes.apply_aspect()
+        _draw_level(axes, panel, right - left)
+        _draw_upright(own, -1, left - GAP)
+        if panel.has_grid:
+            _draw_lines(axes, [((0.0, place), (1.0, place)) for place in own.places], axes.get_yaxis_transform(), GRID)
+        edge = right
+        for scale in beside:
+            if scale.axes is not axes:
+                scale.axes.set_position(((edge + BAR_GAP) / WIDTH, bottom, BAR / WIDTH, high))
+            _draw_upright(scale, 1, scale.label_width + TITLE)
+            edge += scale.width
+    return figure
+
+
+def _draw(axes: Axes, panel: Panel) -> list[Scale]:
+    """A chart, its legend above it where no curve can be, its title above that; the upright scales, the chart's own first."""
+    chart = panel.chart
+    bars = [_draw_field(axes, panel)] if chart.field is not None else []
     for curve in chart.curves:
         _draw_curve(axes, curve, chart)
-    axes.set_xlabel(chart.x_title)
-    axes.set_ylabel(chart.y_title)
-    _scale(axes, chart)
-    axes.set_title("\n".join(textwrap.wrap(title, LETTERS)), pad=8.0 + _legend(axes, chart), parse_math=False)
-    if chart.second is not None:
-        second = chart.second
-        right = axes.secondary_yaxis(
-            "right", functions=(lambda y: second.offset + second.factor * y, lambda y: (y - second.offset) / second.factor)
-        )
-        right.set_ylabel(second.title)
+    _set_ends(axes, chart)
+    axes.set_xlabel(chart.x_title if panel.named else "")
+    # A title whose height is given is not moved out of the way of others, which takes long to find out.
+    axes.set_title(panel.title, y=1.0, pad=72.0 * (0.6 * GAP + LEGEND_ROW * panel.legend_rows), parse_math=False)
+    if chart.has_legend:
+        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=panel.legend_columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4, labelspacing=0.25)
     if chart.flags:
-        _draw_flags(axes, chart)
+        _draw_flags(axes, panel)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(NullLocator())
+        axis.set_minor_locator(NullLocator())
+    ends, logarithmic = np.array(axes.get_ylim()), "y" in chart.logarithmic
+    places = ticks(ends, panel.inside / APART_UPRIGHT, logarithmic)
+    own = Scale(axes, places, written(places, logarithmic), chart.y_title)
+    if chart.second is None:
+        return [own, *bars]
+    factor, offset = chart.second.factor, chart.second.offset
+    places = ticks(offset + factor * ends, panel.inside / APART_UPRIGHT)
+    return [own, Scale(axes, (places - offset) / factor, written(places), chart.second.title), *bars]
+
+
+def _set_ends(axes: Axes, chart: Chart) -> None:
+    for name in chart.logarithmic:
+        getattr(axes, f"set_{name}scale")("log")
+    if chart.equal:
+        axes.set_aspect("equal", adjustable="datalim")
+    if chart.x_range is not None:
+        axes.set_xlim(*chart.x_range)
+    if chart.limits is not None:
+        axes.set_ylim(*chart.limits)
+
+
+def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
+    """Grid and ticks of the first axis; its labels where it is named."""
+    chart = panel.chart
+    labels = list(dict.fromkeys(str(each) for curve in chart.curves if np.asarray(curve.x).dtype.kind not in "fiu" for each in curve.x))
+    logarithmic = "x" in chart.logarithmic
+    places = np.arange(len(labels)) if labels else ticks(axes.get_xlim(), width / APART_LEVEL, logarithmic)
+    across = axes.get_xaxis_transform()
+    if panel.has_grid:
+        _draw_lines(axes, [((place, 0.0), (place, 1.0)) for place in places], across, GRID)
+    _draw_lines(axes, [((place, 0.0), (place, -TICK / panel.inside)) for place in places], across)
+    for place, label in zip(places, labels or written(places, logarithmic)) if panel.named else ():
+        axes.text(place, -2.0 * TICK / panel.inside, label, transform=across, ha="center", va="top", parse_math=False)
+    axes.xaxis.set_label_coords(0.5, -TICK_ROW / panel.inside)
+
+
+def _draw_upright(scale: Scale, side: int, room: float) -> None:
+    """Ticks of an upright axis with labels on its left (-1) or right (1) side, and its title at the end of the room that there is."""
+    axes, end = scale.axes, 0.5 + 0.5 * side
+    inch, across = side / (axes.get_position().width * WIDTH), axes.get_yaxis_transform()
+    _draw_lines(axes, [((end, place), (end + TICK * inch, place)) for place in scale.places], across)
+    for place, label in zip(scale.places, scale.labels):
+        axes.text(end + 2.0 * TICK * inch, place, label, transform=across, ha="left" if side > 0 else "right", va="center_baseline")
+    axes.text(end + room * inch, 0.5, scale.title, transform=axes.transAxes, rotation="vertical", ha="right" if side > 0 else "left", va="center")
+
+
+def _draw_lines(axes: Axes, ends: list, transform, colour: str = DARK) -> None:
+    """Lines of a grid or ticks, below the curves; these do not set an axis' ends."""
+    lines = LineCollection(ends, colors=colour, linewidths=0.8, transform=transform, clip_on=False, zorder=0.5)
+    axes.add_collection(lines, autolim=False)
 
 
 def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
@@ -86,7 +236,10 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
             axes.plot(x, edge, color=curve.colour, linewidth=curve.width)
         return
     if curve.mode == BARS:
-        axes.bar(x, y, curve.width, color=curve.colour, label=label)
+        # Thousands of bars in one artist.
+        left, right, foot = x - 0.5 * curve.width, x + 0.5 * curve.width, np.zeros_like(y)
+        corners = np.stack([left, foot, left, y, right, y, right, foot], axis=1).reshape(-1, 4, 2)
+        axes.add_collection(PolyCollection(corners, facecolors=curve.colour, edgecolors="none", label=label))
         return
     if chart.x_range is not None and not chart.equal:
         near = (x >= chart.x_range[0] - 1e-9) & (x <= chart.x_range[1] + 1e-9)
@@ -104,72 +257,33 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
         up, right = 1 if "top" in curve.beside else -1, 1 if "right" in curve.beside else -1
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
-            ha="left" if right > 0 else "right", va="bottom" if up > 0 else "top",
+            ha="left" if right > 0 else "right", va="bottom" if up > 0 else "top", bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
         )  # fmt: skip
 
 
-def _draw_field(axes: Axes, chart: Chart) -> None:
-    field = chart.field
+def _draw_field(axes: Axes, panel: Panel) -> Scale:
+    """Cells in colour; the scale of their colour bar."""
+    field = panel.chart.field
     colours = LinearSegmentedColormap.from_list("field", list(field.colours))
     beyond = np.nanmax(field.values, initial=0.0) > field.limit * (1 + 1e-9)
     lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
     drawn = axes.pcolormesh(field.x, field.y, np.ma.masked_invalid(field.values), cmap=colours, vmin=lowest, vmax=field.limit, rasterized=True)
-    bar = axes.figure.colorbar(drawn, ax=axes, extend="max" if beyond else "neither", pad=0.02, fraction=0.05)
-    bar.set_label(field.title)
-    bar.outline.set_visible(False)
+    beside = axes.figure.add_axes((0.9, 0.1, 0.02, 0.8), label=BAR_NAME)
+    axes.figure.colorbar(drawn, cax=beside, extend="max" if beyond else "neither", ticks=NullLocator()).outline.set_visible(False)
+    places = ticks((lowest, field.limit), panel.inside / APART_UPRIGHT)
+    return Scale(beside, places, written(places), field.title)
 
 
-def _scale(axes: Axes, chart: Chart) -> None:
-    """Ranges, divisions and tick labels of both axes."""
-    for name, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
-        if name in chart.logarithmic:
-            getattr(axes, f"set_{name}scale")("log")
-            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    if not chart.logarithmic and not chart.equal and all(np.asarray(curve.x).dtype.kind in "fiu" for curve in chart.curves):
-        axes.xaxis.set_major_locator(MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]))
-    if chart.equal:
-        axes.set_aspect("equal", adjustable="datalim")
-    if chart.x_range is not None:
-        axes.set_xlim(*chart.x_range)
-    if chart.limits is not None:
-        axes.set_ylim(*chart.limits)
-
-
-def _legend(axes: Axes, chart: Chart) -> float:
-    """The legend's height, points."""
-    if not chart.has_legend:
-        return 0.0
-    names = [curve.name for curve in chart.curves if curve.listed]
-    entries, room = [LEGEND_HANDLE + LEGEND_LETTER * len(name) for name in names], 0.82 * axes.figure.get_figwidth() * 72.0
-    columns = len(names) if sum(entries) <= room else max(1, int(room / max(entries)))
-    axes.legend(
-        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4, labelspacing=0.25
-    )
-    return LEGEND_ROW * -(-len(names) // columns)
-
-
-def _draw_flags(axes: Axes, chart: Chart) -> None:
+def _draw_flags(axes: Axes, panel: Panel) -> None:
     """Words above all curves, each right of the line that leads down to its place."""
-    rows = chart.flag_rows
-    height = axes.figure.get_figheight() * 72.0 * 0.6
+    chart, rows = panel.chart, panel.chart.flag_rows
     low, high = axes.get_ylim()
-    room = 1.0 - FLAG_ROW * (max(rows) + 1) / height
+    room = 1.0 - FLAG_ROW * (max(rows) + 1) / panel.inside
     stretched = "y" in chart.logarithmic
     axes.set_ylim(low, low * (high / low) ** (1.0 / room) if stretched else low + (high - low) / room)
     for flag, row in zip(chart.flags, rows):
-        top = 1.0 - FLAG_ROW * (max(rows) - row + 1) / height
-        start = (flag.x, max(flag.y, axes.get_ylim()[0]))
+        top = 1.0 - FLAG_ROW * (max(rows) - row + 1) / panel.inside
         axes.annotate(
-            "", start, xytext=(flag.x, top), textcoords=("data", "axes fraction"), arrowprops={"arrowstyle": "-", "color": flag.colour, "linewidth": 0.8},
+            f" {flag.words}", (flag.x, max(flag.y, low)), xytext=(flag.x, top), textcoords=("data", "axes fraction"), fontsize=11, color=flag.colour,
+            va="bottom", arrowprops={"arrowstyle": "-", "color": flag.colour, "linewidth": 0.8, "relpos": (0.0, 0.0), "shrinkA": 0.0, "shrinkB": 0.0},
         )  # fmt: skip
-        axes.annotate(
-            flag.words, (flag.x, top), xycoords=("data", "axes fraction"), xytext=(3, 0), textcoords="offset points", fontsize=11,
-            color=flag.colour, va="bottom",
-        )  # fmt: skip
-
-
-def heading(subject: str, title: str, *more: str) -> str:
-    """Subject and title in lines that fit a picture's width."""
-    title = " ".join(title.split())
-    first = textwrap.shorten(f"{subject}: {title}" if title else subject, LETTERS, placeholder=" …")
-    return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])

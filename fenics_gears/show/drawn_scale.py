@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.path import Path
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import depth_first_order
 from scipy.spatial import cKDTree
 
 from fenics_gears.show.stress_grid import largest_movement, shown_points
@@ -44,24 +46,14 @@ def overlap(mesh: GearsInMesh, scale: float) -> float:
 def outer_loop(mesh: GearsInMesh, gear: int) -> np.ndarray:
     """Nodes along a gear's outline without the bore, by the angle at which they are reached going round it."""
     body = mesh.gears[gear]
-    follows = {}
-    for first, second in body.outline.tolist():
-        follows.setdefault(first, []).append(second)
-        follows.setdefault(second, []).append(first)
+    nodes, count = np.unique(body.outline), len(body.points)
     # Nodes at the ends of sectors are there twice, once for either sector.
-    twins = cKDTree(body.points[list(follows)]).query_pairs(1e-7 * mesh.pair.pinion.module)
-    names = list(follows)
-    for one, other in twins:
-        follows[names[one]].append(names[other])
-        follows[names[other]].append(names[one])
-    start = max(follows, key=lambda node: float(np.sum((body.points[node] - body.centre) ** 2)))
-    loop, last, node = [start], None, start
-    while True:
-        ahead = [each for each in follows[node] if each != last]
-        last, node = node, ahead[0]
-        if node == start or len(loop) > len(follows):
-            return np.array(loop)
-        loop.append(node)
+    twins = nodes[cKDTree(body.points[nodes]).query_pairs(1e-7 * mesh.pair.pinion.module, output_type="ndarray")]
+    first, second = np.vstack([body.outline, twins]).T
+    sides = csr_matrix((np.ones(len(first)), (first, second)), shape=(count, count))
+    start = nodes[np.argmax(np.linalg.norm(body.points[nodes] - body.centre, axis=1))]
+    # Each node has two neighbours, so that going ever deeper goes round.
+    return depth_first_order(sides, start, directed=False, return_predecessors=False)
 
 
 def _distance_to_line(points: np.ndarray, loop: np.ndarray) -> np.ndarray:

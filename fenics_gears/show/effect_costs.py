@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.show.run_scene import conditions
+from fenics_gears.show.run import conditions
 from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
 from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_percent, own_remarks
@@ -96,10 +96,7 @@ def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 def _heading(figure: Figure, report: EffectReport) -> None:
     title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
-    figure.suptitle(
-        f"What the effects cost and change: {title}\n{conditions(report.scene)}",
-        x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False,
-    )
+    figure.suptitle(f"What the effects cost and change: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False)
     colours = f"green: {WORDS[ALONE]}; orange: {WORDS[LEFT_OUT]}; dotted line: bare, dashed: all"
     entries = ["T$_{EPP}$: transmission error, peak to peak, at the wheel's base circle", "grey whiskers: fastest and slowest round"]
     if any(own_remarks(report, row) for row in report.rows):

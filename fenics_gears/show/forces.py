@@ -6,25 +6,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fenics_gears.show.chart import Chart, over_time
+from fenics_gears.show.chart import Chart, of_variables, over_time, span
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.run import Run
 
 COAST_NOTE = "Coast flanks are drawn downwards."
 SHARES_UNKNOWN = "Where several rigid pairs touch at once their shares are not determined."
-# Smallest span that an axis shows, in parts of the largest value.
-LEAST_SHARE = 0.02
-
 
 def force_charts(run: Run) -> list[Chart]:
     """All forces that the result has."""
-    return [*mesh_forces(run), *pair_forces(run), *_reactions(run), *_openings(run)]
-
-
-def least(values: np.ndarray) -> float:
-    """Smallest span that an axis shows of values of this size, so that round-off fills no chart; 1 for nothing but zeros."""
-    finite = np.abs(values[np.isfinite(values)])
-    return LEAST_SHARE * float(finite.max(initial=0.0)) or 1.0
+    openings = of_variables(
+        run, "Smallest distance of the flanks", "Distance", "µm", {"drive_flank_opening": "drive flanks", "coast_flank_opening": "coast flanks"}, least=0.1, height=300
+    )
+    return [*mesh_forces(run), *pair_forces(run), *_reactions(run), *openings]
 
 
 def mesh_forces(run: Run) -> list[Chart]:
@@ -36,10 +30,8 @@ def mesh_forces(run: Run) -> list[Chart]:
     if "coast_normal_force" in run.dataset:
         curves = [("drive flanks", drive, PALETTE[0]), ("coast flanks (drawn downwards)", -run.values("coast_normal_force", "N"), PALETTE[1])]
         note = COAST_NOTE
-    charts = [_of_size(run, "Normal force of the mesh", "Normal force (N)", curves, note=note)]
-    names = {"friction_force": "drive flanks", "coast_friction_force": "coast flanks"}
-    rubbing = [(words, run.values(name, "N"), colour) for (name, words), colour in zip(names.items(), PALETTE) if name in run.dataset]
-    return charts + [_of_size(run, "Friction force of the mesh", "Friction force (N)", rubbing)] if rubbing else charts
+    normal = over_time(run, "Normal force of the mesh", "Normal force (N)", curves, least=span(curves), height=240, note=note)
+    return [normal, *of_variables(run, "Friction force of the mesh", "Friction force", "N", {"friction_force": "drive flanks", "coast_friction_force": "coast flanks"})]
 
 
 def pair_forces(run: Run) -> Iterator[Chart]:
@@ -56,37 +48,15 @@ def pair_forces(run: Run) -> Iterator[Chart]:
             # First, so that the pairs are drawn upon it.
             curves.insert(0, ("all drive flanks" if coast else "all pairs", run.values("normal_force", "N"), DARK))
         if curves:
-            yield _of_size(run, caption, "Force (N)", curves, note=note, height=380)
+            yield over_time(run, caption, "Force (N)", curves, least=span(curves), note=note, height=380)
 
 
 def shaft_torques(run: Run) -> list[Chart]:
     """Torque of either gear on its shaft."""
-    if "reaction_couple" not in run.dataset:
-        return []
-    return [of_gears(run, "reaction_couple", "N m", "Torque of either gear on its shaft", "Torque")]
+    return of_variables(run, "Torque of either gear on its shaft", "Torque", "N m", {"reaction_couple": ""})
 
 
 def _reactions(run: Run) -> list[Chart]:
-    charts = []
-    for name, words in {"reaction_x": "along", "reaction_y": "off"}.items():
-        if name in run.dataset and (words == "along" or "friction_force" in run.dataset):
-            charts.append(of_gears(run, name, "N", f"Reaction of either gear on its shaft {words} the line of action", "Force"))
-    return charts + shaft_torques(run)
-
-
-def _openings(run: Run) -> list[Chart]:
-    names = {"drive_flank_opening": "drive flanks", "coast_flank_opening": "coast flanks"}
-    curves = [(words, run.values(name, "µm"), colour) for (name, words), colour in zip(names.items(), PALETTE) if name in run.dataset]
-    return [over_time(run, "Smallest distance of the flanks", "Distance (µm)", curves, least=0.1)] if curves else []
-
-
-def of_gears(run: Run, name: str, unit: str, caption: str, what: str, smallest: float = 0.0) -> Chart:
-    """A variable of both gears."""
-    values = run.values(name, unit)
-    curves = [(str(gear), each, colour) for gear, each, colour in zip(run.dataset["gear"].values, values.T, PALETTE[2:4])]
-    return over_time(run, caption, f"{what} ({unit})", curves, least=smallest or least(values), height=240)
-
-
-def _of_size(run: Run, caption: str, y_title: str, curves: list, height: int = 240, **options) -> Chart:
-    together = np.concatenate([values for _, values, _ in curves])
-    return over_time(run, caption, y_title, curves, least=least(together), height=height, **options)
+    sides = {"reaction_x": "along", "reaction_y": "off"} if "friction_force" in run.dataset else {"reaction_x": "along"}
+    charts = [of_variables(run, f"Reaction of either gear on its shaft {words} the line of action", "Force", "N", {name: ""}) for name, words in sides.items()]
+    return [*sum(charts, []), *shaft_torques(run)]

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from fenics_gears.show.chart import BAND, Chart, Curve, Second, over_time
-from fenics_gears.show.forces import of_gears
+from fenics_gears.show.chart import BAND, LEAST_SHARE, Chart, Curve, Second, of_variables, over_time
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.run import Run
 from fenics_gears.show.units import factor
 
 # Smallest spans shown. Contact is solved to 1e-4 um and to 1e-6 of the transmitted force; what is smaller is no curve.
-LEAST_LENGTH, LEAST_SHARE, LEAST_ANGLE = 0.1, 0.02, 1e-3  # um, of the largest value, urad
+LEAST_LENGTH, LEAST_ANGLE = 0.1, 1e-3  # um, urad
 ERROR = "Transmission error"
 
 
 def motion_charts(run: Run) -> list[Chart]:
     """All motions that the result has."""
-    return [transmission_error(run), *error_by_cycle(run), *_shafts(run), *_varying(run)]
+    return [transmission_error(run), *error_by_cycle(run), *_shafts(run)]
 
 
 def error_values(run: Run) -> tuple[np.ndarray, str]:
@@ -73,23 +74,14 @@ def wheels_shaft(run: Run) -> list[Chart]:
 
 
 def _shafts(run: Run) -> list[Chart]:
-    along = {"centre_x": "along the line of action", "centre_y": "off the line of action"}
-    if "friction_force" not in run.dataset:
-        del along["centre_y"]
-    charts = [of_gears(run, name, "µm", f"Displacement of the gears' centres {words}", "Displacement", LEAST_LENGTH) for name, words in along.items() if name in run.dataset]
-    if "rotation" in run.dataset:
-        charts.append(of_gears(run, "rotation", "µrad", "Rotation of the hubs from their nominal motion", "Rotation", LEAST_ANGLE))
-    return charts
-
-
-def _varying(run: Run) -> list[Chart]:
-    """The output shaft's end; load and speed, where they vary."""
-    kinds = {
-        "shaft_end_rotation": ("µrad", "Rotation of the output shaft's end", "Rotation", LEAST_ANGLE),
-        "wheel_couple": ("N m", "Torque on the wheel's shaft", "Torque", 1e-6),
-        "mesh_frequency": ("Hz", "Mesh frequency", "Mesh frequency", 0.0),
-    }
+    """Either gear, the output shaft's end; load and speed, where they vary."""
+    caption, sides = "Displacement of the gears' centres", {"centre_x": "along", "centre_y": "off"} if "friction_force" in run.dataset else {"centre_x": "along"}
+    centres = [of_variables(run, f"{caption} {words} the line of action", "Displacement", "µm", {name: ""}, least=LEAST_LENGTH) for name, words in sides.items()]
+    alone: dict[str, Any] = {"colours": PALETTE[3:], "height": 300}
     return [
-        over_time(run, caption, f"{what} ({unit})", [(what.lower(), run.values(name, unit), PALETTE[3])], least=least)
-        for name, (unit, caption, what, least) in kinds.items() if name in run.dataset
-    ]  # fmt: skip
+        *sum(centres, []),
+        *of_variables(run, "Rotation of the hubs from their nominal motion", "Rotation", "µrad", {"rotation": ""}, least=LEAST_ANGLE),
+        *of_variables(run, "Rotation of the output shaft's end", "Rotation", "µrad", {"shaft_end_rotation": "rotation"}, least=LEAST_ANGLE, **alone),
+        *of_variables(run, "Torque on the wheel's shaft", "Torque", "N m", {"wheel_couple": "torque"}, least=1e-6, **alone),
+        *of_variables(run, "Mesh frequency", "Mesh frequency", "Hz", {"mesh_frequency": "mesh frequency"}, **alone),
+    ]

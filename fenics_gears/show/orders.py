@@ -23,7 +23,7 @@ MESH_ORDERS_SHOWN, DECADES, LEAST_AMPLITUDE = 4.5, 3, 1e-4
 LEAST_PART = 1e-5
 # Of the largest force; what varies by less is the solver's tolerance.
 LEAST_VARIATION = 1e-6
-ERROR, FORCE, BETWEEN = "Transmission error", "Mesh force", "between mesh orders"
+ERROR, FORCE, BETWEEN, OF_ERROR = "Transmission error", "Mesh force", "between mesh orders", "Orders of the transmission error"
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def order_spectrum(run: Run) -> Chart | None:
     top = max(float(lines.amplitudes[lines.orders <= highest].max()), 10.0 * LEAST_AMPLITUDE)
     bottom = max(LEAST_AMPLITUDE, top * 10.0**-DECADES)
     seen = (lines.orders <= highest) & (lines.amplitudes > bottom)
-    caption = f"Orders of the transmission error, {run.cycles:.4g} mesh cycles"
+    caption = f"{OF_ERROR}, {run.cycles:.4g} mesh cycles"
     if lines.exact:
         kinds = np.array([origin(order, teeth) for order in lines.orders])
         curves = _by_origin(lines, kinds, seen, 0.004 * highest, 0.0025 * highest)
@@ -101,7 +101,9 @@ def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
     width = min(0.12, 0.8 * spacing)
     sides = ", drive flanks positive, coast flanks negative" if "coast_normal_force" in run.dataset and name == FORCE else ""
     note = f"Amplitudes of the harmonics, without the mean{sides}; {found.record}.{_beyond(lines)}"
-    return Chart(name, _by_origin(lines, found.origins, shown, width, width), "Mesh order (events a mesh cycle)", f"Amplitude ({unit})", note=note, height=320, x_range=(0.0, MESH_ORDERS))
+    return Chart(
+        name, _by_origin(lines, found.origins, shown, width, width), "Mesh order (events a mesh cycle)", f"Amplitude ({unit})", note=note, height=320, x_range=(0.0, MESH_ORDERS)
+    )
 
 
 def spectrum(run: Run, values: np.ndarray) -> Spectrum:
@@ -114,16 +116,12 @@ def spectrum(run: Run, values: np.ndarray) -> Spectrum:
         if found is not None and found.exact:
             periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)
             record = f"of {periods} hunting tooth period{'s' if periods > 1 else ''} ({lcm(*teeth)} mesh cycles each)"
-            return Spectrum(
-                replace(found, orders=found.orders / teeth[0]), np.array([origin(order, teeth) for order in found.orders]), record
-            )
+            return Spectrum(replace(found, orders=found.orders / teeth[0]), np.array([origin(order, teeth) for order in found.orders]), record)
     lines = order_lines(values, run.cycles, (1, 1))
     origins = np.where(np.abs(lines.orders - np.round(lines.orders)) < 1e-6, MESH, BETWEEN)
     whole = int(run.cycles * (1 + 1e-9))
     words = (
-        f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}"
-        if lines.exact
-        else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
+        f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}" if lines.exact else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
     )
     return Spectrum(lines, origins, words)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 # Okabe and Ito's palette without its yellow, which is too pale for a line: told apart with any colour vision.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
-DARK, GREY = "#222222", "#8C8C8C"
+DARK, GREY, GRID = "#222222", "#8C8C8C", "#E3E3E3"
 WARNING = "#B00020"
 DOTS_PER_INCH = 150
 
@@ -24,7 +24,7 @@ _STYLE = {
     "axes.formatter.useoffset": False,
     "axes.grid": True,
     "axes.axisbelow": True,
-    "grid.color": "#E3E3E3",
+    "grid.color": GRID,
     "grid.linewidth": 0.8,
     "lines.linewidth": 1.8,
     "legend.frameon": False,

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import struct
+import textwrap
+import zlib
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
 
+import numpy as np
 import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -14,14 +18,13 @@ from matplotlib.figure import Figure
 from fenics_gears.errors import ComputationError
 from fenics_gears.show import PICTURE_FILES
 from fenics_gears.show.chart import Chart
-from fenics_gears.show.drawing import heading, picture
+from fenics_gears.show.drawing import LETTERS, picture
 from fenics_gears.show.forces import mesh_forces, pair_forces, shaft_torques
 from fenics_gears.show.motion import error_by_cycle, error_values, transmission_error, wheels_shaft
-from fenics_gears.show.orders import order_spectrum
+from fenics_gears.show.orders import OF_ERROR, order_spectrum
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
 from fenics_gears.show.pressure import pressure_maps
-from fenics_gears.show.run import Run
-from fenics_gears.show.run_scene import conditions
+from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.output import written_aside
 
 
@@ -37,7 +40,9 @@ def _shares(run: Run) -> list[Chart]:
 
 
 def _orders(run: Run) -> Iterable[Chart]:
-    return filter(None, [order_spectrum(run)])
+    chart = order_spectrum(run)
+    # The heading names the subject.
+    return [replace(chart, caption=chart.caption.removeprefix(f"{OF_ERROR}, "))] if chart is not None else []
 
 
 SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
@@ -45,7 +50,7 @@ SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
     ("Mesh forces", lambda run: [*mesh_forces(run), *shaft_torques(run)]),
     ("Load sharing between tooth pairs", _shares),
     ("Contact pressure on the flanks", pressure_maps),
-    ("Orders of the transmission error", _orders),
+    (OF_ERROR, _orders),
 )
 PICTURES = dict(zip(PICTURE_FILES, SUBJECTS))
 
@@ -74,6 +79,13 @@ def _heading(run: Run, subject: str) -> str:
     if not run.complete:
         more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")
     return heading(subject, str(run.dataset.attrs.get("title", "")), *more)
+
+
+def heading(subject: str, title: str, *more: str) -> str:
+    """Subject and title in lines that fit a picture's width."""
+    title = " ".join(title.split())
+    first = textwrap.shorten(f"{subject}: {title}" if title else subject, LETTERS, placeholder=" …")
+    return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])
 
 
 def _check_steps(run: Run) -> None:
@@ -110,5 +122,22 @@ def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
 @styled
 def save_figure(figure: Figure, path: Path | BinaryIO) -> None:
     """Save a figure as PNG."""
-    FigureCanvasAgg(figure)
-    figure.savefig(path, dpi=DOTS_PER_INCH, metadata={"Software": None})
+    # `savefig` draws twice, once only for the layout.
+    figure.set_dpi(DOTS_PER_INCH)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    content = png(np.asarray(canvas.buffer_rgba()), figure.dpi)
+    path.write_bytes(content) if isinstance(path, Path) else path.write(content)
+
+
+def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
+    """Pixels (height, width, 4) as PNG. Rows are not filtered: of curves on white paper that makes the file no smaller, and takes twice as long."""
+    height, width, _ = pixels.shape
+    rows = np.pad(pixels.reshape(height, -1), ((0, 0), (1, 0)))
+    dots = round(dots_per_inch / 0.0254)
+    parts = {
+        b"IHDR": struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0), b"pHYs": struct.pack(">IIB", dots, dots, 1),
+        b"IDAT": zlib.compress(rows, 1), b"IEND": b"",
+    }  # fmt: skip
+    packed = [struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in parts.items()]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(packed)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, over_time
-from fenics_gears.show.forces import least
-from fenics_gears.show.panels import DARK, PALETTE
+from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
+from fenics_gears.show.panels import DARK
 from fenics_gears.show.run import Run
 from fenics_gears.show.units import factor
 
@@ -15,6 +14,8 @@ EDGE_NOTE = " The pressure at a tip's edge does not converge with the mesh."
 SIDES = {"": "drive flanks", "coast_": "coast flanks"}
 # A tip that enters or leaves contact presses with its edge; these few cells would leave one colour for all others.
 COMMON_SHARE, CLIPPED = 98.0, 1.2  # per cent of the cells that the colours span; times that, from which they end there
+# Relative; cycles that repeat differ by less.
+SAME = 1e-6
 ROWS, MOST_COLUMNS = 260, 640
 # From light to dark in lightness, so that zero lies close to the paper and grey print keeps the order.
 COLOURS = ("#FDE9B8", "#F6A04D", "#D9483B", "#8A1A63", "#2A0A4A")
@@ -29,12 +30,10 @@ def has_pressure(run: Run) -> bool:
 def largest_pressures(run: Run) -> list[Chart]:
     """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with a tip's edge; none of results without them."""
     names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at tips' edges"}
-    curves = [(words, run.values(name, "MPa"), colour) for (name, words), colour in zip(names.items(), PALETTE) if name in run.dataset]
-    curves = [curve for place, curve in enumerate(curves) if place == 0 or curve[1].any()]
-    if not curves:
-        return []
-    note = "Averaged over five contact nodes." + (EDGE_NOTE if len(curves) > 1 else "")
-    return [over_time(run, "Largest contact pressure", "Pressure (MPa)", curves, least=least(curves[0][1]), note=note)]
+    if "largest_edge_pressure" in run.dataset and not run.dataset["largest_edge_pressure"].any():
+        del names["largest_edge_pressure"]
+    note = "Averaged over five contact nodes." + (EDGE_NOTE if names.keys() <= set(run.dataset) and len(names) > 1 else "")
+    return of_variables(run, "Largest contact pressure", "Pressure", "MPa", names, note=note, height=300)
 
 
 def pressure_maps(run: Run) -> list[Chart]:
@@ -51,7 +50,8 @@ def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np
     highest = float(np.nanmax(field.values, initial=0.0))
     caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
     if highest > field.limit * (1 + 1e-9):
-        step = np.unravel_index(np.argmax(pressure), pressure.shape)[0]
+        # Of cycles that repeat, the last.
+        step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]
         caption += f", beyond the colours up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
     curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
     if run.pair is not None:

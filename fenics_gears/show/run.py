@@ -12,11 +12,13 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears.effects import effects_on
+from fenics_gears.errors import GearsError
+from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.results.pairs import lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
-from fenics_gears.show.run_scene import gear_pair_of, scene_of
+from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.units import factor, in_unit
 
 NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
@@ -48,7 +50,10 @@ class Run:
     @cached_property
     def pair(self) -> GearPair | None:
         """The gear pair; None as for the scene."""
-        return gear_pair_of(self.dataset)
+        try:
+            return None if self.scene is None else gear_pair(self.scene.gears)
+        except GearsError:
+            return None
 
     @property
     def steps(self) -> int:
@@ -169,3 +174,22 @@ def _with_ends(there: np.ndarray) -> np.ndarray:
     near[1:] |= there[:-1]
     near[:-1] |= there[1:]
     return near
+
+
+def scene_of(dataset: xr.Dataset) -> Scene | None:
+    """The scene that a result was computed from; None where its text is no scene of this version."""
+    try:
+        return scene_from_text(str(dataset.attrs.get("scene", "")))
+    except GearsError:
+        return None
+
+
+def conditions(scene: Scene) -> str:
+    """Load, speed, friction, modifications, errors and ripple of a scene: what tells apart two pictures of the same gears."""
+    torque = scene.load.wheel_torque * factor("N mm", "N m")
+    ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
+    speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
+    friction = "no friction" if scene.friction is None else f"friction coefficient {scene.friction.coefficient:g}"
+    shapes = "".join(f", {each.section.replace('_', ' ')}" for each in effects_on(scene) if each.removal or each.gaps)
+    ripple = "" if scene.torque_ripple is None else ", torque ripple"
+    return f"{torque:g} N m on the wheel, {speed}, {friction}{shapes}{ripple}"

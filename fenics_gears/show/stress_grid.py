@@ -1,4 +1,4 @@
-"""Two gears in mesh as grids for VTK: coloured bodies seen from the front, and a file that ParaView opens.
+"""Two gears in mesh where they are drawn, and as a file that ParaView opens.
 
 Pictures have the line of centres upright, the pinion above; files have the frame of the line of action.
 """
@@ -50,43 +50,29 @@ def largest_movement(mesh: GearsInMesh) -> float:
     return max(float(np.linalg.norm(shown_points(mesh, gear, 1.0) - shown_points(mesh, gear, 0.0), axis=1).max()) for gear in (0, 1))
 
 
-def surface(points: np.ndarray, cells: np.ndarray, values: np.ndarray):
-    """Plane cells with a value at each node, as pyvista has it."""
-    import pyvista
-
-    faces = np.column_stack([np.full(len(cells), cells.shape[1]), cells]).ravel()
-    mesh = pyvista.PolyData(np.column_stack([points, np.zeros(len(points))]), faces)
-    mesh.point_data["value"] = values
-    return mesh
-
-
-def outline(points: np.ndarray, sides: np.ndarray):
-    """Lines along sides (k, 2), as pyvista has them, before the bodies they bound."""
-    import pyvista
-
-    lines = np.column_stack([np.full(len(sides), 2), sides]).ravel()
-    return pyvista.PolyData(np.column_stack([points, np.ones(len(points))]), lines=lines)
-
-
 def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> None:
     """Both gears' displacement (mm) and stress (MPa) as a .vtu file, in the frame of the line of action.
 
     Its points are the same material points at every stored time; ``precision`` is that of what is written. Raises ComputationError
     without pyvista.
     """
-    points, cells, data = _merged(tuple(in_tooth_order(mesh, gear) for gear in (0, 1)))
-    teeth = [np.repeat(np.arange(gear.teeth), len(body.points) // gear.teeth) for gear, body in zip((mesh.pair.pinion, mesh.pair.wheel), mesh.gears)]
-    data = {name: values.astype(precision) for name, values in data.items()}
-    data["gear"] = np.repeat([1, 2], [len(body.points) for body in mesh.gears]).astype(np.int32)
-    data["tooth"] = np.concatenate(teeth).astype(np.int32)
-    points = np.column_stack([points, np.zeros(len(points))]).astype(precision)
     try:
         import pyvista
     except ImportError as error:
         raise ComputationError("a .vtu file needs pyvista, which is not installed") from error
-    corners = cells.shape[1]
-    flat = np.column_stack([np.full(len(cells), corners), cells]).ravel()
-    grid = pyvista.UnstructuredGrid(flat, np.full(len(cells), VTK_CELL[corners], dtype=np.uint8), points)
+    bodies, gears = [in_tooth_order(mesh, gear) for gear in (0, 1)], (mesh.pair.pinion, mesh.pair.wheel)
+
+    def in_space(name: str) -> np.ndarray:
+        plane = np.vstack([getattr(body, name) for body in bodies])
+        return np.column_stack([plane, np.zeros(len(plane))]).astype(precision)
+
+    cells = np.vstack([bodies[0].cells, bodies[1].cells + len(bodies[0].points)])
+    grid = pyvista.UnstructuredGrid({VTK_CELL[cells.shape[1]]: cells}, in_space("points"))
+    data = {"displacement": in_space("displacement"), "elastic_displacement": in_space("elastic")}
+    data |= dict(zip(("stress_xx", "stress_yy", "stress_xy", "stress_zz"), np.vstack([body.stress for body in bodies]).T.astype(precision)))
+    data["von_mises_stress"] = np.concatenate([body.von_mises for body in bodies]).astype(precision)
+    data["gear"] = np.repeat([1, 2], [len(body.points) for body in bodies]).astype(np.int32)
+    data["tooth"] = np.concatenate([np.repeat(np.arange(gear.teeth), len(body.points) // gear.teeth) for gear, body in zip(gears, bodies)]).astype(np.int32)
     for name, values in data.items():
         grid.point_data[name] = values
     grid.save(str(path))
@@ -106,25 +92,3 @@ def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
         return values.reshape(teeth, -1, values.shape[1])[sectors].reshape(values.shape)
 
     return replace(body, **{name: ordered(getattr(body, name)) for name in ("points", "elastic", "displacement", "stress")})
-
-
-def _merged(gears: tuple[GearInSpace, ...]) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-    """Points, cells and named values at the points of several bodies, one after the other."""
-    first = np.cumsum([0] + [len(body.points) for body in gears])[:-1]
-    points = np.vstack([body.points for body in gears])
-    cells = np.vstack([body.cells + start for body, start in zip(gears, first)])
-
-    def in_space(name: str) -> np.ndarray:
-        plane = np.vstack([getattr(body, name) for body in gears])
-        return np.column_stack([plane, np.zeros(len(plane))])
-
-    stress = np.vstack([body.stress for body in gears])
-    return points, cells, {
-        "displacement": in_space("displacement"),
-        "elastic_displacement": in_space("elastic"),
-        "stress_xx": stress[:, 0],
-        "stress_yy": stress[:, 1],
-        "stress_xy": stress[:, 2],
-        "stress_zz": stress[:, 3],
-        "von_mises_stress": np.concatenate([body.von_mises for body in gears]),
-    }

@@ -1,4 +1,4 @@
-"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress: VTK draws the bodies, matplotlib the rest."""
+"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress."""
 
 from __future__ import annotations
 
@@ -12,24 +12,26 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
+from matplotlib.collections import TriMesh
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
+from matplotlib.tri import Triangulation
 
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
-from fenics_gears.show.run_scene import conditions, scene_of
-from fenics_gears.show.stress_grid import outline, shown_points, surface, upright
+from fenics_gears.show.run import conditions, scene_of
+from fenics_gears.show.stress_grid import shown_points, upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
 COLOURS = LinearSegmentedColormap.from_list("stress", [
     (0.0, "#F1F3F5"), (0.1, "#B4D0E8"), (0.24, "#539FD0"), (0.4, "#35A388"), (0.58, "#F0D24A"), (0.79, "#EB7A2F"), (1.0, "#A90E18"),
 ])  # fmt: skip
-# Bodies are drawn so many times finer than shown, and averaged: anti-aliasing that every VTK has.
-FINER = 2
+# Triangles of a gear in a panel, at least: with fewer their edges are seen in the colours.
+LEAST_TRIANGLES = 20_000
 # The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the roots.
 ROOTS_IN_COLOURS = 3.0
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
@@ -75,9 +77,7 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
 
 
 @styled
-def stress_picture(
-    mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0, beyond: bool = False
-) -> Figure:
+def stress_picture(mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0, beyond: bool = False) -> Figure:
     """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
 
     scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether this mesh exceeds it
@@ -142,14 +142,21 @@ def fitted(view: View, width: float, height: float) -> View:
 
 
 def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float, limit: float) -> Axes:
-    axes = figure.add_axes(place)
+    axes = figure.add_axes(place, xticks=[], yticks=[])
     view = fitted(wanted, place[2] * 16.0, place[3] * 9.0)
-    pixels = np.round(np.array([place[2] * 16.0, place[3] * 9.0]) * figure.dpi).astype(int)
-    axes.imshow(rendered(mesh, view, pixels, scale, limit), extent=view.extent, interpolation="antialiased", aspect="auto")
+    for gear, body in enumerate(mesh.gears):
+        points = shown_points(mesh, gear, scale)
+        cells, sides = (_in_view(points, part, view) for part in (body.cells, body.outline))
+        if len(cells):
+            x, y, stress = _triangles(points, cells, body.von_mises).reshape(-1, 3).T
+            # `tripcolor` does the same and takes three times as long, for the edges of all triangles.
+            triangles = Triangulation(x, y, np.arange(len(x)).reshape(-1, 3))
+            axes.add_collection(TriMesh(triangles, array=stress, cmap=COLOURS, norm=Normalize(0.0, limit)), autolim=False)
+            # Sides apart from each other in one line.
+            x, y = np.insert(points[sides], 2, np.nan, axis=1).reshape(-1, 2).T
+            axes.plot(x, y, color=DARK, linewidth=0.9, solid_capstyle="round")
     axes.set_xlim(view.extent[:2])
     axes.set_ylim(view.extent[2:])
-    axes.set_xticks([])
-    axes.set_yticks([])
     axes.grid(False)
     for spine in axes.spines.values():
         spine.set_visible(True)
@@ -157,35 +164,15 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
     return axes
 
 
-def rendered(mesh: GearsInMesh, view: View, pixels: np.ndarray, scale: float, limit: float) -> np.ndarray:
-    """The bodies in a view as an image (height, width, 3), flat colours, drawn off screen."""
-    from fenics_gears.system.environment import provide_display
-
-    provide_display()
-    import pyvista
-
-    plotter = pyvista.Plotter(off_screen=True, window_size=[int(FINER * each) for each in pixels])
-    plotter.set_background("white")
-    for gear, body in enumerate(mesh.gears):
-        points = shown_points(mesh, gear, scale)
-        cells, sides = (_in_view(points, part, view) for part in (body.cells, body.outline))
-        if not len(cells):
-            continue
-        coloured = surface(points, cells, np.minimum(body.von_mises, limit))
-        plotter.add_mesh(coloured, scalars="value", cmap=COLOURS, clim=(0.0, limit), lighting=False, show_scalar_bar=False)
-        if len(sides):
-            plotter.add_mesh(outline(points, sides), color="#222222", line_width=1.3 * FINER, lighting=False)
-    x, y = view.centre
-    plotter.enable_parallel_projection()
-    plotter.camera.position, plotter.camera.focal_point, plotter.camera.up = (x, y, 1e3), (x, y, 0.0), (0.0, 1.0, 0.0)
-    plotter.camera.parallel_scale = view.half[1]
-    plotter.camera.clipping_range = (1.0, 2e3)
-    image = np.asarray(plotter.screenshot(return_img=True))[..., :3]
-    plotter.close()
-    height, width = (FINER * pixels[::-1]).tolist()
-    # A window may come out a pixel smaller than asked for.
-    image = image[: height // FINER * FINER, : width // FINER * FINER]
-    return image.reshape(image.shape[0] // FINER, FINER, image.shape[1] // FINER, FINER, 3).mean(axis=(1, 3)).astype(np.uint8)
+def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until there are many, since colours are blended between corners."""
+    # Four corners are two triangles.
+    corners = np.column_stack([points, values])[np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])]
+    while len(corners) < LEAST_TRIANGLES:
+        a, b, c = corners.transpose(1, 0, 2)
+        ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+        corners = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3, 3)
+    return corners
 
 
 def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
@@ -307,5 +294,4 @@ def _time(seconds: float) -> str:
 
 def save_picture(figure: Figure, path: Path | BinaryIO) -> None:
     """Save the picture as PNG, in the pixels it was drawn in."""
-    FigureCanvasAgg(figure)
-    figure.savefig(path, dpi=figure.dpi, metadata={"Software": None})
+    FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})

@@ -32,11 +32,7 @@ def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Cha
 def effort_charts(cases: Cases) -> list[Chart]:
     """Wall time and Newton iterations of the cases."""
     of = {"wall_time": ("s", "Wall time of a case"), "newton_iterations": ("", "Newton iterations of a case")}
-    return [
-        over_parameter(cases, cases.numbers(name), unit, words)
-        for name, (unit, words) in of.items()
-        if np.isfinite(cases.numbers(name)).any()
-    ]
+    return [over_parameter(cases, cases.numbers(name), unit, words) for name, (unit, words) in of.items() if np.isfinite(cases.numbers(name)).any()]
 
 
 def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note: str = "") -> Chart:
@@ -58,8 +54,7 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
         note = f"{note} {together} changes along with it.".strip()
     mode = MARKED_LINES if max(map(len, (places for _, places in lines)), default=0) <= MARKED_POINTS else LINES
     curves = [
-        Curve(words, axis.values[places], values[places], PALETTE[turn % len(PALETTE)], DASHES[turn // len(PALETTE)], mode=mode)
-        for turn, (words, places) in enumerate(lines)
+        Curve(words, axis.values[places], values[places], PALETTE[turn % len(PALETTE)], DASHES[turn // len(PALETTE)], mode=mode) for turn, (words, places) in enumerate(lines)
     ]
     divided = "x" if logarithmic(axis) else ""
     return Chart(f"{name} over {axis.called}", curves, axis.title, y_title, note, HEIGHT, logarithmic=divided)
@@ -93,9 +88,7 @@ def _lines(cases: Cases, axis: SweptField, others: list[SweptField]) -> list[tup
         if not axis.numeric or np.isfinite(axis.values[case]):
             groups.setdefault(", ".join(field.setting(case) for field in others), []).append(case)
     in_order = [(words, np.array(places)) for words, places in groups.items()]
-    return [
-        (words or "cases", places[np.argsort(axis.values[places], kind="stable")] if axis.numeric else places) for words, places in in_order
-    ]
+    return [(words or "cases", places[np.argsort(axis.values[places], kind="stable")] if axis.numeric else places) for words, places in in_order]
 
 
 def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, name: str, note: str) -> Chart:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.show.run_scene import conditions
+from fenics_gears.show.run import conditions
 from fenics_gears.studies.accuracy.measures import judged
 from fenics_gears.studies.accuracy.report import OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it

@@ -44,3 +44,13 @@ def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.
     given = {"title": "A made-up run", "scene": scene, "complete": 1, "base_radius_wheel": 50.0}
     given["peak_to_peak_transmission_error"] = float(np.ptp(values["transmission_error"][1]))
     return upgraded(xr.Dataset(variables, coordinates, given | attributes))
+
+
+def words(axes) -> list[str]:
+    """All words and numbers that stand in and around a panel: of ticks, of the upright axes, of flags."""
+    return [text.get_text() for text in axes.texts]
+
+
+def right_scale(axes) -> list[tuple[float, float]]:
+    """Numbers of the second upright scale with the heights on the first at which they stand."""
+    return [(float(text.get_text().replace("−", "-")), text.get_position()[1]) for text in axes.texts if text.get_ha() == "left" and text.get_position()[0] > 1.0]

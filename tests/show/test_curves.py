@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from tests.show.synthetic import BARE, made_up_run
+from tests.show.synthetic import BARE, made_up_run, right_scale, words
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results import by_pair
 from fenics_gears.show.plots import run_figures
+from fenics_gears.show.ticks import ticks, written
 from fenics_gears.show.units import factor, in_unit
 
 
@@ -33,8 +34,7 @@ def curve(axes, which=-1):
 
 
 @pytest.mark.parametrize(
-    ("unit", "wanted", "expected"),
-    [("rad", "µrad", 1e6), ("mm", "µm", 1e3), ("N mm", "N m", 1e-3), ("MPa", "MPa", 1.0), ("rad", "deg", 180 / np.pi), ("kN", "N", 1e3)],
+    ("unit", "wanted", "expected"), [("rad", "µrad", 1e6), ("mm", "µm", 1e3), ("N mm", "N m", 1e-3), ("MPa", "MPa", 1.0), ("rad", "deg", 180 / np.pi), ("kN", "N", 1e3)]
 )
 def test_factors_are_those_of_the_si(unit, wanted, expected):
     """Authority: the SI's prefixes."""
@@ -55,20 +55,16 @@ def test_transmission_error_and_the_wheels_sideways_motion():
     """Authority: the dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
     run = made_up_run()
     above, below = transmission_error(run).get_axes()
-    for axes, name, values in [
-        (above, "Transmission error (µm)", run["transmission_error"].values * 50e3),
-        (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3),
-    ]:
+    for axes, name, values in [(above, "Transmission error (µm)", run["transmission_error"].values * 50e3), (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3)]:
         x, y = curve(axes)
-        assert axes.get_ylabel() == name
+        assert name in words(axes)
         np.testing.assert_array_equal(x, run["mesh_phase"].values)
         np.testing.assert_allclose(y, values, rtol=1e-14, atol=0)
     assert below.get_xlabel() == "Time (mesh cycles since the start)"
-    (angle,) = above.child_axes
-    assert angle.get_ylabel() == "Angle of the wheel (µrad)"
-    FigureCanvasAgg(above.figure).draw()
+    angles = right_scale(above)
     # 1 µm on a base radius of 50 mm is 20 µrad.
-    np.testing.assert_allclose(angle.get_ylim(), 20.0 * np.array(above.get_ylim()), rtol=1e-12)
+    assert "Angle of the wheel (µrad)" in words(above) and len(angles) > 3
+    assert all(angle == pytest.approx(20.0 * length, rel=1e-12) for angle, length in angles)
 
 
 def test_the_peak_to_peak_is_named():
@@ -133,7 +129,8 @@ def test_mesh_forces():
     np.testing.assert_array_equal(curve(friction)[1], run["friction_force"].values)
     for which, gear in enumerate(("pinion", "wheel")):
         np.testing.assert_allclose(curve(torques, which)[1], run["reaction_couple"].sel(gear=gear).values * 1e-3, rtol=1e-14)
-    assert [axes.get_ylabel() for axes in (normal, friction, torques)] == ["Normal force (N)", "Friction force (N)", "Torque (N m)"]
+    for axes, title in ((normal, "Normal force (N)"), (friction, "Friction force (N)"), (torques, "Torque (N m)")):
+        assert title in words(axes)
     assert [text.get_text() for text in torques.get_legend().get_texts()] == ["pinion", "wheel"]
 
 
@@ -164,7 +161,7 @@ def test_load_sharing():
         np.testing.assert_array_equal(np.sort(y[known & (y != 0)]), np.sort(force[force != 0]))
     colours = [line.get_color() for line in lines.values()]
     assert all(first != second for first, second in zip(colours, colours[1:]))
-    assert axes.get_ylabel() == "Force (N)"
+    assert "Force (N)" in words(axes)
 
 
 def test_pairs_that_never_carry_have_no_curve():
@@ -181,7 +178,8 @@ def test_absent_variables_leave_no_panel():
     """Authority: rule 9 of the house. A scene without friction and bearings has neither variable."""
     bare = made_up_run().drop_vars(BARE)
     assert len(transmission_error(bare).get_axes()) == 1
-    assert [axes.get_ylabel() for axes in mesh_forces(bare).get_axes()] == ["Normal force (N)", "Torque (N m)"]
+    normal, torques = mesh_forces(bare).get_axes()
+    assert "Normal force (N)" in words(normal) and "Torque (N m)" in words(torques)
     assert mesh_forces(bare.drop_vars(["normal_force", "reaction_couple", "pair_normal_force"])) is None
     assert load_sharing(bare.drop_vars("pair_normal_force")) is None
 
@@ -190,7 +188,7 @@ def test_no_length_axis_without_a_base_radius():
     """Authority: a length on the base circle needs its radius."""
     run = made_up_run()
     del run.attrs["base_radius_wheel"]
-    assert transmission_error(run).get_axes()[0].child_axes == []
+    assert right_scale(transmission_error(run).get_axes()[0]) == []
 
 
 @pytest.mark.parametrize("cycles", [2.0, 14.0])
@@ -216,3 +214,18 @@ def test_a_heading_with_every_effect_stays_on_the_paper(paper_scene):
     figure = transmission_error(made_up_run(scene=paper_scene.text + "\n" + sections))
     FigureCanvasAgg(figure).draw()
     assert figure._suptitle.get_window_extent().x1 <= figure.bbox.x1
+
+
+@pytest.mark.parametrize(("ends", "logarithmic", "expected"), [
+    ((-6.2, 5.1), False, ["−5.0", "−2.5", "0.0", "2.5", "5.0"]),
+    ((7990.0, 10010.0), False, ["8000", "8500", "9000", "9500", "10000"]),
+    ((0.0, 3.1e-7), False, ["0", "1e−07", "2e−07", "3e−07"]),
+    ((27.99999, 28.00001), False, ["27.999990", "27.999995", "28.000000", "28.000005", "28.000010"]),
+    ((0.002, 30.0), True, ["0.01", "0.1", "1", "10"]),
+    ((20.0, 150.0), True, ["20", "50", "100"]),
+])  # fmt: skip
+def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logarithmic, expected):
+    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten within the ends; what is written is the place itself."""
+    places = ticks(ends, 5.0, logarithmic)
+    assert written(places, logarithmic) == expected
+    np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))

@@ -98,7 +98,7 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
 def test_no_tooth_is_missing(run):
     """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
     from fenics_gears.show.drawn_scale import outer_loop
-    from fenics_gears.show.run_scene import scene_of
+    from fenics_gears.show.run import scene_of
     from fenics_gears.show.stress_grid import shown_points
     from fenics_gears.simulation.run_stresses import RunStresses
 
@@ -145,6 +145,7 @@ def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
     from fenics_gears.show import stress_animation
 
     monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 3)
+    monkeypatch.setattr(stress_animation, "SAMPLED", 1)
     assert main(["picture", str(run), "--animate", "--output", str(tmp_path / "turn.gif"), "--quiet"]) == 0
     with image.open(tmp_path / "turn.gif") as moving:
         assert (moving.n_frames, moving.size) == (3, (960, 540))
@@ -203,7 +204,7 @@ def test_no_such_run_is_refused(tmp_path, capsys):
 
 
 def test_command_line_does_not_load_vtk():
-    """Rule of the platform: neither the package nor its command line imports pyvista; only a picture does."""
+    """Rule of the platform: neither the package nor its command line imports pyvista; only a file for ParaView does."""
     code = "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture; print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "False"]

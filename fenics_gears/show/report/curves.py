@@ -41,7 +41,9 @@ def _section(name: str, heading: str, run: Run, charts) -> Section:
     if not run.has_curves:
         return Section(name, heading, [Words(TOO_FEW, warns=True)])
     first, last = run.window
-    part = f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a double click shows all of them, but not of single tooth pairs."
+    part = (
+        f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a double click shows all of them, but not of single tooth pairs."
+    )
     fewer = f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
     words = "" if run.shows_all else part + (f" {fewer}" if run.steps > MOST_POINTS else "")
     return Section(name, heading, [*([Words(words)] if words else []), *charts(run)])

@@ -37,23 +37,12 @@ def _measured(run: Run) -> list[Block]:
     """What `gears effects` wrote into the run's directory, where it is of this scene."""
     file = run.file.parent / MEASURED_TABLE
     if not file.is_file():
-        return [
-            Words(
-                "What each effect costs and changes was not measured; the report's option `--effects` does it "
-                "(it runs the scene with and without each)."
-            )
-        ]
+        return [Words("What each effect costs and changes was not measured; the report's option `--effects` does it (it runs the scene with and without each).")]
     lines = _lines(file)
     if lines is None:
         return [Words(f"{MEASURED_TABLE} beside the run is no table of this version's `gears effects`, and is left out.", warns=True)]
     if not _same_scene(run, lines):
-        return [
-            Words(
-                f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; "
-                "the report's option `--effects` measures anew.",
-                warns=True,
-            )
-        ]
+        return [Words(f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; the report's option `--effects` measures anew.", warns=True)]
     blocks: list[Block] = [*_tables(lines)]
     picture = file.with_name(MEASURED_PICTURE)
     if picture.is_file():
@@ -96,9 +85,7 @@ def _tables(lines: list[dict[str, str]]) -> list[Block]:
             skipped.append((line["effects"], line["remarks"]))
             continue
         number = {name: float(line[name]) for name in NUMBERS}
-        changes = [
-            f" ({in_percent(float(line[name]))})" if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")
-        ]
+        changes = [f" ({in_percent(float(line[name]))})" if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")]
         rows.append((
             line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}",
             f"{number['newton_iterations_per_step']:.2f}", f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}",

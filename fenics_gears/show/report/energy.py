@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.results.energy_variables import transmitted
-from fenics_gears.show.chart import over_time
-from fenics_gears.show.forces import least
+from fenics_gears.show.chart import over_time, span
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.report.page import Facts, Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
@@ -48,13 +47,7 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
     rows += [row(f"lost to {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
-    rows.append(
-        (
-            "not explained by any of these",
-            f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}",
-            f"{UNIT} at most, at any of their steps",
-        )
-    )
+    rows.append(("not explained by any of these", f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}", f"{UNIT} at most, at any of their steps"))
     return rows
 
 
@@ -71,11 +64,10 @@ def _curves(run: Run) -> list:
     taken = [(words, _since_first(dataset[name]), colour) for (name, words), colour in zip(TAKEN.items(), PALETTE) if name in dataset]
     taken.append(("contact changes, by the time stepping", -_since_first(dataset["work_contact_changes"]), PALETTE[3]))
     defect = _since_first(dataset["energy_defect"])
-    spans = [least(np.concatenate([each for _, each, _ in curves])) * 1e-6 for curves in (held, taken)]
     # A plot of one curve has no legend.
     alone = f": {taken[0][0]}" if len(taken) == 1 else ""
     return [
-        over_time(run, "Energy held", "Energy (N m)", held, least=spans[0]),
-        over_time(run, f"Work lost since the first settled step{alone}", "Work (N m)", taken, least=spans[1]),
+        over_time(run, "Energy held", "Energy (N m)", held, least=1e-6 * span(held)),
+        over_time(run, f"Work lost since the first settled step{alone}", "Work (N m)", taken, least=1e-6 * span(taken)),
         over_time(run, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
     ]

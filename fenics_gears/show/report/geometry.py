@@ -22,22 +22,13 @@ def geometry(run: Run) -> Section:
         ("centre distance", given.centre_distance, "mm"), ("face width", given.face_width, "mm"),
     ]  # fmt: skip
     of_pair += [row for row in rows if not row[0].startswith(GEARS)]
-    return Section(
-        "geometry", "Geometry of the pair", [Beside([_both(run, rows), Facts(of_pair, "Both gears together")]), *drawings(run.pair, run.on_coast_flanks)]
-    )
+    return Section("geometry", "Geometry of the pair", [Beside([_both(run, rows), Facts(of_pair, "Both gears together")]), *drawings(run.pair, run.on_coast_flanks)])
 
 
 def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
     """A row for each number that either gear has, one column a gear."""
     given = run.scene.gears
-    names = {
-        "teeth": "",
-        "profile_shift": "modules",
-        "tip_diameter": "mm",
-        "root_diameter": "mm",
-        "bore_diameter": "mm",
-        "rack_tip_radius": "modules",
-    }
+    names = {"teeth": "", "profile_shift": "modules", "tip_diameter": "mm", "root_diameter": "mm", "bore_diameter": "mm", "rack_tip_radius": "modules"}
     found: dict[tuple[str, str], dict[str, float]] = {}
     for name, unit in names.items():
         found[name.replace("_", " "), unit] = {gear: getattr(getattr(given, gear), name) for gear in GEARS}
@@ -45,8 +36,5 @@ def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
         gear, _, what = label.partition(" ")
         if gear in GEARS:
             found.setdefault((what, unit), {})[gear] = value
-    cells = [
-        (f"{what} ({unit})" if unit else what, *(f"{values[gear]:.6g}" if gear in values else "" for gear in GEARS))
-        for (what, unit), values in found.items()
-    ]
+    cells = [(f"{what} ({unit})" if unit else what, *(f"{values[gear]:.6g}" if gear in values else "" for gear in GEARS)) for (what, unit), values in found.items()]
     return Table(("", "Pinion", "Wheel"), cells, "Either gear")

@@ -1,8 +1,12 @@
-"""Charts drawn by plotly, to be zoomed in a browser: light ground, units on both axes, colours that any eye tells apart."""
+"""Charts drawn by plotly, to be zoomed in a browser: light ground, units on both axes, colours that any eye tells apart.
+
+Only its browser library is used: plotly's Python objects take longer to make than everything else of a page.
+"""
 
 from __future__ import annotations
 
 import html
+import math
 
 import numpy as np
 
@@ -30,24 +34,21 @@ def height(chart: Chart) -> int:
     return chart.height + LEGEND_ROW * max(0, legend_rows(chart) - 1)
 
 
-def figure(chart: Chart):
-    """A chart as a plotly figure."""
-    import plotly.graph_objects as go
-
-    traces = [trace for curve in chart.curves for trace in _traces(go, curve, chart)]
+def figure(chart: Chart) -> dict:
+    """A chart as plotly's browser library reads it."""
+    traces = [trace for curve in chart.curves for trace in _traces(curve, chart)]
     if chart.field is not None:
         field = chart.field
         scale = [[place / (len(field.colours) - 1), colour] for place, colour in enumerate(field.colours)]
         lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
         bar = {"title": {"text": escaped(field.title), "side": "right"}, "thickness": 14}
-        traces.insert(0, go.Heatmap(
-            x=numbers(field.x), y=numbers(field.y), z=[numbers(row, 4) for row in field.values], colorscale=scale, zmin=lowest, zmax=field.limit,
-            colorbar=bar, hoverongaps=False, name="",
-        ))  # fmt: skip
-    drawn = go.Figure(traces, _layout(chart))
+        cells = {"x": numbers(field.x), "y": numbers(field.y), "z": [numbers(row, 4) for row in field.values]}
+        traces.insert(0, {"type": "heatmap", "colorscale": scale, "zmin": lowest, "zmax": field.limit, "colorbar": bar, "hoverongaps": False, "name": ""} | cells)
+    layout = _layout(chart)
     if chart.flags:
-        _flags(drawn, chart)
-    return drawn
+        _flag(layout, chart)
+    layout["annotations"] = layout.get("annotations", []) + [each for curve in chart.curves if len(curve.words) for each in _words(curve)]
+    return {"data": traces, "layout": layout}
 
 
 def _layout(chart: Chart) -> dict:
@@ -93,27 +94,34 @@ def _layout(chart: Chart) -> dict:
 def _scales(chart: Chart) -> dict:
     """Buttons for a linear and a logarithmic scale."""
     choices = {"linear": "linear", "logarithmic": "log"}
-    buttons = [
-        {"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()
-    ]
+    buttons = [{"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()]
     return {
         "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03, "yanchor": "bottom",
         "active": int("y" in chart.logarithmic), "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12}, "bgcolor": "white", "bordercolor": "#C4C9CE",
     }  # fmt: skip
 
 
-def _flags(drawn, chart: Chart) -> None:
+def _flag(layout: dict, chart: Chart) -> None:
     """Words in rows above the curves, each right of the line that leads down to its place; the curves end below them."""
     rows = chart.flag_rows
-    inside = height(chart) - drawn.layout.margin.t - drawn.layout.margin.b
-    drawn.update_yaxes(domain=[0.0, 1.0 - FLAG_ROW * (max(rows) + 1) / inside])
-    for flag, row in zip(chart.flags, rows):
-        top = 1.0 - FLAG_ROW * (max(rows) - row + 1) / inside
-        place = {"xref": "x", "yref": "paper"}
-        drawn.add_shape(type="line", x0=flag.x, x1=flag.x, y0=drawn.layout.yaxis.domain[1] - 0.06, y1=top, line={"color": flag.colour, "width": 0.8}, **place)
-        drawn.add_annotation(
-            x=flag.x, y=top, text=escaped(flag.words), showarrow=False, xanchor="left", yanchor="bottom", font={"color": flag.colour, "size": 12}, **place
-        )
+    inside = height(chart) - layout["margin"]["t"] - layout["margin"]["b"]
+    end = 1.0 - FLAG_ROW * (max(rows) + 1) / inside
+    layout["yaxis"]["domain"] = [0.0, end]
+    tops = [1.0 - FLAG_ROW * (max(rows) - row + 1) / inside for row in rows]
+    place = {"xref": "x", "yref": "paper"}
+    layout["shapes"] = [
+        {"type": "line", "x0": flag.x, "x1": flag.x, "y0": end - 0.06, "y1": top, "line": {"color": flag.colour, "width": 0.8}} | place for flag, top in zip(chart.flags, tops)
+    ]
+    at = {"showarrow": False, "xanchor": "left", "yanchor": "bottom"} | place
+    layout["annotations"] = [{"x": flag.x, "y": top, "text": escaped(flag.words), "font": {"color": flag.colour, "size": 12}} | at for flag, top in zip(chart.flags, tops)]
+
+
+def _words(curve: Curve) -> list[dict]:
+    """Words beside the points of a curve, on paper, so that lines below do not cross them."""
+    up, right = (1 if side in curve.beside else -1 for side in ("top", "right"))
+    at = {"xanchor": "left" if right > 0 else "right", "yanchor": "bottom" if up > 0 else "top", "xshift": 7 * right, "yshift": 5 * up, "showarrow": False}
+    look = {"font": {"size": 12, "color": DARK}, "bgcolor": "rgba(255, 255, 255, 0.8)", "borderpad": 1}
+    return [{"x": x, "y": y, "text": escaped(words)} | at | look for words, x, y in zip(curve.words, numbers(curve.x), numbers(curve.y))]
 
 
 def escaped(text: str) -> str:
@@ -126,28 +134,28 @@ def numbers(values: np.ndarray, digits: int = DIGITS) -> list:
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         return [escaped(str(each)) for each in array]
-    return [float(f"{each:.{digits}g}") if np.isfinite(each) else None for each in array.astype(float).tolist()]
+    return [float(f"{each:.{digits}g}") if math.isfinite(each) else None for each in array.astype(float).tolist()]
 
 
-def _traces(go, curve: Curve, chart: Chart) -> list:
-    common = {"name": escaped(curve.name), "showlegend": curve.listed and chart.has_legend}
+def _traces(curve: Curve, chart: Chart) -> list[dict]:
+    if curve.mode == WORDS:
+        return []
+    named = {"name": escaped(curve.name), "showlegend": curve.listed and chart.has_legend}
     line = {"color": curve.colour, "width": curve.width, "dash": curve.dash}
     if curve.mode == BARS:
-        return [go.Bar(x=numbers(curve.x), y=numbers(curve.y), marker={"color": curve.colour, "line": {"width": 0}}, width=curve.width, **common)]
+        bars = {"marker": {"color": curve.colour, "line": {"width": 0}}, "width": curve.width}
+        return [{"type": "bar", "x": numbers(curve.x), "y": numbers(curve.y)} | bars | named]
     if curve.mode == BAND:
-        x, (low, high) = numbers(curve.x), map(numbers, curve.y)
-        return [
-            go.Scatter(x=x, y=low, mode="lines", line=line, name=common["name"], showlegend=False),
-            go.Scatter(x=x, y=high, mode="lines", line=line, fill="tonexty", **common),
-        ]
+        edges = [{"type": "scatter", "x": numbers(curve.x), "y": numbers(edge), "mode": "lines", "line": line} | named for edge in curve.y]
+        return [edges[0] | {"showlegend": False}, edges[1] | {"fill": "tonexty"}]
     places = _places(curve, chart)
     x, y = (numbers(np.asarray(values)[places]) for values in (curve.x, curve.y))
+    marker = {"color": curve.colour, "size": 7}
     if curve.words:
-        hover = {"text": list(map(escaped, curve.words)), "textposition": curve.beside, "textfont": {"size": 12, "color": DARK}, "hoverinfo": "text"}
-        mark = {"size": 9, "color": "white", "line": {"color": curve.colour, "width": 1.6}}
-        return [go.Scatter(x=x, y=y, mode="text" if curve.mode == WORDS else "markers+text", marker=mark, **hover, **common)]
-    filled = {"fill": "toself", "fillcolor": curve.fill, "hoverinfo": "skip"} if curve.fill else {"hoverinfo": "skip"} if chart.equal else {}
-    return [go.Scatter(x=x, y=y, mode=curve.mode, line=line, marker={"color": curve.colour, "size": 7}, connectgaps=False, **filled, **common)]
+        marker = {"size": 9, "color": "white", "line": {"color": curve.colour, "width": 1.6}}
+    filled = {"fill": "toself", "fillcolor": curve.fill} if curve.fill else {}
+    hover = {"hoverinfo": "skip"} if chart.equal else {}
+    return [{"type": "scatter", "x": x, "y": y, "mode": curve.mode, "line": line, "marker": marker, "connectgaps": False} | filled | hover | named]
 
 
 def _places(curve: Curve, chart: Chart) -> np.ndarray:

@@ -32,10 +32,7 @@ def _sentence(words: str) -> str:
 def _tiles(run: Run) -> Iterator[Tile]:
     attributes, dataset = run.dataset.attrs, run.dataset
     part = "" if run.complete else " of what is stored"
-    for name, label in (
-        ("peak_to_peak_transmission_error", "Transmission error, peak to peak"),
-        ("mean_transmission_error", "Transmission error, mean"),
-    ):
+    for name, label in (("peak_to_peak_transmission_error", "Transmission error, peak to peak"), ("mean_transmission_error", "Transmission error, mean")):
         angle = attributes.get(name, math.nan)
         if math.isfinite(angle) and math.isfinite(run.micrometres):
             yield Tile(label + part, digits(angle * run.micrometres), "µm", f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel")
@@ -46,12 +43,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
             note = f"{largest / nominal:.3g} × nominal {digits(nominal)} N"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
-        yield Tile(
-            "Peak contact pressure",
-            digits(attributes["peak_contact_pressure"]),
-            "MPa",
-            _where(attributes),
-        )
+        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", _where(attributes))
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "slot"]).values
         yield Tile("Largest root stress", digits(float(largest.max())), "MPa", f"pinion {digits(largest[0])}, wheel {digits(largest[1])}")
@@ -75,8 +67,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
         yield Tile(
             "Contact of the drive flanks lost" if "coast_normal_force" in dataset else "Contact lost",
             *counted(attributes["contact_loss_count"], "time").split(),
-            f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm"
-            + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
+            f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm" + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
         )
 
 
@@ -95,19 +86,11 @@ def _rows(run: Run) -> list[tuple[str, object, str]]:
         first, ramp = run.scene.motion.mesh_frequency, run.scene.speed_ramp
         speed = first / run.scene.gears.pinion.teeth * factor("1/s", "1/min")
         rows.append(("torque on the wheel", run.scene.load.wheel_torque * factor("N mm", "N m"), "N m"))
-        rows.append(
-            ("mesh frequency", f"{first:g} to {ramp.end_frequency:g} Hz" if ramp else f"{first:g} Hz, the pinion at {speed:.5g} rpm", "")
-        )
+        rows.append(("mesh frequency", f"{first:g} to {ramp.end_frequency:g} Hz" if ramp else f"{first:g} Hz, the pinion at {speed:.5g} rpm", ""))
     rows.append(("run", f"mesh cycles {phase[0]:g} to {phase[-1]:g}, {times[0]:.6g} s to {times[-1]:.6g} s, {run.steps:,} steps", ""))
     if "contact_loss_count" in attributes:
         count = attributes["contact_loss_count"]
-        rows.append(
-            (
-                "contact of the drive flanks",
-                f"lost {counted(count, 'time')}, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost",
-                "",
-            )
-        )
+        rows.append(("contact of the drive flanks", f"lost {counted(count, 'time')}, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost", ""))
     return rows
 
 

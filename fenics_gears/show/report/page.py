@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 from fenics_gears.show.chart import Chart
 
@@ -15,7 +15,6 @@ class Words:
 
     text: str
     warns: bool = False
-    kind: ClassVar[str] = "words"
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,6 @@ class Tiles:
     """The numbers that are seen first."""
 
     tiles: Sequence[Tile]
-    kind: ClassVar[str] = "tiles"
 
 
 @dataclass(frozen=True)
@@ -56,7 +54,6 @@ class Table:
     caption: str = ""
     sortable: bool = False
     numbers: int = 1
-    kind: ClassVar[str] = "table"
 
     @property
     def cells(self) -> list[list[Cell]]:
@@ -74,7 +71,6 @@ class Facts:
 
     rows: Sequence[tuple[str, Any, str]]
     caption: str = ""
-    kind: ClassVar[str] = "facts"
 
 
 @dataclass(frozen=True)
@@ -84,7 +80,6 @@ class Picture:
     caption: str
     png: bytes
     note: str = ""
-    kind: ClassVar[str] = "picture"
 
 
 @dataclass(frozen=True)
@@ -92,7 +87,6 @@ class Listing:
     """Text as it stands in a file."""
 
     text: str
-    kind: ClassVar[str] = "listing"
 
 
 @dataclass(frozen=True)
@@ -101,7 +95,6 @@ class Fold:
 
     heading: str
     blocks: Sequence[Any]
-    kind: ClassVar[str] = "fold"
 
 
 @dataclass(frozen=True)
@@ -109,7 +102,6 @@ class Beside:
     """Blocks next to each other where the page is wide enough."""
 
     blocks: Sequence[Any]
-    kind: ClassVar[str] = "beside"
 
 
 Block = Words | Tiles | Table | Facts | Chart | Picture | Listing | Fold | Beside

@@ -24,6 +24,7 @@ def rendered(page: Page) -> str:
 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"figure": _figure, "still": _still, "height": height, "base64": _base64, "number": number_text, "code": _with_code}
+    environment.filters["kind"] = lambda block: type(block).__name__
     drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
         page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)), library=Markup(plotly_library()) if drawn else "",
@@ -36,11 +37,11 @@ def plotly_library() -> str:
     from plotly.offline import get_plotlyjs
 
     # No time stamp, so that the same run gives the same page.
-    return base64.b64encode(gzip.compress(get_plotlyjs().encode(), mtime=0)).decode()
+    return base64.b64encode(gzip.compress(get_plotlyjs().encode(), compresslevel=6, mtime=0)).decode()
 
 
 def _has_chart(block: Block) -> bool:
-    return any(map(_has_chart, block.blocks)) if isinstance(block, Fold | Beside) else block.kind == "chart"
+    return any(map(_has_chart, block.blocks)) if isinstance(block, Fold | Beside) else isinstance(block, Chart)
 
 
 def _own_file(name: str) -> str:
@@ -51,7 +52,7 @@ def _figure(chart: Chart):
     """A chart as JSON of a plotly figure that may stand in a script element."""
     from jinja2.utils import htmlsafe_json_dumps
 
-    return htmlsafe_json_dumps(figure(chart), dumps=lambda each, **_: each.to_json())
+    return htmlsafe_json_dumps(figure(chart), separators=(",", ":"))
 
 
 def _still(chart: Chart) -> str:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time
-from fenics_gears.show.forces import least
+from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time, span
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.page import Block, Facts, Section, Words
+from fenics_gears.show.report.page import Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import factor, in_unit
 
@@ -21,35 +20,18 @@ def root_stress(run: Run) -> Section:
         return Section("root-stress", HEADING, [Words("It was not recorded; `[output] root_stress = true` in the scene records it.")])
     if not run.has_curves:
         return Section("root-stress", HEADING, [Words(TOO_FEW, warns=True)])
-    return Section("root-stress", HEADING, [*_factors(run), *_over_time(run), *_along_fillets(run)])
-
-
-def _factors(run: Run) -> list[Block]:
-    attributes = run.dataset.attrs
-    names = {
-        "dynamic_factor_by_force": ("dynamic factor by force of a tooth pair", ""),
-        "dynamic_factor_by_stress": ("dynamic factor by root stress", ""),
-        "quasi_static_pair_normal_force": ("largest force of a tooth pair without inertia", "N"),
-        "quasi_static_root_stress": ("largest root stress without inertia", "MPa"),
-        "dynamic_factor_unknown": ("dynamic factor", ""),
-    }
-    rows = [(words, attributes[name], unit) for name, (words, unit) in names.items() if name in attributes]
-    return [Facts(rows)] if rows else []
+    return Section("root-stress", HEADING, [*_over_time(run), *_along_fillets(run)])
 
 
 def _over_time(run: Run) -> list[Chart]:
     largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "slot")
     values, gears = in_unit(largest, "MPa"), [str(gear) for gear in run.dataset["gear"].values]
     envelope = [(gear, np.fmax.reduce(values[:, place], axis=1), PALETTE[place]) for place, gear in enumerate(gears)]
-    together = np.concatenate([each for _, each, _ in envelope])
-    plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least(together))]
+    least = span(envelope)
+    plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least)]
     for gear in gears:
         curves = [(words, each, PALETTE[number % len(PALETTE)]) for words, each, number in run.of_pairs("root_stress_maximum", "MPa", gear=gear)]
-        plots.append(
-            over_time(
-                run, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least(together)
-            )
-        )
+        plots.append(over_time(run, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least))
     section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "slot")
     at_section = in_unit(section, "MPa")
     curves = [
@@ -59,7 +41,7 @@ def _over_time(run: Run) -> list[Chart]:
     ]  # fmt: skip
     if curves:
         note = "The largest of the loaded teeth, where the fillet's tangent stands at 30° to the tooth's centreline; tension positive."
-        plots.append(over_time(run, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least(together), note=note))
+        plots.append(over_time(run, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least, note=note))
     return plots
 
 
@@ -77,14 +59,9 @@ def _along_fillets(run: Run) -> list[Chart]:
         time, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
         along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point")[time, slot], "MPa")
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
-        curves = [
-            Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES)
-            for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)
-        ]
+        curves = [Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES) for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)]
         phase = float(own["mesh_phase"].values[time])
-        caption = (
-            f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
-        )
+        caption = f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
         note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
         plots.append(Chart(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
     return plots

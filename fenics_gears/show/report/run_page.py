@@ -14,8 +14,7 @@ from fenics_gears.show.report.page import Page
 from fenics_gears.show.report.root_stress import root_stress
 from fenics_gears.show.report.solver import solver
 from fenics_gears.show.report.stress import stress
-from fenics_gears.show.run import Run
-from fenics_gears.show.run_scene import conditions
+from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.progress import Progress, SilentProgress
 
 SECTIONS = (summary, warnings, numbers, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)

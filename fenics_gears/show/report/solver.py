@@ -31,9 +31,7 @@ def solver(run: Run) -> Section:
     if run.has_curves:
         counts = {"newton_iterations": ("Newton iterations of each step", "Iterations"), "closed_nodes": ("Closed contact nodes", "Nodes")}
         for (name, (caption, y_title)), colour in zip(counts.items(), (PALETTE[0], PALETTE[2])):
-            blocks.append(
-                over_time(run, caption, y_title, [(y_title, run.dataset[name].values.astype(float), colour)], least=2.0, height=240)
-            )
+            blocks.append(over_time(run, caption, y_title, [(y_title, run.dataset[name].values.astype(float), colour)], least=2.0, height=240))
     return Section("solver", "Model and solver", blocks)
 
 

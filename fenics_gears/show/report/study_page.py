@@ -47,14 +47,7 @@ def _alarm(cases: Cases) -> str:
 
 def _summary(cases: Cases) -> Section:
     counts = Counter(cases.states)
-    tiles = [
-        Tile(
-            "Cases",
-            f"{cases.count:,}",
-            "",
-            ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state]),
-        )
-    ]
+    tiles = [Tile("Cases", f"{cases.count:,}", "", ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state]))]
     for values, unit, name in cases.measures.values():
         far_off = cases.far_off(values)
         known = values[np.isfinite(values) & ~far_off]
@@ -106,9 +99,7 @@ def _results(cases: Cases) -> Section:
 def _standing_out(cases: Cases) -> Section:
     """Transmission error of the cases with the least, the middle and the largest values, and the summary of each."""
     heading, scale, unit = "Cases that stand out", *cases.error_scale
-    chosen = [
-        (case, why, run) for case, why in standing_out(cases).items() if (run := cases.run(case)) is not None and run.sizes.get("time", 0)
-    ]
+    chosen = [(case, why, run) for case, why in standing_out(cases).items() if (run := cases.run(case)) is not None and run.sizes.get("time", 0)]
     if not chosen:
         return Section("outstanding", heading, [Words("There is no file of a case to show one from.")])
     curves, folds = [], []
@@ -118,9 +109,7 @@ def _standing_out(cases: Cases) -> Section:
         file, link = cases.texts("case_file")[case], cases.link(case)
         rows = Facts([(label.replace("WARNING", "warning"), value, each) for label, value, each in summary_rows(run)])
         folds.append(Fold(f"Case {case}: {cases.words(case)} ({' and '.join(why)})", [rows, Table(("File",), [(Cell(file, link=link),)])]))
-    drawn = Chart(
-        "Transmission error", curves, "Time (mesh cycles since the first recorded one)", f"Transmission error ({unit})", height=360
-    )
+    drawn = Chart("Transmission error", curves, "Time (mesh cycles since the first recorded one)", f"Transmission error ({unit})", height=360)
     said = Table(("Case", "Values", "Has the"), [(str(case), cases.words(case), ", ".join(why)) for case, why, _ in chosen], numbers=9)
     command = Words("`gears report DIR/cases/FILE.nc` makes a whole report on a case; the table of cases then leads to it.")
     return Section("outstanding", heading, [said, drawn, *folds, command])
@@ -145,25 +134,14 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
 
 
 def _table(cases: Cases) -> Section:
-    measures = {name: (values, unit) for name, (values, unit, _) in cases.measures.items()} | {
-        "wall_time": (cases.numbers("wall_time"), "s")
-    }
+    measures = {name: (values, unit) for name, (values, unit, _) in cases.measures.items()} | {"wall_time": (cases.numbers("wall_time"), "s")}
     names = ("T_EPP", "Mean error", "Largest force", "Wall time")
-    headings = [
-        "Case",
-        *(field.title for field in cases.fields),
-        "State",
-        *(f"{name} ({unit})" for name, (_, unit) in zip(names, measures.values())),
-        "Newton iterations",
-    ]
+    headings = ["Case", *(field.title for field in cases.fields), "State", *(f"{name} ({unit})" for name, (_, unit) in zip(names, measures.values())), "Newton iterations"]
     rows, states, iterations = [], cases.states, cases.numbers("newton_iterations")
     for case in range(min(cases.count, MOST_ROWS)):
         swept = [Cell(field.words(case), float(field.values[case]) if field.numeric else None) for field in cases.fields]
         state = Cell(states[case], warns=states[case] in STATES[1:3])
-        numbers = [
-            Cell(f"{values[case]:#.5g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case]))
-            for values, _ in measures.values()
-        ]
+        numbers = [Cell(f"{values[case]:#.5g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case])) for values, _ in measures.values()]
         count = Cell(f"{iterations[case]:.0f}" if np.isfinite(iterations[case]) else "", float(iterations[case]))
         rows.append([Cell(str(case), float(case), cases.link(case)), *swept, state, *numbers, count])
     blocks: list[Block] = [

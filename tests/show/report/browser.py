@@ -63,9 +63,7 @@ class Browser:
         """Show a page and wait until it has been loaded and its library unpacked."""
         self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self._call("Page.navigate", url=file.as_uri())
-        self.wait(
-            "document.readyState === 'complete' && (!document.querySelector('.curves') || document.documentElement.dataset.ready === 'yes')"
-        )
+        self.wait("document.readyState === 'complete' && (!document.querySelector('.curves') || document.documentElement.dataset.ready === 'yes')")
 
     def value(self, expression):
         """The value of a JavaScript expression, which may be a promise."""

@@ -3,6 +3,7 @@
 import pytest
 
 from fenics_gears.commands.cli import main
+from fenics_gears.show.report import rendering
 from fenics_gears.system import environment
 
 environment.prepare()
@@ -32,7 +33,7 @@ def made(tmp_path_factory):
     def make(text, name):
         directory = tmp_path_factory.mktemp(name)
         (directory / f"{name}.toml").write_text(text, encoding="utf-8")
-        assert main(["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet"]) == 0
+        assert main(["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet", "--no-pictures"]) == 0
         return directory / "run"
 
     return make
@@ -49,6 +50,12 @@ def report(run):
     """The page of that run."""
     assert main(["report", str(run), "--quiet"]) == 0
     return run / "report.html"
+
+
+@pytest.fixture
+def without_stills(monkeypatch):
+    """Pages of this test have an empty image before each chart: drawing them takes longer than all else, and one page's are looked at."""
+    monkeypatch.setattr(rendering, "still", lambda chart: b"<svg/>")
 
 
 @pytest.fixture(scope="session")

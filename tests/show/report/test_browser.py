@@ -100,9 +100,7 @@ def test_a_study_is_sorted_by_a_click(browser, study, tmp_path):
     page = tmp_path / "study.html"
     assert main(["report", str(study), "--quiet", "--output", str(page)]) == 0
     browser.open(page, 1300, 900)
-    column = browser.value(
-        "[...document.querySelector('.sortable').tHead.rows[0].cells].findIndex(each => each.textContent.startsWith('T_EPP'))"
-    )
+    column = browser.value("[...document.querySelector('.sortable').tHead.rows[0].cells].findIndex(each => each.textContent.startsWith('T_EPP'))")
     sorted_values = f"""(() => {{
         const table = document.querySelector('.sortable');
         table.tHead.rows[0].cells[{column}].querySelector('button').click();

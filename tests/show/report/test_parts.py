@@ -42,11 +42,7 @@ def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
 
 def run_of(scene_text, values, phase, tmp_path):
     """A run with nothing but a curve."""
-    dataset = xr.Dataset(
-        {"transmission_error": ("time", values, {"units": "rad"})},
-        {"mesh_phase": ("time", phase)},
-        {"scene": scene_text, "base_radius_wheel": 50.0},
-    )
+    dataset = xr.Dataset({"transmission_error": ("time", values, {"units": "rad"})}, {"mesh_phase": ("time", phase)}, {"scene": scene_text, "base_radius_wheel": 50.0})
     return Run(dataset, tmp_path / "run.nc")
 
 
@@ -76,7 +72,7 @@ def found_lines(found):
 
 def ramp_of(paper_scene, cycles):
     """A made-up run whose scene falls from 200 to 50 Hz."""
-    text = f"{paper_scene.text}\n[speed_ramp]\nend_frequency = \"50 Hz\"\n"
+    text = f'{paper_scene.text}\n[speed_ramp]\nend_frequency = "50 Hz"\n'
     return made_up_run(scene=text, cycles=cycles, steps=int(20 * cycles) + 1)
 
 
@@ -131,7 +127,7 @@ def test_large_and_small_values_have_powers_of_ten_on_their_axis():
     """Their tick labels would else run into the axis' title."""
     for size, wanted in ((1e-5, "e"), (1.0, "none"), (9e5, "none"), (4e7, "e")):
         drawn = figure(Chart("", [Curve("", np.arange(2.0), size * np.arange(2.0))], "", ""))
-        assert drawn.layout.yaxis.exponentformat == wanted and drawn.layout.yaxis.title.standoff
+        assert drawn["layout"]["yaxis"]["exponentformat"] == wanted and drawn["layout"]["yaxis"]["title"]["standoff"]
 
 
 def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
@@ -190,9 +186,7 @@ def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair
     phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
     outlines = [gear_outline(paper_pair, gear, phase, coast) for gear in (0, 1)]
     pitch = _on_line(paper_pair, [paper_pair.pitch_point], coast)[0]
-    for points, gear, centre in zip(
-        outlines, (paper_pair.pinion, paper_pair.wheel), (np.zeros(2), np.array([0.0, -paper_pair.centre_distance]))
-    ):
+    for points, gear, centre in zip(outlines, (paper_pair.pinion, paper_pair.wheel), (np.zeros(2), np.array([0.0, -paper_pair.centre_distance]))):
         radius = np.linalg.norm(points - centre, axis=1)
         np.testing.assert_allclose([radius.min(), radius.max()], [gear.root_radius, gear.tip_radius], rtol=1e-9)
         turned = np.unwrap(np.arctan2(*(points - centre).T[::-1]))

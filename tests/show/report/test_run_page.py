@@ -2,6 +2,7 @@
 
 import base64
 import csv
+import json
 import re
 import subprocess
 import sys
@@ -23,6 +24,7 @@ from fenics_gears.show.run import Run
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[3]
+pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = [
     "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
     "versions", "scene",
@@ -56,12 +58,7 @@ def test_every_section_is_there_and_says_what_the_result_holds(report, run):
     assert f"{dataset.attrs['newton_iterations_total']:,}" in page.sections["solver"] and "mode 1" in page.sections["solver"]
     assert dataset.attrs["fenics_gears_version"] in page.sections["versions"]
     assert dataset.attrs["scene"] in page.sections["scene"]
-    wanted = {
-        "Normal force of the mesh",
-        "Friction force of the mesh",
-        "Load sharing: normal force of each tooth pair",
-        "Energy held",
-    }
+    wanted = {"Normal force of the mesh", "Friction force of the mesh", "Load sharing: normal force of each tooth pair", "Energy held"}
     assert wanted <= set(captions(page))
     assert {"The pair", "Largest contact pressure", "Largest tension in the fillets of either gear"} <= set(captions(page))
     assert sum(each.startswith("Transmission error on the wheel's base circle") for each in captions(page)) == 1
@@ -77,6 +74,15 @@ def test_every_chart_is_an_image_before_any_script_runs(report):
     assert list(images) == list(dict.fromkeys(captions(page))) and len(images) > 15
     drawn = base64.b64decode(images["Normal force of the mesh"].partition(",")[2]).decode()
     assert "<svg" in drawn and "Normal force (N)" in drawn and "Time (mesh cycles since the start)" in drawn
+
+
+def test_every_chart_is_one_that_plotly_knows(report):
+    """Authority: plotly's own Python classes, which refuse names and values that its browser library does not read."""
+    from plotly.graph_objects import Figure
+
+    page = seen(report)
+    charts = [Figure(json.loads(script)) for script in page.scripts[: page.plots]]
+    assert len(charts) > 15 and all(chart.data for chart in charts)
 
 
 def test_the_page_is_well_formed(report):
@@ -173,11 +179,7 @@ def measured_lines(dataset, error):
     whole = "bearings damping friction inertia shafts tooth_elasticity"
     for name, sections, compared in (("bare", "tooth_elasticity", ""), ("all", whole, "")):
         line = dict.fromkeys(CSV_COLUMNS, "1") | {"effects": name, "sections": sections, "remarks": "", "compared_with": compared}
-        line |= {
-            "transmission_error_peak_to_peak_mm": str(float(error)),
-            "change_of_transmission_error": "0.25",
-            "change_of_peak_force": "",
-        }
+        line |= {"transmission_error_peak_to_peak_mm": str(float(error)), "change_of_transmission_error": "0.25", "change_of_peak_force": ""}
         yield line
 
 
@@ -230,9 +232,7 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
 
 def test_a_long_run_makes_a_small_page(run, tmp_path):
     """30,000 steps stay below 10 MB, and the highest of them is drawn."""
-    dataset = (
-        results.load(run / "run.nc").drop_dims(["contact_time", "contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
-    )
+    dataset = results.load(run / "run.nc").drop_dims(["contact_time", "contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
     steps = 30_001
     long = dataset.isel(time=np.arange(steps) % dataset.sizes["time"])
     phase = np.arange(steps) / 100.0
@@ -270,11 +270,7 @@ def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsy
 def test_the_page_goes_where_it_is_asked_to_and_replaces_an_earlier_one(run, tmp_path, capsys):
     """A file, a directory that is there or is not yet; an earlier page is replaced as a whole."""
     (tmp_path / "report.html").write_text("an earlier page", encoding="utf-8")
-    for output, file in (
-        (tmp_path, "report.html"),
-        (tmp_path / "new" / "folder", "new/folder/report.html"),
-        (tmp_path / "my.page.html", "my.page.html"),
-    ):
+    for output, file in ((tmp_path, "report.html"), (tmp_path / "new" / "folder", "new/folder/report.html"), (tmp_path / "my.page.html", "my.page.html")):
         assert main(["report", str(run / "run.nc"), "--no-stress", "--output", str(output)]) == 0
         assert str(tmp_path / file) in capsys.readouterr().out
         assert list(seen(tmp_path / file).sections) == SECTIONS

@@ -15,6 +15,7 @@ from fenics_gears.show.report.study_page import _summary, standing_out
 from fenics_gears.show.study_charts import over_parameter, result_charts
 from fenics_gears.studies.combine import load_combined, save_study
 
+pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = ["summary", "failures", "warnings", "results", "outstanding", "cases", "effort", "versions", "study", "scene"]
 
 
@@ -90,10 +91,7 @@ def test_failed_and_missing_cases_are_named(study, tmp_path):
             dataset["warnings"][place] = ""
 
     page = page_of(changed(study, tmp_path, fail))
-    assert (
-        "no <equilibrium> & no end" in page.sections["failures"]
-        and "mesh frequency 100 Hz, without friction" in page.sections["failures"]
-    )
+    assert "no <equilibrium> & no end" in page.sections["failures"] and "mesh frequency 100 Hz, without friction" in page.sections["failures"]
     assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "missing" in page.sections["cases"] and page.faults == []
     curves = figures(page)["Transmission error, peak to peak over mesh frequency"]["data"]
@@ -104,14 +102,7 @@ def test_a_study_without_a_result_has_a_page(study, tmp_path):
     """Interrupted before its first case ended: the page says so."""
 
     def nothing(dataset):
-        for name in (
-            "peak_to_peak_transmission_error",
-            "mean_transmission_error",
-            "max_normal_force",
-            "wall_time",
-            "newton_iterations",
-            "steps_per_mesh_cycle",
-        ):
+        for name in ("peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force", "wall_time", "newton_iterations", "steps_per_mesh_cycle"):
             dataset[name][:] = np.nan
         dataset["case_file"][:], dataset["warnings"][:] = "", ""
 
@@ -156,27 +147,20 @@ def test_many_lines_become_a_map_or_a_choice(tmp_path):
 
 def test_long_legends_have_room(tmp_path):
     """Each row of a legend takes room of its own, so that the curves keep theirs."""
-    assert (
-        height(drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]))
-        == 340
-        < height(drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)))
-    )
+    assert height(drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0])) == 340 < height(drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)))
 
 
 def test_words_are_drawn_over_the_field_with_most_of_them(tmp_path):
     """Where no field has numbers, that with most values is the axis."""
     few = drawn(tmp_path, element=["P1", "P2"], friction=["absent", "a < b", "<b>c</b>"])
     assert [curve.name for curve in few.curves] == ["element P1 N", "element P2 N"]
-    assert list(figure(few).data[0].x) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
+    assert list(figure(few)["data"][0]["x"]) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
 
 
 def test_cases_that_stand_out_are_the_extremes(tmp_path):
     """Authority: the made-up values: least at the first places, largest at the last ones."""
     cases = Cases(made_up(torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]), tmp_path / "study.nc", tmp_path / "report.html")
-    assert standing_out(cases)[0] == ["least transmission error"] and standing_out(cases)[5] == [
-        "largest transmission error",
-        "largest mesh force",
-    ]
+    assert standing_out(cases)[0] == ["least transmission error"] and standing_out(cases)[5] == ["largest transmission error", "largest mesh force"]
 
 
 @pytest.mark.parametrize("options", [("--effects",), ("--at", "0.5")])
