@@ -353,7 +353,7 @@ def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, ca
         assert any(abs(number - float(value)) <= last_digit for number in found), printed
     lines = {line.split()[0]: line for line in output.splitlines() if line.startswith("  ")}
     assert " on " in lines["friction"] and "pair_friction_force" in lines["friction"]
-    assert " off " in lines["tip_relief"] and "true involutes" in lines["tip_relief"]
+    assert " off " in lines["tip_relief"] and "without tip relief" in lines["tip_relief"]
     assert simulation.calls == []
     assert files(tmp_path) == []
 
