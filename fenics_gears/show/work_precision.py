@@ -35,7 +35,7 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
     front = report.front
     others = [each for each in report.settings if each.name != OWN and each not in front]
     if others:
-        axes.plot([each.times.total for each in others], [each.charged for each in others], "o", color=GREY, markersize=5, label="settings that another one beats in both")
+        axes.plot([each.times.total for each in others], [each.charged for each in others], "o", color=GREY, markersize=5, label="other settings: another is quicker and more accurate")
     axes.plot([each.times.total for each in front], [each.charged for each in front], "-o", color=PALETTE[0], label="Pareto front: none is quicker and as accurate")
     axes.plot(report.own.times.total, report.own.charged, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
     for place, each in enumerate(report.models):
@@ -43,7 +43,7 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
     axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")
     _logarithmic(axes, [*report.settings, *report.models], report.floor)
     _labels(axes, front)
-    axes.set_title("Whole settings: error charged (sum of its parts, or distance from the reference)")
+    axes.set_title("Total error (sum of the errors of all settings, or difference from the reference)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=10.5)
 
 

@@ -24,7 +24,7 @@ MODEL_MARKS = ("s", "^", "D")
 
 @dataclass(frozen=True)
 class Point:
-    """A whole setting or a cheaper model: what it is charged, relative, its time (s), whether it pays and what limits it."""
+    """A whole setting or a cheaper model: its total error, relative, its time (s), whether it is on the Pareto front and what limits it."""
 
     name: str
     error: float
@@ -64,7 +64,7 @@ def overview(file: Path) -> Overview:
         lines = list(csv.DictReader(opened))
     points = tuple(
         Point(
-            line["name"], float(line["charged_error"]), float(line["time_s"]), line["on_front"] == "1", line["limited_by"], line["kind"] == "model",
+            line["name"], float(line["total_error"]), float(line["time_s"]), line["on_front"] == "1", line["limited_by"], line["kind"] == "model",
         )  # fmt: skip
         for line in lines if line["kind"] in ("setting", "model")
     )  # fmt: skip
