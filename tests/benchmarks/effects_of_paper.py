@@ -36,11 +36,11 @@ def _ratio(report: EffectReport) -> str:
     words = (
         f"Bare (frictionless, quasi-static, rigid shafts and bearings) against all: {bare.unknowns:.0f} against {full.unknowns:.0f} unknowns, "
         f"{bare.step_time * 1e6:.0f} against {full.step_time * 1e6:.0f} us a step, ratio {statistics.median(ratios):.1f} "
-        f"({min(ratios):.1f} to {max(ratios):.1f} in {len(ratios)} rounds). Expected: {expected.arithmetic:.1f} from the count of operations alone"
+        f"({min(ratios):.1f} to {max(ratios):.1f} in {len(ratios)} rounds). Operations alone would make the ratio {expected.arithmetic:.1f}"
     )
     if expected.fitted is None:
         return words + "."
-    return f"{words}, {expected.fitted:.1f} with a fixed time for each step, which is fitted to the other rows."
+    return f"{words}. With a fixed time for each step, fitted to the other rows, the expected ratio is {expected.fitted:.1f}."
 
 
 def main() -> None:

@@ -56,8 +56,8 @@ def section() -> str:
     of = lambda found: [[each[name] for each in found] for name in QUANTITIES]  # noqa: E731
     words = [f"{name}, %" for name in QUANTITIES]
     return "\n".join([
-        f"Half-width {width:.3f} mm, relative radius {hertz.radius:.2f} mm, {hertz.line_load:.0f} N/mm; approach: between this load and {SMALLER:g} of it. "
-        "Errors, and in brackets the order from the line above.", "",
+        f"Half-width {width:.3f} mm, relative radius {hertz.radius:.2f} mm, {hertz.line_load:.0f} N/mm. Approach: its change between this load and {SMALLER:g} of it. "
+        "The tables give errors, and in brackets the order from the line above.", "",
         f"Contact nodes, flank elements {FLANK_ELEMENTS[-1]} in a half-width:", "",
         *table(["contact nodes in a half-width", *words], [f"{n}" for n in CONTACT_NODES], of(nodes)), "",
         "Flank elements alone, each flank under Hertz's own pressure, without contact nodes:", "",

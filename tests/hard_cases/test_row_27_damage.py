@@ -89,7 +89,7 @@ def directory_instead(path):
 
 def without_permission(path):
     if os.geteuid() == 0:
-        pytest.skip("root may read anything")
+        pytest.skip("root can read files without permission")
     path.chmod(0)
 
 
