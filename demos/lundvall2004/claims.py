@@ -130,7 +130,7 @@ def claim_6a(curve: xr.Dataset, where: str = "Fig. 6", number: str = "6a", pair:
     """Friction raises T_EPP at every mesh frequency."""
     raised = peak_to_peak(curve, WITH) - peak_to_peak(curve, WITHOUT)
     frequency, above = curve.mesh_frequency.values, raised > 0.0
-    text = f"friction raises it at {above.sum()} of {len(above)} frequencies; it changes it by {raised.min() * MICRO:+.1f} to {raised.max() * MICRO:+.0f} urad"
+    text = f"friction raises it at {above.sum()} of {len(above)} frequencies; the change is {raised.min() * MICRO:+.1f} to {raised.max() * MICRO:+.0f} urad"
     if not above.all():
         lowest = int(raised.argmin())
         text += (

@@ -19,7 +19,8 @@ def _stiffness(meaning: str, otherwise: str):
 
 
 class SupportText(Section):
-    """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``."""
+    """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the defaults hold if that
+    section leaves them out too."""
 
     stiffness: Optional[float] = _stiffness("stiffness in all directions", "from `stiffness_x` and `stiffness_y`")
     stiffness_x: Optional[float] = _stiffness("stiffness along the line of action", "`stiffness`")

@@ -20,10 +20,10 @@ class CornerContact:
 
 
 class EdgeText(Section):
-    """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``."""
+    """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``: an edge radius of the gear's own, in place of that in ``[corner_contact]``."""
 
     edge_radius: Optional[float] = quantity(
-        "0 mm", "1 m", "0.1 mm", meaning="radius of the edge between flank and tip circle", otherwise="as in `[corner_contact]`, otherwise 0 mm (sharp)"
+        "0 mm", "1 m", "0.1 mm", meaning="radius of the edge between flank and tip circle", otherwise="0 mm, a sharp edge"
     )
 
 

@@ -22,7 +22,7 @@ def _moment_of_inertia(meaning: str, otherwise: str = ""):
 
 
 def _density(otherwise: str):
-    meaning = "density, from which mass and moment of inertia of the gear between bore and tip follow, over its own face width, without shaft"
+    meaning = "density of the gear; mass and moment of inertia follow from its outline, bore and face width, without the shaft"
     return quantity("1e-6 g/cm^3", "1e6 g/cm^3", "7.85 g/cm^3", meaning=meaning, otherwise=otherwise)
 
 

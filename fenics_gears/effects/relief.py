@@ -34,7 +34,8 @@ def length_field(measured: str) -> Any:
 
 
 class TipReliefOfGearText(Section):
-    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``."""
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and the defaults hold
+    if that section leaves them out too."""
 
     depth: Optional[float] = quantity(
         "1e-6 um",
@@ -57,7 +58,8 @@ class TipReliefOfGearText(Section):
 
 
 class RootReliefOfGearText(TipReliefOfGearText):
-    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``."""
+    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``, and the defaults hold
+    if that section leaves them out too."""
 
     start: Optional[Measured] = start_field("LPSTC", "lowest point of single tooth contact")
 

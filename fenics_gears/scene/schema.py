@@ -76,7 +76,7 @@ class Motion(Section):
         "1e6 Hz",
         "200 Hz",
         meaning="mesh frequency (pinion speed times number of teeth)",
-        otherwise="from `pinion_speed`; one of them is required with `[inertia]`, without it a mesh cycle lasts 1 s where neither is given",
+        otherwise="from `pinion_speed`. With `[inertia]` one of the two is required; otherwise a mesh cycle lasts 1 s",
     )
     pinion_speed: Optional[float] = quantity(
         "1e-6 rpm", "1e6 rpm", "750 rpm", meaning="nominal speed of the pinion, also in 1/min", otherwise="from `mesh_frequency`"

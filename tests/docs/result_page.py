@@ -26,8 +26,8 @@ the places of contact nodes where a slot holds no pair, or the forces of rigid t
 * **Directions.** x points along the line of action, from the tangent point on the pinion's base circle to that on the wheel's. y is perpendicular to it and points towards the pinion's centre.
 * **Rotations and torques** of both gears are positive in the pinion's sense of rotation, so the wheel's nominal rotation is negative. Displacements and rotations are relative to the nominal motion. A wheel that
   lags behind has a positive `rotation`, and the transmission error is then positive.
-* **Reactions** are forces and torques of a gear on its shaft. Under the normal force F the pinion presses its shaft along -x, the wheel along +x. `reaction_couple` is -F r_b1 on the pinion's shaft and -F r_b2 on
-  the wheel's, plus the part of the friction forces.
+* **Reactions** are forces and torques of a gear on its shaft. Under the normal force F the pinion presses its shaft along -x, the wheel along +x. Without friction `reaction_couple` is -F r_b1 on the pinion's shaft and -F r_b2
+  on the wheel's.
 * **Load.** `load.wheel_torque` and `wheel_couple` are torques of the load on the wheel's shaft. They are positive where they resist the wheel's rotation.
 * **Contact.** Normal forces and pressures are positive in compression. A positive friction force acts on the pinion along -y. The sliding speed is that of the pinion's flank relative to the wheel's, positive towards the
   pinion's tip: negative before the pitch point, positive after it.
@@ -49,7 +49,7 @@ and `warnings` say how much of the start is left. They also say if the run is sh
 """
 DIMENSIONS = {
     "time": "all time steps, with the start as step 0",
-    "contact_time": "the last steps, whose contact fields are stored (`[output] contact_fields`)",
+    "contact_time": "steps whose contact fields are stored, at the end of the run (`[output] contact_fields`)",
     "gear": '"pinion", "wheel"',
     "slot": "places for the tooth pairs that can touch at the same time; a pair keeps its slot as long as it can touch",
     "path_point": "points of the path of contact: A start of contact, B LPSTC of the pinion, C pitch point, D HPSTC of the pinion, E end of contact",
@@ -82,7 +82,7 @@ def page(result: xr.Dataset | None = None) -> str:
             lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
     lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
     lines += ["## Attributes", "", *_attributes(), ""]
-    lines += [f"Further attributes give the number of steps solved by Newton's method and by each of its [fallbacks](model.md#fallbacks): `{RUNG}newton` and so on"]
+    lines += [f"Further attributes give the number of steps that each method solved, Newton's and its [fallbacks](model.md#fallbacks): `{RUNG}newton` and so on"]
     lines += [f"({', '.join(METHODS)}).", "", f"With `[accuracy] target`, further attributes give the estimated error of each setting: `{ESTIMATED}steps per mesh cycle` and so on."]
     return "\n".join(lines) + "\n"
 

@@ -67,7 +67,7 @@ def _units() -> list[str]:
 
 def _effect(name: str) -> list[str]:
     found = effect_named(name)
-    lines = [f"### `[{found.written}]`", "", f"{capital(found.description)}. Without this section: {found.absent}."]
+    lines = [f"### `[{found.written}]`", "", f"{capital(found.description)} Without this section: {found.absent}."]
     for words, names in (("Needs", found.needs), ("Excludes", found.excludes)):
         if names:
             lines.append(f"{words} {', '.join(f'`[{effect_named(name).written}]`' for name in names)}.")

@@ -85,7 +85,7 @@ def test_units_scale_out(system, make, paper_scene, measured):
     forces = np.abs(there.normal_force.values / force - here.normal_force.values).max() / here.normal_force.max().item()
     iterations = int(np.abs(there.newton_iterations.values - here.newton_iterations.values).max())
     measured(f"{system}: largest change", max(angle, forces), "1e-9")
-    measured(f"{system}: iterations of a step that change", float(iterations), "0")
+    measured(f"{system}: change of the number of iterations", float(iterations), "0")
     assert angle <= 1e-9
     assert forces <= 1e-9
     assert iterations == 0

@@ -70,7 +70,7 @@ def test_a_killed_rank_loses_nothing_that_was_done(folder, measured, capsys):
     assert load("here").attrs["complete"] == 1
 
 
-@pytest.mark.parametrize("how", ["cannot be sent back", "is no exception that can be made again"])
+@pytest.mark.parametrize("how", ["cannot be sent back", "is an exception that cannot be sent back"])
 def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, measured, how):
     """A worker's answer travels to rank 0 as bytes; one that cannot is a failure, not a rank waiting for ever."""
     program = (
@@ -94,6 +94,6 @@ def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, m
     Path("program.py").write_text(program)
     call = [*mpirun(2), command("x")[0], "program.py"]
     told = subprocess.run(call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=60)
-    measured(f"an outcome that {how}", told.stdout.strip() or f"exit code {told.returncode}", "the other three outcomes come back")
+    measured(f"result of case 1 {how}: results of cases 0 to 3", told.stdout.strip() or f"exit code {told.returncode}", "those of the other three cases")
     outcomes = told.stdout.split()
     assert len(outcomes) == 4 and [outcomes[0], *outcomes[2:]] == ["0", "2", "3"], told.stderr
