@@ -100,7 +100,7 @@ def overview_picture(found: dict[str, Overview]) -> Figure:
         _panel(panel, each)
         panel.set_title(TITLES[name])
     for panel in panels[2:]:
-        panel.set_xlabel("Time of a run (s, median; meshing, condensing, marching)")
+        panel.set_xlabel("Time of a run (s, median; meshing, condensing, time stepping)")
     figure.supylabel("Relative error (%), the larger of T$_E$ in L$_2$ and T$_{EPP}$", fontsize=12)
     # Each kind of mark once, whichever panels have it.
     marks = {label: handle for panel in panels for handle, label in zip(*panel.get_legend_handles_labels())}
@@ -149,6 +149,6 @@ def overview_section(found: dict[str, Overview]) -> str:
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
         "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
-        "Errors are the larger of those of T_E in L2 and of T_EPP: the sum of the errors of all settings, or the difference from the reference where that is larger. Times: medians of "
+        "Errors are [total errors](accuracy.md#how-errors-are-measured), the larger of those of T_E and of T_EPP. Times are medians of "
         f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip

@@ -151,7 +151,7 @@ def test_what_was_timed_less_often_is_told(report):
     """Authority: house rule; a number says how it was measured."""
     assert table.timed(report).endswith("single settings as often.")
     fewer = replace(report, rounds=5)
-    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(fewer) and "within 60 s" in table.timed(fewer)
+    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(fewer) and "time limit of 60 s" in table.timed(fewer)
 
 
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
