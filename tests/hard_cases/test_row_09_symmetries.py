@@ -102,7 +102,7 @@ def test_gears_swapped(element, relieved, scene, measured):
         other, swapped_forces = approach(there, pairings[1], grid, pair.contact_ratio - phase, force)
         changes.append(max(abs(other / usual - 1.0), relative(np.sort(swapped_forces) - np.sort(forces), forces)))
     name = element + (", tip relief" if relieved else "")
-    measured(f"gears swapped, {name}: transmission error and forces", max(changes), "1e-10")
+    measured(f"gears swapped, {name}: difference of transmission error and forces", max(changes), "1e-10")
     assert max(changes) <= 1e-10
 
 
@@ -127,5 +127,5 @@ def test_mirrored_pair(element, scene, measured):
         drive, _ = approach(flanks, pairing, grid, mirrored - phase, force)
         coast, _ = approach(flanks, pairing, grid, phase, -force, COAST)
         changes.append(abs(-coast / drive - 1.0))
-    measured(f"mirrored pair, {element}: transmission error", max(changes), "1e-10")
+    measured(f"mirrored pair, {element}: difference of the transmission error", max(changes), "1e-10")
     assert max(changes) <= 1e-10

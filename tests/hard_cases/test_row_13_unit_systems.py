@@ -58,7 +58,7 @@ def in_units(scene, length, force, time):
 
 SYSTEMS = {
     "SI (m, N, s)": (1e-3, 1.0, 1.0),
-    "E x 1e6, forces with it": (1.0, 1e6, 1.0),
+    "Young's modulus and forces x 1e6": (1.0, 1e6, 1.0),
     "gears three times as large, steel": (3.0, 9.0, 3.0),
     "inch, pound-force, minute": (1.0 / 25.4, 1.0 / 4.4482216152605, 1.0 / 60.0),
 }

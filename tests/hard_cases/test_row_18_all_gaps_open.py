@@ -49,7 +49,7 @@ def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks, measured
         forces = max(forces, float(np.abs(record.solution.forces).max()))
     exact = thrown - 50.0 * 1e-3 + 0.5 * free * 1e-3**2
     error = abs(record.state.position[0] - exact) / abs(exact)
-    measured("free flight of the wheel, 100 steps: relative difference from the acceleration torque / J", error, "1e-11")
+    measured("free flight of the wheel, 100 steps: relative difference from rotation at the acceleration torque / J", error, "1e-11")
     measured("largest contact force in flight", forces, "0", "N")
     assert forces == 0.0
     assert error <= 1e-11

@@ -87,7 +87,7 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     approach = abs(second.coordinates[0] / first.coordinates[0] - 1.0)
     measured("coincident nodes: relative difference of their forces", split, "1e-10")
     measured("coincident nodes: difference of force and of approach from single nodes", f"{together:.1g}, {approach:.1g}", "1e-3, 1e-4")
-    measured("coincident nodes: dependent rows counted", float(twice.dependent_rows), f"{once.nodes}")
+    measured("coincident nodes: dependent equations counted", float(twice.dependent_rows), f"{once.nodes}")
     assert (once.dependent_rows, twice.dependent_rows) == (0, once.nodes)
     assert split <= 1e-10
     assert together <= 1e-3

@@ -26,10 +26,10 @@ def light(scene):
 
 
 CASES = {
-    "2 steps a cycle at 17 Hz": lambda scene: (scene, 17.0, 2),
-    "2 steps a cycle at 200 Hz": lambda scene: (scene, 200.0, 2),
+    "2 steps per mesh cycle at 17 Hz": lambda scene: (scene, 17.0, 2),
+    "2 steps per mesh cycle at 200 Hz": lambda scene: (scene, 200.0, 2),
     "40 steps at 200 Hz, natural frequencies x 1000": lambda scene: (light(scene), 200.0, 40),
-    "3 steps a cycle at 400 Hz": lambda scene: (scene, 400.0, 3),
+    "3 steps per mesh cycle at 400 Hz": lambda scene: (scene, 400.0, 3),
 }
 
 

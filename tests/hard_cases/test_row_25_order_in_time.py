@@ -81,7 +81,7 @@ def bounce(scene, pair, flanks, steps, speed):
 
 BOUNCES = {
     "nodes open and close": (-150.0, 0.0, 0),
-    "teeth part and meet": (-300.0, 0.0, 1),
+    "teeth separate and touch again": (-300.0, 0.0, 1),
     "nodes stick, slip, open and close": (-150.0, 0.1, 0),
 }
 

@@ -96,7 +96,7 @@ def wrong_type(field: Field) -> list[str]:
 
 KINDS = {
     "NaN and infinity": not_numbers,
-    "huge": huge,
+    "far too large": huge,
     "negative": negative,
     "zero and denormal": zero,
     "wrong unit": wrong_unit,
