@@ -21,7 +21,7 @@ def _poissons_ratio(otherwise: str = ""):
 
 
 class MaterialText(Section):
-    """``[gears.material]``: material of both gears."""
+    """``[gears.material]``: material of both gears. Without this section the flanks are rigid."""
 
     youngs_modulus: float = _youngs_modulus()
     poissons_ratio: float = _poissons_ratio()

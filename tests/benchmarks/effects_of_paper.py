@@ -35,7 +35,7 @@ def _ratio(report: EffectReport) -> str:
     bare, full, expected, ratios = report.row(BARE), report.row(ALL), report.expected, report.ratios
     words = (
         f"Bare (frictionless, quasi-static, rigid shafts and bearings) against all: {bare.unknowns:.0f} against {full.unknowns:.0f} unknowns, "
-        f"{bare.step_time * 1e6:.0f} against {full.step_time * 1e6:.0f} us a step, ratio {statistics.median(ratios):.1f} "
+        f"{bare.step_time * 1e6:.0f} against {full.step_time * 1e6:.0f} us per step, ratio {statistics.median(ratios):.1f} "
         f"({min(ratios):.1f} to {max(ratios):.1f} in {len(ratios)} rounds). Operations alone would make the ratio {expected.arithmetic:.1f}"
     )
     if expected.fitted is None:

@@ -68,6 +68,8 @@ def spread(values: list[str]) -> str:
         ordered = sorted(different, key=lambda value: float(value.split()[0]))
     except ValueError:
         return "; ".join(different)
+    if any("," in value for value in different):
+        return "; ".join(different)
     return f"{ordered[0]} ... {ordered[-1]}"
 
 

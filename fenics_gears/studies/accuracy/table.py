@@ -15,7 +15,7 @@ from fenics_gears.studies.accuracy.runs import STAGES, Times
 ORDERED = ("T_E", "T_EPP", "root stress")
 HEADINGS = ("setting", "value", *MEASURES, "time", "order T_E", *ORDERED[1:], "expected")
 UNITS = ("", "", *["%"] * len(MEASURES), "s", *[""] * len(ORDERED), "")
-WHOLE_HEADINGS = ("settings", "total error", *MEASURES, "mesh", "condense", "march", "time", "what limits it")
+WHOLE_HEADINGS = ("settings", "total error", *MEASURES, "meshing", "condensing", "time stepping", "time", "what limits it")
 WHOLE_UNITS = ("", "%", *["%"] * len(MEASURES), "s", "s", "s", "s", "")
 TARGETS = (0.01, 0.001)
 # An order further than this from the expected one gets a remark.
