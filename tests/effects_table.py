@@ -12,9 +12,8 @@ from fenics_gears.effects.effect import Effect
 PAGE = Path(__file__).parents[1] / "docs" / "effects.md"
 HEADING = """# Effects
 
-A scene always has `[gears]`, `[load]` and `[motion]`. Each section below is an effect: named, it is simulated; left out, it is not constructed: no
-unknowns, no terms, no result variables, and the modules that compute it are not imported. `gears check SCENE` says of each whether it is on,
-`gears effects SCENE` what each costs and what it changes in the answer. How to add one: [adding_an_effect.md](adding_an_effect.md).
+Each section below switches on one effect. If a scene leaves the section out, the effect is not there: no unknowns, no terms, no result variables, and its modules are not imported.
+`gears check SCENE` lists the effects that are on and off. `gears effects SCENE` measures what each costs and how it changes the result. [Adding an effect](adding_an_effect.md) shows how to write one.
 
 This page is written by `python -m tests.effects_table` from `fenics_gears.effects.EFFECTS`; a test says when it is out of date.
 """
@@ -22,16 +21,16 @@ This page is written by `python -m tests.effects_table` from `fenics_gears.effec
 
 def page() -> str:
     """The whole page."""
-    lines = [HEADING, "| section | what | without it | adds | needs | excludes |", "|---|---|---|---|---|---|"]
+    lines = [HEADING, "| section | effect | without it | adds | needs | excludes |", "|---|---|---|---|---|---|"]
     lines += [_row(each) for each in EFFECTS]
     lines += ["", "## Examples", ""]
     for each in EFFECTS:
         lines += ["```toml", EXAMPLES[each.section].strip(), "```", ""]
     lines += ["## Result variables of each effect", "", "Every run has " + _names(COMMON_VARIABLES) + ".", ""]
-    lines += ["| variable | units | is | effect |", "|---|---|---|---|"]
+    lines += ["| variable | units | meaning | effect |", "|---|---|---|---|"]
     for each in EFFECTS:
         for found in each.variables:
-            beside = f", beside `[{effect_named(found.needs).written}]`" if found.needs else ""
+            beside = f", only with `[{effect_named(found.needs).written}]`" if found.needs else ""
             lines.append(f"| `{found.name}` | {found.units} | {found.long_name} | `[{each.written}]`{beside} |")
     return "\n".join(lines) + "\n"
 

@@ -87,7 +87,7 @@ class CrackedBody:
 def table(bodies: dict[float, CrackedBody], line_load: float) -> list[str]:
     """Rows of a table in Markdown: at the mouth, the tooth in mesh before the cracked one, itself, and the next."""
     teeth = (CRACKED_TOOTH + 1, CRACKED_TOOTH, CRACKED_TOOTH - 1)
-    rows = ["| the faces stand apart (µm), while all is carried by | the tooth before it | itself | the tooth after it |", "|---|---|---|---|"]
+    rows = ["| opening of the faces (µm) | whole load on the tooth before | whole load on the cracked tooth | whole load on the tooth after |", "|---|---|---|---|"]
     for depth, body in bodies.items():
         found = body.openings(teeth, line_load)
         rows.append(f"| crack of {depth:g} mm | " + " | ".join(f"{each[np.argmax(np.abs(each))]:.1f}" for each in found) + " |")

@@ -117,8 +117,8 @@ def claim_5(static: xr.Dataset, dynamic: xr.Dataset) -> Claim:
     alike, behind, reminds = likeness > 0.98, lag > max(0.02, lag_before), sideways > 0.95
     return Claim(
         "5", "at 200 Hz the curves keep their shape, the frictionless one lagging behind", "Fig. 5",
-        "T_E with and without friction correlate above 0.98 after a shift in time; the frictionless one is behind by more than 0.02 cycles and more than "
-        "in the static case; d_y2 correlates above 0.95 with its static curve",
+        "T_E with and without friction correlate above 0.98 after a shift in time. The frictionless one lags by more than 0.02 cycles and more than "
+        "in the static case. d_y2 correlates above 0.95 with its static curve",
         f"correlation {likeness:.3f}, lag {lag:.3f} cycles (static {lag_before:.3f}); d_y2 {sideways:.3f}; "
         f"with its static curve T_E correlates {to_static[0]:.2f} with friction, {to_static[1]:.2f} without",
         verdict(alike, behind, reminds),
@@ -130,11 +130,11 @@ def claim_6a(curve: xr.Dataset, where: str = "Fig. 6", number: str = "6a", pair:
     """Friction raises T_EPP at every mesh frequency."""
     raised = peak_to_peak(curve, WITH) - peak_to_peak(curve, WITHOUT)
     frequency, above = curve.mesh_frequency.values, raised > 0.0
-    text = f"raised at {above.sum()} of {len(above)} frequencies, by {raised.min() * MICRO:.1f} to {raised.max() * MICRO:.0f} urad"
+    text = f"friction raises it at {above.sum()} of {len(above)} frequencies; the change is {raised.min() * MICRO:+.1f} to {raised.max() * MICRO:+.0f} urad"
     if not above.all():
         lowest = int(raised.argmin())
         text += (
-            f"; lowered from {frequency[~above].min():.0f} to {frequency[~above].max():.0f} Hz, most at {frequency[lowest]:.0f} Hz: "
+            f". Friction lowers it between {frequency[~above].min():.0f} and {frequency[~above].max():.0f} Hz, most at {frequency[lowest]:.0f} Hz: "
             f"{peak_to_peak(curve, WITH)[lowest] * MICRO:.1f} against {peak_to_peak(curve, WITHOUT)[lowest] * MICRO:.1f} urad"
         )
     return Claim(

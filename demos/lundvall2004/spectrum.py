@@ -36,8 +36,8 @@ def why_friction_lowers(measured: Measured, reading: str, figure: str, curve: xr
     for near in (200.0, lowest):
         plain, added = harmonics(measured, reading, figure, near)
         angle = np.degrees(np.angle(added[0] / plain[0]))
-        said.append(f"at {near:.0f} Hz {abs(added[0]) * MICRO:.0f} urad at {angle:.0f} deg to the frictionless {abs(plain[0]) * MICRO:.0f} urad")
-    return f"what friction adds to the first harmonic turns with frequency until it opposes the rest: {'; '.join(said)}"
+        said.append(f"At {near:.0f} Hz it is {abs(added[0]) * MICRO:.0f} urad at {angle:.0f} deg to the frictionless {abs(plain[0]) * MICRO:.0f} urad")
+    return f"the phase of the contribution of friction to the first harmonic changes with frequency until it opposes the frictionless part. {'. '.join(said)}"
 
 
 def harmonics(measured: Measured, reading: str, figure: str, frequency: float) -> tuple[np.ndarray, np.ndarray]:

@@ -9,7 +9,7 @@ from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
 SCENES = ("fzg_type_c", "ben_gurion_18_35", "meng_25_30")
-COLUMNS = ("pair", "mesh frequency (Hz)", "J1 (kg mm²)", "J2 (kg mm²)", "mode of the mesh (Hz)", "T_EPP without inertia (µm)", "T_EPP at speed (µm)", "dynamic factor")
+COLUMNS = ("pair", "mesh frequency (Hz)", "J1 (kg mm²)", "J2 (kg mm²)", "mesh mode (Hz)", "T_EPP without inertia (µm)", "T_EPP at speed (µm)", "dynamic factor")
 
 
 @dataclass(frozen=True)

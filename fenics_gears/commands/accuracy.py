@@ -10,14 +10,14 @@ from fenics_gears.commands.shared import add_output_argument, add_scene_argument
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    words = "measure what each accuracy setting of a scene costs in time and gains; print and write table and work-precision picture"
+    words = "measure error and time of each accuracy setting of a scene; print and write a table and a picture of error against time"
     command = commands.add_parser("accuracy", parents=[shared], help=words)
     add_scene_argument(command)
     add_output_argument(command)
-    command.add_argument("--quick", action="store_true", help="few and coarse values of each setting, each timed once")
+    command.add_argument("--quick", action="store_true", help="few, coarse values of each setting, each timed once")
     command.add_argument(
         "--timing-seconds", type=float, metavar="SECONDS",
-        help="how long single settings may be run again for their times, the quickest first, five times each (60 unless given)",
+        help="time limit for repeating runs of single settings, which are timed five times each, the quickest first (default: 60)",
     )  # fmt: skip
     command.set_defaults(command=accuracy)
 
@@ -43,8 +43,8 @@ def _print(report, files) -> None:
 
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
     print_table(title, [table.HEADINGS, table.UNITS], table.table_rows(report))
-    print_table("Whole settings and cheaper models; * on the Pareto front", [table.WHOLE_HEADINGS, table.WHOLE_UNITS], table.whole_rows(report))
-    print_rows("In one sentence", [("", table.in_one_sentence(report), "")])
+    print_table("Combinations of settings, and cheaper models; * on the Pareto front", [table.WHOLE_HEADINGS, table.WHOLE_UNITS], table.whole_rows(report))
+    print_rows("Result", [("", table.in_one_sentence(report), "")])
     print_rows("Remarks", [("", remark, "") for remark in (*table.remarks(report), table.timed(report))])
     if report.failures:
         print_rows("Not run", [(name, reason, "") for name, reason in report.failures])

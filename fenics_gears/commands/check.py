@@ -9,7 +9,7 @@ from fenics_gears.commands.shared import add_scene_argument, checked_scene
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("check", parents=[shared], help="validate a scene, print its geometry, effects and cost; compute nothing")
+    command = commands.add_parser("check", parents=[shared], help="check a scene; print its geometry, effects, accuracy and expected cost; compute nothing")
     add_scene_argument(command)
     command.set_defaults(command=check)
 

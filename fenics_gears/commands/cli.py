@@ -1,7 +1,8 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
-Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (what was done is kept, marked
-incomplete), 4 the run ended with a result that has no meaning (kept, with the reason), 130 interrupted by Ctrl-C (likewise), 141 the reader of its output closed it.
+Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are kept,
+marked incomplete), 4 the run ended with a result that has no meaning (it is kept, with the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the
+program that reads the output closed the pipe.
 """
 
 from __future__ import annotations
@@ -69,13 +70,13 @@ def _configure_logging(verbose: bool) -> None:
 def _parser() -> argparse.ArgumentParser:
     shared = argparse.ArgumentParser(add_help=False)
     loudness = shared.add_mutually_exclusive_group()
-    loudness.add_argument("-v", "--verbose", action="store_true", default=argparse.SUPPRESS, help="say what is being done in detail")
+    loudness.add_argument("-v", "--verbose", action="store_true", default=argparse.SUPPRESS, help="report in detail what is being done")
     loudness.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors")
     shared.add_argument("--memory", metavar="SIZE", default=argparse.SUPPRESS, help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free)')
     parser = argparse.ArgumentParser(
         prog="gears",
         description="Spur gear pairs as flexible multi-body systems with frictional contact.",
-        epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed, 4 result without meaning, 130 interrupted.",
+        epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed, 4 result without meaning, 130 interrupted, 141 output closed.",
         parents=[shared],
     )
     parser.set_defaults(verbose=False, quiet=False)

@@ -12,11 +12,11 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("import", parents=[shared], help="write a gear pair of a REXS file as a scene")
     command.add_argument("file", type=Path, metavar="FILE", help="a REXS file: .rexs, .rexsj or .rexsz")
-    command.add_argument("-o", "--output", type=Path, metavar="SCENE", help="the scene file to write (default: FILE's name with .toml, here)")
-    command.add_argument("--stage", type=int, metavar="ID", help="which stage, by the number of its component, where there are several")
-    command.add_argument("--load-case", metavar="ID", help="which load case, where there are several")
-    command.add_argument("--wheel-torque", metavar="TORQUE", help='torque on the driven gear instead of that of the file: "437 N m"')
-    command.add_argument("--pinion-speed", metavar="SPEED", help='speed of the driving gear instead of that of the file: "750 rpm"')
+    command.add_argument("-o", "--output", type=Path, metavar="SCENE", help="scene file to write (default: name of FILE with .toml, in the current folder)")
+    command.add_argument("--stage", type=int, metavar="ID", help="number of the component of the stage, if the file has several stages")
+    command.add_argument("--load-case", metavar="ID", help="number of the load case, if the file has several")
+    command.add_argument("--wheel-torque", metavar="TORQUE", help='torque on the driven gear in place of that of the file, such as "437 N m"')
+    command.add_argument("--pinion-speed", metavar="SPEED", help='speed of the driving gear in place of that of the file, such as "750 rpm"')
     command.set_defaults(command=import_rexs)
 
 

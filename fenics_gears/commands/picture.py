@@ -14,14 +14,14 @@ PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; export them for ParaView")
+    command = commands.add_parser("picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; write them for ParaView")
     add_run_argument(command)
-    command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help="mesh cycles after the first stored step (default: 0)")
-    command.add_argument("--scale", type=_scale, metavar="N", help="displacements are drawn N times as large (default: as fits the picture)")
-    command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"what to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)")
-    command.add_argument("--animate", action="store_true", help="a turn through the stored mesh cycles (.gif, or .mp4 where ffmpeg is installed)")
-    command.add_argument("--vtu", type=Path, metavar="FILE", help="write displacement and stress of both gears for ParaView, too")
-    command.add_argument("--pvd", type=Path, metavar="FILE", help="write a turn through the stored mesh cycles for ParaView, too: FILE and a .vtu for each step")
+    command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help="mesh cycles after the first step with contact fields (default: 0)")
+    command.add_argument("--scale", type=_scale, metavar="N", help="displacements are drawn N times as large (default: the largest suitable scale)")
+    command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"file to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)")
+    command.add_argument("--animate", action="store_true", help="draw an animation of the mesh cycles with contact fields (.gif, or .mp4 where ffmpeg is installed)")
+    command.add_argument("--vtu", type=Path, metavar="FILE", help="also write displacement and stress of both gears for ParaView")
+    command.add_argument("--pvd", type=Path, metavar="FILE", help="also write the mesh cycles with contact fields for ParaView: FILE, and a .vtu file for each step")
     command.set_defaults(command=picture)
 
 

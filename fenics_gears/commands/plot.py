@@ -12,7 +12,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("plot", parents=[shared], help="draw the pictures of a run again")
     add_run_argument(command)
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: beside run.nc)")
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: beside run.nc)")
     command.set_defaults(command=plot)
 
 

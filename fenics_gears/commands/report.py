@@ -15,19 +15,19 @@ ENDINGS = (".html", ".htm")
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("report", parents=[shared], help="write one HTML page on a run or a study that needs no network")
+    command = commands.add_parser("report", parents=[shared], help="write one HTML page on a run or a study, readable without a network")
     command.add_argument(
-        "run", type=Path, metavar="RUN", help="a run's directory or its run.nc, a study's directory, or the file of one of its cases"
+        "run", type=Path, metavar="RUN", help="folder of a run or its run.nc, folder of a study, or file of one of its cases"
     )
-    command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help=f"what to write (default: {REPORT_FILE} beside {RUN_FILE})")
+    command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help=f"file or folder to write (default: {REPORT_FILE} beside {RUN_FILE})")
     command.add_argument(
         "--at",
         type=float,
         metavar="PHASE",
-        help="the stress picture's mesh cycles after the first stored step (default: where the force is largest)",
+        help="position of the stress picture: mesh cycles after the first step with contact fields (default: where the force is largest)",
     )
-    command.add_argument("--no-stress", action="store_true", help="leave the stress picture out: seconds less")
-    command.add_argument("--effects", action="store_true", help="measure first what each effect costs and changes, as `gears effects` does")
+    command.add_argument("--no-stress", action="store_true", help="leave out the stress picture, which takes some seconds")
+    command.add_argument("--effects", action="store_true", help="measure first the time each effect takes and how it changes the result, as `gears effects` does")
     command.set_defaults(command=report)
 
 

@@ -27,7 +27,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("run", parents=[shared], help="run a scene; write run.nc and pictures")
     add_scene_argument(command)
     add_output_argument(command)
-    command.add_argument("--no-pictures", action="store_true", help="write run.nc alone, without pictures, which `gears plot` draws later")
+    command.add_argument("--no-pictures", action="store_true", help="write run.nc without pictures; `gears plot` can draw them later")
     command.set_defaults(command=run)
 
 

@@ -26,12 +26,12 @@ def add_scene_argument(command) -> None:
 
 def add_output_argument(command) -> None:
     """The option --output of a command that writes a scene's results."""
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the scene file>)")
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the scene file>)")
 
 
 def add_run_argument(command) -> None:
     """The argument RUN of a command that reads a finished run."""
-    command.add_argument("run", type=Path, metavar="RUN", help="a run's directory or its run.nc")
+    command.add_argument("run", type=Path, metavar="RUN", help="folder of a run or its run.nc")
 
 
 def checked_scene(path: Path):

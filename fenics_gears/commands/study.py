@@ -15,10 +15,10 @@ from fenics_gears.errors import ComputationError, SceneError
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("study", parents=[shared], help="run a parameter study and draw it, alone or under mpirun; resumes where it was stopped")
+    command = commands.add_parser("study", parents=[shared], help="run a parameter study and draw it, alone or under mpirun; a stopped study is continued")
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: results/<name of the study file>)")
-    command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes and share the cases among them")
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the study file>)")
+    command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes, which share the cases")
     command.set_defaults(command=study)
 
 

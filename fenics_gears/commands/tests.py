@@ -12,7 +12,7 @@ from fenics_gears.errors import SceneError
 
 def add(commands) -> None:
     """Add the command to the parser, for its help only: pytest's options are not ours to parse."""
-    commands.add_parser("test", help="run the tests of the checkout; options go to pytest", add_help=False)
+    commands.add_parser("test", help="run the tests of the checkout; options are those of pytest", add_help=False)
 
 
 def run_tests(options: Sequence[str]) -> int:

@@ -51,24 +51,24 @@ EFFECTS: tuple[Effect, ...] = (
 # What every run has, whatever its effects.
 COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("transmission_error", "rad", "transmission error"),
-    ResultVariable("rotation", "rad", "rotation of the hub from its nominal motion", dims=("time", "gear")),
+    ResultVariable("rotation", "rad", "rotation of the hub relative to its nominal rotation", dims=("time", "gear")),
     ResultVariable("normal_force", "N", "contact force of the mesh along the line of action"),
     ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action", dims=OF_PAIRS),
     ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action", dims=("time", "gear")),
     ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action", dims=("time", "gear")),
     ResultVariable("reaction_couple", "N mm", "torque of the gear on its shaft, positive in the pinion's sense of rotation", dims=("time", "gear")),
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
-    ResultVariable("closed_nodes", "1", "contact nodes that are closed"),
+    ResultVariable("closed_nodes", "1", "number of closed contact nodes"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
-    ResultVariable("work_input", "N mm", "work that the pinion's shaft puts in, of the drive; negative where the wheel drives"),
-    ResultVariable("work_output", "N mm", "work that the wheel's shaft takes out, done on the load; negative where the wheel drives"),
-    ResultVariable("work_contact_changes", "N mm", "work of the time stepping at changes of contact"),
-    ResultVariable("energy_defect", "N mm", "energy that the account does not explain"),
+    ResultVariable("work_input", "N mm", "work done on the input shaft by the drive; negative where the wheel drives"),
+    ResultVariable("work_output", "N mm", "work done on the load by the output shaft; negative where the wheel drives"),
+    ResultVariable("work_contact_changes", "N mm", "energy added by the time stepping where nodes come into contact or separate"),
+    ResultVariable("energy_defect", "N mm", "defect of the energy balance"),
     ResultVariable("path_point_position", "mm", "distance of the point from T1 along the line of action", dims=OF_POINTS),
     ResultVariable("path_point_diameter", "mm", "diameter at the point of the path of contact", dims=(*OF_POINTS, "gear")),
     ResultVariable("sliding_speed", "mm/s", "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip", dims=OF_POINTS),
-    ResultVariable("specific_sliding", "1", "sliding speed over the speed of the flank's own contact point; negative in the dedendum", dims=(*OF_POINTS, "gear")),
-    ResultVariable("load_share", "1", "share of the mesh's force that a pair carries at the point of the path of contact", dims=OF_POINTS),
+    ResultVariable("specific_sliding", "1", "specific sliding: sliding speed divided by the speed of the contact point along the gear's own flank; negative in the dedendum", dims=(*OF_POINTS, "gear")),
+    ResultVariable("load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS),
 )
 
 # What only contact that is spread over nodes has.

@@ -19,15 +19,16 @@ def _stiffness(meaning: str, otherwise: str):
 
 
 class SupportText(Section):
-    """``[bearings.pinion]`` and ``[bearings.wheel]``; what is left out is taken from ``[bearings]``."""
+    """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the defaults hold if that
+    section leaves them out too."""
 
-    stiffness: Optional[float] = _stiffness("stiffness in every direction", "from the two below, or as of both gears")
+    stiffness: Optional[float] = _stiffness("stiffness in all directions", "from `stiffness_x` and `stiffness_y`")
     stiffness_x: Optional[float] = _stiffness("stiffness along the line of action", "`stiffness`")
     stiffness_y: Optional[float] = _stiffness("stiffness off the line of action", "`stiffness`")
 
 
 class BearingsText(SupportText):
-    """``[bearings]``: stiffness in every direction, or along (x) and off (y) the line of action, of both shafts."""
+    """``[bearings]``: stiffness of the support of each gear, the same in all directions or separate along (x) and off (y) the line of action."""
 
     pinion: Optional[SupportText] = None
     wheel: Optional[SupportText] = None
@@ -52,10 +53,10 @@ def supports_are_complete(tree: Tree) -> Iterator[Problem]:
 EFFECT = Effect(
     section="bearings",
     description="elastic support of the gear centres",
-    absent="centres fixed",
+    absent="the centres are fixed",
     text=BearingsText,
     data=Bearings,
-    unknowns=("two displacements of each centre",),
+    unknowns=("two displacements of each gear centre",),
     terms=("translational springs",),
     variables=(
         ResultVariable("centre_x", "mm", "displacement of the centre along the line of action", dims=("time", "gear")),

@@ -36,13 +36,13 @@ class BodyMeshes:
 
 
 class BodyMeshesText(Section):
-    """``[body_meshes]``: files of gmsh, from the scene file's folder on; lengths in mm."""
+    """``[body_meshes]``: gmsh files, relative to the folder of the scene file; lengths in mm."""
 
     pinion: Optional[str] = file_name(
-        ".msh", "pinion.msh", meaning="mesh file of the whole pinion, from the scene file's folder on", otherwise="a ring of equal sectors"
+        ".msh", "pinion.msh", meaning="mesh file of the whole pinion", otherwise="a ring of equal sectors"
     )
     wheel: Optional[str] = file_name(
-        ".msh", "wheel.msh", meaning="mesh file of the whole wheel, from the scene file's folder on", otherwise="a ring of equal sectors"
+        ".msh", "wheel.msh", meaning="mesh file of the whole wheel", otherwise="a ring of equal sectors"
     )
 
 
@@ -165,11 +165,11 @@ def _body(meshes: BodyMeshes, name: str, pair, element: str):
 
 EFFECT = Effect(
     section="body_meshes",
-    description="gears meshed as a whole, teeth not all alike",
+    description="gears meshed as a whole by the user, with teeth that may differ",
     absent="each gear is a ring of equal sectors",
     text=BodyMeshesText,
     data=BodyMeshes,
-    terms=("flank compliance of each tooth of its own", "contact equations that change with the teeth in mesh"),
+    terms=("a flank compliance for each tooth", "contact equations that change with the teeth in mesh"),
     needs=("tooth_elasticity",),
     excludes=("coast_flanks",),
     read=read,

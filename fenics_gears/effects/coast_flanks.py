@@ -18,7 +18,7 @@ class CoastFlanks:
 
 
 class CoastFlanksText(Section):
-    """``[coast_flanks]``: has no fields; naming it is enough."""
+    """``[coast_flanks]``: this section has no fields."""
 
 
 def flanks_are_there(tree: Tree) -> Iterator[Problem]:
@@ -34,8 +34,8 @@ def flanks_are_there(tree: Tree) -> Iterator[Problem]:
 
 EFFECT = Effect(
     section="coast_flanks",
-    description="contact on the unloaded flanks, with the backlash of the geometry",
-    absent="drive flanks only",
+    description="contact on the coast flanks, with the backlash that follows from the gear data",
+    absent="contact on the drive flanks only",
     text=CoastFlanksText,
     data=CoastFlanks,
     unknowns=("normal force of each closed contact node on the coast flanks",),
@@ -47,8 +47,8 @@ EFFECT = Effect(
         ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity", OF_NODES),
         ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank", "tooth_elasticity", OF_NODES),
         ResultVariable("coast_contact_traction", "MPa", "friction traction on the coast flanks", "friction", OF_NODES),
-        ResultVariable("drive_flank_opening", "mm", "smallest distance of the drive flanks"),
-        ResultVariable("coast_flank_opening", "mm", "smallest distance of the coast flanks"),
+        ResultVariable("drive_flank_opening", "mm", "smallest gap between the drive flanks"),
+        ResultVariable("coast_flank_opening", "mm", "smallest gap between the coast flanks"),
     ),
     rules=flanks_are_there,
 )

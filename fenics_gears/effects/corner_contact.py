@@ -20,15 +20,15 @@ class CornerContact:
 
 
 class EdgeText(Section):
-    """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``."""
+    """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``: an edge radius of the gear's own, in place of that in ``[corner_contact]``."""
 
     edge_radius: Optional[float] = quantity(
-        "0 mm", "1 m", "0.1 mm", meaning="radius of the edge between flank and tip circle", otherwise="as `[corner_contact]` has it, else sharp, 0 mm"
+        "0 mm", "1 m", "0.1 mm", meaning="radius of the edge between flank and tip circle", otherwise="0 mm, a sharp edge"
     )
 
 
 class CornerContactText(EdgeText):
-    """``[corner_contact]``: the edge radius of both gears; sharp edges where it is left out."""
+    """``[corner_contact]``: the edge radius of both gears."""
 
     pinion: Optional[EdgeText] = None
     wheel: Optional[EdgeText] = None
@@ -48,8 +48,8 @@ def route_has_corners(tree: Tree) -> Iterator[Problem]:
 
 EFFECT = Effect(
     section="corner_contact",
-    description="tips touch before and after the path of contact, along the mate's own normal",
-    absent="tips touch along the line of action only",
+    description="contact of tip edges before and after the path of contact, along the normal of the mating flank",
+    absent="tip edges touch along the line of action only",
     text=CornerContactText,
     data=CornerContact,
     terms=("contact of tip edges off the line of action",),

@@ -14,31 +14,31 @@ from fenics_gears.inputs.written import as_written
 
 
 def _stiffness_proportional(otherwise: str):
-    return quantity("0 s", "1e3 s", "0.4e-3 s", meaning="alpha of alpha K + beta M", otherwise=otherwise)
+    return quantity("0 s", "1e3 s", "0.4e-3 s", meaning="factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M", otherwise=otherwise)
 
 
 def _mass_proportional(otherwise: str):
-    return quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s", meaning="beta of alpha K + beta M", otherwise=otherwise)
+    return quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s", meaning="factor beta of the mass matrix M in the damping matrix alpha K + beta M", otherwise=otherwise)
 
 
 class RayleighText(Section):
-    """``[damping.pinion]`` (with bearings and input shaft) and ``[damping.wheel]``; what is left out is taken from ``[damping]``."""
+    """``[damping.pinion]`` and ``[damping.wheel]``: Rayleigh damping of a gear with its bearings and its shaft."""
 
-    stiffness_proportional: Optional[float] = _stiffness_proportional("as of both gears")
-    mass_proportional: Optional[float] = _mass_proportional("as of both gears")
+    stiffness_proportional: Optional[float] = _stiffness_proportional("that of `[damping]`")
+    mass_proportional: Optional[float] = _mass_proportional("that of `[damping]`")
 
 
 class DampingText(Section):
-    """``[damping]``: Rayleigh damping, alike for both shafts where neither has its own, or ratios of the critical damping."""
+    """``[damping]``: either Rayleigh damping, for both gears or for each, or damping ratios of the modes."""
 
-    stiffness_proportional: Optional[float] = _stiffness_proportional("each gear's own, or `ratio`")
-    mass_proportional: Optional[float] = _mass_proportional("each gear's own, or `ratio`")
+    stiffness_proportional: Optional[float] = _stiffness_proportional("each gear has its own, or the damping is given by ratios")
+    mass_proportional: Optional[float] = _mass_proportional("each gear has its own, or the damping is given by ratios")
     ratio: Optional[float] = number(
-        0.05, meaning="damping ratio of every mode of the drivetrain with one tooth pair in mesh", above=0, below=1, otherwise="`ratios`, or Rayleigh damping"
+        0.05, meaning="damping ratio (part of the critical damping) of all modes of the drivetrain with one tooth pair in mesh", above=0, below=1, otherwise="damping is given by `ratios` or is Rayleigh damping"
     )
     ratios: Optional[tuple[float, ...]] = numbers(
-        0.0, 0.999, 0.05, meaning="damping ratios by mode from the lowest frequency on; the last holds for all that follow",
-        otherwise="`ratio`, or Rayleigh damping",
+        0.0, 0.999, 0.05, meaning="damping ratios of the modes in the order of their frequencies; the last one holds for all further modes",
+        otherwise="damping is given by `ratio` or is Rayleigh damping",
     )  # fmt: skip
     pinion: Optional[RayleighText] = None
     wheel: Optional[RayleighText] = None
@@ -102,12 +102,12 @@ def _rayleigh_acts(tree: Tree) -> Iterator[Problem]:
 
 EFFECT = Effect(
     section="damping",
-    description="Rayleigh damping of each shaft, or damping ratios of the modes",
-    absent="undamped",
+    description="Rayleigh damping, or damping ratios of the modes",
+    absent="no damping",
     text=DampingText,
     data=Damping,
     terms=("damping forces: stiffness- and mass-proportional, or by mode",),
-    variables=(ResultVariable("work_damping", "N mm", "work that damping takes"),),
+    variables=(ResultVariable("work_damping", "N mm", "energy lost to damping"),),
     needs=("inertia",),
     read=read,
     rules=damping_acts,

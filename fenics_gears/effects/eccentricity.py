@@ -20,20 +20,20 @@ class OffsetText(Section):
         "1e-6 um",
         "100 mm",
         "10 um",
-        meaning="distance of the base circle's centre from the axis of rotation",
+        meaning="eccentricity: distance of the base circle's centre from the axis of rotation",
         below="For a gear that runs true, leave its section out.",
     )
     phase: Optional[float] = quantity(
         "-360 deg",
         "360 deg",
         "90 deg",
-        meaning="angle of that centre from the line of action, pinion to wheel, at the start of the first mesh cycle, in the gear's sense of rotation",
+        meaning="direction of the base circle's centre at the start of the first mesh cycle: angle from the line of action (pinion to wheel), in the gear's sense of rotation",
         otherwise="0 deg",
     )
 
 
 class EccentricityText(Section):
-    """``[eccentricity]``: a section for either gear or both."""
+    """``[eccentricity]``."""
 
     pinion: Optional[OffsetText] = None
     wheel: Optional[OffsetText] = None
@@ -64,11 +64,11 @@ def period(eccentricity: Eccentricity, scene) -> int:
 
 EFFECT = Effect(
     section="eccentricity",
-    description="run-out of either gear",
-    absent="gears run true",
+    description="eccentricity of the gears on their shafts (run-out)",
+    absent="no run-out",
     text=EccentricityText,
     data=Eccentricity,
-    terms=("gaps that change once a turn of the gear",),
+    terms=("gaps that vary once per revolution of the gear",),
     rules=run_out_is_small_and_of_some_gear,
     gaps=gaps,
     period=period,

@@ -27,51 +27,51 @@ PITCH_ROUNDING = 0.05e-3
 # Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
 DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
 
-DRAWN = "drawn within the tolerance class, none without one"
+DRAWN = "random values within `tolerance_class`; without a class, zero"
 
 
 class WavinessText(Section):
-    """``[flank_errors.pinion.waviness]`` and the wheel's."""
+    """``[flank_errors.pinion.waviness]`` and the wheel's: a sinusoidal undulation around the gear."""
 
     amplitude: float = quantity(
-        "1e-6 um", "100 mm", "1 um", meaning="amplitude of the undulation", below="For flanks without waviness, leave the section out."
+        "1e-6 um", "100 mm", "1 um", meaning="amplitude", below="For flanks without waviness, leave the section out."
     )
-    waves: int = whole_number(1, 1_000_000, 37, meaning="waves in a turn of the gear")
+    waves: int = whole_number(1, 1_000_000, 37, meaning="number of waves per revolution of the gear")
     phase: Optional[float] = quantity(
         "-360 deg", "360 deg", "90 deg", meaning="phase of the wave at the first tooth", otherwise="0 deg"
     )
 
 
 class GearErrorsText(Section):
-    """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: lists with a value for each tooth, or a table of them."""
+    """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: deviations of each tooth, as lists or as a table in a file."""
 
     file: Optional[str] = file_name(
         ".csv",
         "pinion.csv",
-        meaning="table from the scene file's folder on, with a line for each tooth and the columns `tooth`, counted from 1, and any of `pitch (um)`, "
-        "`profile_slope (um)` and `profile_form (um)`",
+        meaning="table with a line for each tooth: the column `tooth`, counted from 1, and any of the columns `pitch (um)`, `profile_slope (um)` and "
+        "`profile_form (um)`; relative to the folder of the scene file",
         otherwise="no table",
     )
 
     pitch: Optional[tuple[float, ...]] = quantities(
-        "-100 mm", "100 mm", "3.5 um", meaning="single pitch deviations, positive where the pitch is too long; they sum to zero", otherwise=DRAWN
+        "-100 mm", "100 mm", "3.5 um", meaning="single pitch deviations, positive where the pitch is too long; their sum must be zero", otherwise=DRAWN
     )
     profile_slope: Optional[tuple[float, ...]] = quantities(
         "-100 mm", "100 mm", "4 um", meaning="profile slope deviations, positive with material in excess towards the tip", otherwise=DRAWN
     )
     profile_form: Optional[tuple[float, ...]] = quantities(
-        "-100 mm", "100 mm", "3 um", meaning="profile form deviations, positive where the middle of the flank stands out", otherwise=DRAWN
+        "-100 mm", "100 mm", "3 um", meaning="profile form deviations, positive with material in excess in the middle of the flank", otherwise=DRAWN
     )
     waviness: Optional[WavinessText] = None
 
 
 class FlankErrorsText(Section):
-    """``[flank_errors]``: the class within which is drawn what is not given, and the seed of the drawing (1 unless given)."""
+    """``[flank_errors]``: deviations that are not given are random values within a tolerance class."""
 
     tolerance_class: Optional[int] = whole_number(
-        1, 11, 6, meaning="flank tolerance class of ISO 1328-1 within which is drawn what no list gives", otherwise="nothing is drawn"
+        1, 11, 6, meaning="flank tolerance class of ISO 1328-1 that limits the random deviations", otherwise="no random deviations"
     )
-    seed: Optional[int] = whole_number(0, 2**31 - 1, 1, meaning="seed of the drawing", otherwise="1")
+    seed: Optional[int] = whole_number(0, 2**31 - 1, 1, meaning="seed of the random numbers", otherwise="1")
     pinion: Optional[GearErrorsText] = None
     wheel: Optional[GearErrorsText] = None
 
@@ -227,8 +227,8 @@ def _differ(own: GearErrors, drawn: bool) -> bool:
 
 EFFECT = Effect(
     section="flank_errors",
-    description="pitch, profile and waviness deviations of single teeth, given or drawn from a flank tolerance class",
-    absent="all teeth alike and where they should be",
+    description="pitch and profile deviations and waviness of the teeth, given for each tooth or random within a flank tolerance class",
+    absent="all teeth are alike and at their nominal places",
     text=FlankErrorsText,
     data=FlankErrors,
     terms=("gaps that differ from tooth to tooth, over a hunting tooth period",),

@@ -28,7 +28,7 @@ class FrictionText(Section):
 EFFECT = Effect(
     section="friction",
     description="Coulomb friction between the flanks",
-    absent="frictionless, no tangential unknowns",
+    absent="no friction, no tangential unknowns",
     text=FrictionText,
     data=Friction,
     unknowns=("tangential force of each closed contact node",),
@@ -37,7 +37,7 @@ EFFECT = Effect(
         ResultVariable("friction_force", "N", "friction force of the mesh, on the drive flanks"),
         ResultVariable("pair_friction_force", "N", "friction force of the tooth pair", dims=OF_PAIRS),
         ResultVariable("contact_traction", "MPa", "friction traction on the flank", dims=OF_NODES),
-        ResultVariable("work_friction", "N mm", "friction loss, as work"),
+        ResultVariable("work_friction", "N mm", "energy lost to friction between the flanks"),
     ),
     # Between rigid flanks the pairs' shares of the force, and with them the friction, are not determined.
     needs=("tooth_elasticity",),

@@ -22,32 +22,32 @@ def _moment_of_inertia(meaning: str, otherwise: str = ""):
 
 
 def _density(otherwise: str):
-    meaning = "density of the body: teeth, rim and all between bore and tip over the gear's own face width, without shaft"
+    meaning = "density of the gear; mass and moment of inertia follow from its outline, bore and face width, without the shaft"
     return quantity("1e-6 g/cm^3", "1e6 g/cm^3", "7.85 g/cm^3", meaning=meaning, otherwise=otherwise)
 
 
 class GearInertiaText(Section):
-    """``[inertia.pinion]`` and ``[inertia.wheel]``; what is left out follows from the gear's own density, or is as in ``[inertia]``."""
+    """``[inertia.pinion]`` and ``[inertia.wheel]``; values that are left out follow from the gear's own density, otherwise from ``[inertia]``."""
 
-    mass: Optional[float] = _mass("mass of this gear, with its shaft", "as of both gears")
-    moment_of_inertia: Optional[float] = _moment_of_inertia("moment of inertia of this gear", "as of both gears")
-    density: Optional[float] = _density("as of both gears")
+    mass: Optional[float] = _mass("mass of this gear, with its shaft", "from the gear's own `density`, otherwise from `[inertia]`")
+    moment_of_inertia: Optional[float] = _moment_of_inertia("moment of inertia of this gear", "from the gear's own `density`, otherwise from `[inertia]`")
+    density: Optional[float] = _density("that of `[inertia]`, where the gear has no mass and moment of inertia of its own")
 
 
 class LoadInertiaText(Section):
-    """``[inertia.load]``: what the output shaft drives; without ``[shafts]`` it turns with the wheel."""
+    """``[inertia.load]``: the driven machine on the end of the output shaft; without ``[shafts]`` it turns with the wheel."""
 
-    moment_of_inertia: float = _moment_of_inertia("moment of inertia at the far end of the output shaft")
+    moment_of_inertia: float = _moment_of_inertia("moment of inertia of the load")
 
 
 class InertiaText(Section):
-    """``[inertia]``: lumped at the centres, alike for both gears where neither has its own; the input shaft's far end turns as prescribed."""
+    """``[inertia]``: masses and moments of inertia, lumped at the gear centres. The far end of the input shaft needs none: its rotation is prescribed."""
 
-    mass: Optional[float] = _mass("mass of a gear, with its shaft", "by the density, or each gear's own")
+    mass: Optional[float] = _mass("mass of each gear, with its shaft", "from `density`, or each gear has its own")
     moment_of_inertia: Optional[float] = _moment_of_inertia(
-        "moment of inertia of a gear, and of the output shaft's far end where `[inertia.load]` does not say", "by the density, or each gear's own"
+        "moment of inertia of each gear, and of the load if there is no `[inertia.load]`", "from `density`, or each gear has its own"
     )
-    density: Optional[float] = _density("mass and moment of inertia are given")
+    density: Optional[float] = _density("mass and moment of inertia must be given")
     pinion: Optional[GearInertiaText] = None
     wheel: Optional[GearInertiaText] = None
     load: Optional[LoadInertiaText] = None
@@ -100,11 +100,11 @@ def _density_stands_alone(tree: Tree) -> Iterator[Problem]:
 
 EFFECT = Effect(
     section="inertia",
-    description="mass and moment of inertia of gears and shafts",
-    absent="quasi-static",
+    description="mass and moment of inertia of gears and load",
+    absent="quasi-static equilibrium in each step",
     text=InertiaText,
     data=Inertia,
-    terms=("inertia forces, average acceleration in time",),
+    terms=("inertia forces",),
     variables=(ResultVariable("energy_kinetic", "N mm", "kinetic energy"),),
     read=read,
     rules=inertia_is_complete,

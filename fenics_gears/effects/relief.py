@@ -23,41 +23,43 @@ def start_field(word: str, word_meaning: str) -> Any:
         ("1e-3 deg", "360 deg", "29.61 deg"),
         ("0.1 mm", "100 m", "80.1 mm"),
         words={word: None},
-        meaning=f"where the relief starts: a roll angle, the {word_meaning}, or, of one gear, a diameter",
-        otherwise="as of both gears, or from a length; one of them must be given",
+        meaning=f"start of the relief: a roll angle, the {word_meaning}, or a diameter, which is accepted for one gear only",
+        otherwise="follows from a length; start or length is required where there is a depth",
     )
 
 
 def length_field(measured: str) -> Any:
     """The field for the length of a relief, in place of its start."""
-    return quantity("1e-3 um", "100 m", "3 mm", meaning=f"length of the relief {measured}, from its start to its end", otherwise="from `start`")
+    return quantity("1e-3 um", "100 m", "3 mm", meaning=f"length of the relief {measured}, from its start to its end", otherwise="follows from `start`")
 
 
 class TipReliefOfGearText(Section):
-    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; what is left out is taken from ``[tip_relief]``."""
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and the defaults hold
+    if that section leaves them out too."""
 
     depth: Optional[float] = quantity(
         "1e-6 um",
         "100 mm",
         "31 um",
-        meaning="material removed at the relief's end, along the flank's normal",
-        otherwise="as of both gears, else no relief",
+        meaning="depth at the end of the relief, normal to the flank",
+        otherwise="no relief",
         below="For a gear without relief, leave its depth out.",
     )
     start: Optional[Measured] = start_field("HPSTC", "highest point of single tooth contact")
-    length_on_path: Optional[float] = length_field("on the path of contact, as profile charts have it: base radius times roll angle")
-    length_on_flank: Optional[float] = length_field("along the flank: the involute's arc")
+    length_on_path: Optional[float] = length_field("on the path of contact (length of roll: base radius times roll angle)")
+    length_on_flank: Optional[float] = length_field("along the flank (arc of the involute)")
     shape: Optional[Literal["linear", "parabolic"]] = choice(
         LINEAR,
         PARABOLIC,
-        meaning="how it grows with the roll angle, from its start to its end: `linear` starts with a kink, where the pressure peaks and does not converge "
-        "with the mesh; `parabolic` starts without one",
-        otherwise="as of both gears, else `linear`",
+        meaning="growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not converge as the mesh is refined; "
+        "`parabolic` starts without a kink",
+        otherwise="`linear`",
     )
 
 
 class RootReliefOfGearText(TipReliefOfGearText):
-    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; what is left out is taken from ``[root_relief]``."""
+    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``, and the defaults hold
+    if that section leaves them out too."""
 
     start: Optional[Measured] = start_field("LPSTC", "lowest point of single tooth contact")
 

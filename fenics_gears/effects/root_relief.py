@@ -11,7 +11,7 @@ from fenics_gears.geometry.relief_data import RootRelief
 
 
 class RootReliefText(RootReliefOfGearText):
-    """``[root_relief]``: depth at the form circle, start (or length) and shape for both gears."""
+    """``[root_relief]``: relief of both gears; it ends at the form circle."""
 
     pinion: Optional[RootReliefOfGearText] = None
     wheel: Optional[RootReliefOfGearText] = None
@@ -31,11 +31,11 @@ def removal(relief: RootRelief, pair):
 
 EFFECT = Effect(
     section="root_relief",
-    description="material removed towards the roots, linear or parabolic in the roll angle",
-    absent="true involutes down to the form circle",
+    description="root relief, linear or parabolic in the roll angle",
+    absent="involutes without root relief",
     text=RootReliefText,
     data=RootRelief,
-    terms=("initial gaps",),
+    terms=("gaps between the flanks",),
     read=read,
     rules=partial(rules, "root_relief", "LPSTC"),
     removal=removal,

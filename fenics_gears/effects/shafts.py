@@ -19,15 +19,15 @@ def _stiffness(meaning: str, otherwise: str = ""):
 
 
 class ShaftText(Section):
-    """``[shafts.input]`` (from the prescribed rotation to the pinion) and ``[shafts.output]`` (from the wheel to the load)."""
+    """``[shafts.input]`` and ``[shafts.output]``: the shaft between the prescribed rotation and the pinion, and that between wheel and load."""
 
-    torsional_stiffness: float = _stiffness("stiffness of this shaft")
+    torsional_stiffness: float = _stiffness("torsional stiffness of this shaft")
 
 
 class ShaftsText(Section):
     """``[shafts]``."""
 
-    torsional_stiffness: Optional[float] = _stiffness("stiffness of the input and of the output shaft, each", "from the shafts' own")
+    torsional_stiffness: Optional[float] = _stiffness("torsional stiffness of each of the two shafts", "each shaft has its own")
     input: Optional[ShaftText] = None
     output: Optional[ShaftText] = None
 
@@ -48,13 +48,13 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
 EFFECT = Effect(
     section="shafts",
     description="elastic torsion of the input and the output shaft",
-    absent="pinion hub turned as prescribed, torque straight on the wheel",
+    absent="the prescribed rotation acts on the pinion and the load torque on the wheel directly",
     text=ShaftsText,
     data=Shafts,
-    unknowns=("rotation of the pinion", "rotation of the output shaft's end"),
+    unknowns=("rotation of the pinion", "rotation of the far end of the output shaft"),
     terms=("torsional springs",),
     variables=(
-        ResultVariable("shaft_end_rotation", "rad", "rotation of the output shaft's end"),
+        ResultVariable("shaft_end_rotation", "rad", "rotation of the far end of the output shaft"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
     ),
     rules=shafts_are_complete,

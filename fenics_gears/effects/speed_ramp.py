@@ -23,11 +23,11 @@ class SpeedRamp:
 
 
 class SpeedRampText(Section):
-    """``[speed_ramp]``: from the mesh frequency of the motion to another, linearly in time."""
+    """``[speed_ramp]``: from the mesh frequency of ``[motion]`` to another one."""
 
     end_frequency: float = quantity("1e-6 Hz", "1e6 Hz", "260 Hz", meaning="mesh frequency at the end of the run")
     hold_cycles: Optional[int] = whole_number(
-        0, 1_000_000, 20, meaning="mesh cycles at the first frequency before the ramp begins", otherwise="0"
+        0, 1_000_000, 20, meaning="number of mesh cycles at the first frequency, before the ramp begins", otherwise="0"
     )
 
 
@@ -84,7 +84,7 @@ EFFECT = Effect(
     absent="constant speed",
     text=SpeedRampText,
     data=SpeedRamp,
-    terms=("inertia forces of the accelerating nominal motion", "time steps at equal phases, not at equal times"),
+    terms=("inertia forces of the accelerating nominal motion", "time steps of equal mesh phase"),
     variables=(ResultVariable("mesh_frequency", "Hz", "mesh frequency"),),
     needs=("inertia",),
     rules=speed_changes,

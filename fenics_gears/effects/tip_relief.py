@@ -11,7 +11,7 @@ from fenics_gears.geometry.relief_data import TipRelief
 
 
 class TipReliefText(TipReliefOfGearText):
-    """``[tip_relief]``: depth, start (or length) and shape for both gears."""
+    """``[tip_relief]``: relief of both gears; it ends at the tip."""
 
     pinion: Optional[TipReliefOfGearText] = None
     wheel: Optional[TipReliefOfGearText] = None
@@ -31,11 +31,11 @@ def removal(relief: TipRelief, pair):
 
 EFFECT = Effect(
     section="tip_relief",
-    description="material removed towards the tips, linear or parabolic in the roll angle",
-    absent="true involutes",
+    description="tip relief, linear or parabolic in the roll angle",
+    absent="involutes without tip relief",
     text=TipReliefText,
     data=TipRelief,
-    terms=("initial gaps",),
+    terms=("gaps between the flanks",),
     read=read,
     rules=partial(rules, "tip_relief", "HPSTC"),
     removal=removal,

@@ -21,14 +21,14 @@ def _poissons_ratio(otherwise: str = ""):
 
 
 class MaterialText(Section):
-    """``[gears.material]``: of both gears."""
+    """``[gears.material]``: material of both gears. Without this section the flanks are rigid."""
 
     youngs_modulus: float = _youngs_modulus()
     poissons_ratio: float = _poissons_ratio()
 
 
 class OwnMaterialText(Section):
-    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; what is left out is taken from ``[gears.material]``."""
+    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of ``[gears.material]``."""
 
     youngs_modulus: Optional[float] = _youngs_modulus("from `[gears.material]`")
     poissons_ratio: Optional[float] = _poissons_ratio("from `[gears.material]`")
@@ -63,21 +63,21 @@ EFFECT = Effect(
     section="tooth_elasticity",
     within=("gears", "material"),
     description="elastic teeth and gear bodies",
-    absent="rigid flanks: kinematic transmission error, and no pressures; forces of single pairs where only one leads",
+    absent="rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair touches",
     text=MaterialText,
     data=Material,
     unknowns=("normal force of each closed contact node",),
     terms=("compliance of the flanks",),
     variables=(
         ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
-        ResultVariable("mesh_stiffness", "N/mm", "mesh stiffness: force of the mesh over the deflection of the flanks"),
-        ResultVariable("mesh_stiffness_tangent", "N/mm", "tangent mesh stiffness: change of the force over change of the deflection"),
-        ResultVariable("loaded_pairs", "1", "tooth pairs that carry"),
-        ResultVariable("largest_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, off the flanks' edges"),
-        ResultVariable("largest_contact_pressure_pair", "1", "tooth pair with the largest contact pressure; 0 where nothing touches"),
-        ResultVariable("largest_contact_pressure_roll_angle", "rad", "roll angle of the largest contact pressure on the pinion's flank"),
-        ResultVariable("largest_edge_pressure", "MPa", "largest pressure of pairs that press with a tip's edge; it does not converge with the mesh"),
-        ResultVariable("contact_pressure", "MPa", "contact pressure of the node, not averaged", dims=OF_NODES),
+        ResultVariable("mesh_stiffness", "N/mm", "mesh stiffness: mesh force divided by the deflection of the flanks"),
+        ResultVariable("mesh_stiffness_tangent", "N/mm", "tangent mesh stiffness: change of the mesh force divided by the change of the deflection"),
+        ResultVariable("loaded_pairs", "1", "number of loaded tooth pairs"),
+        ResultVariable("largest_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, without pairs in contact at a tip edge"),
+        ResultVariable("largest_contact_pressure_pair", "1", "number of the tooth pair with the largest contact pressure; 0 if none is in contact"),
+        ResultVariable("largest_contact_pressure_roll_angle", "rad", "roll angle on the pinion's flank at the largest contact pressure"),
+        ResultVariable("largest_edge_pressure", "MPa", "largest pressure of pairs in contact at a tip edge; it does not converge as the mesh is refined"),
+        ResultVariable("contact_pressure", "MPa", "contact pressure at the node, not averaged", dims=OF_NODES),
         ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion", dims=OF_NODES),
         ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES),
     ),

@@ -1,4 +1,4 @@
-"""``[torque_ripple]``: harmonics of the wheel shaft's turn on the load's torque (``dynamics.torque_ripple``)."""
+"""``[torque_ripple]``: load torque that varies with the rotation of the wheel's shaft (``dynamics.torque_ripple``)."""
 
 from __future__ import annotations
 
@@ -79,9 +79,9 @@ def _quantity(place: int, name: str, value: Any) -> float:
 
 
 _HARMONICS = AllowedHarmonics(
-    f"a list of harmonics, each with its order (turns of the wheel's shaft, above 0 up to {HIGHEST_ORDER:g}), an amplitude and, if any, "
+    f"a list of harmonics, each with an order above 0 up to {HIGHEST_ORDER:g}, an amplitude and, if any, "
     'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]',
-    meaning="what adds to the torque: amplitude times the cosine of order times the shaft's angle plus phase",
+    meaning="harmonics added to `load.wheel_torque`: amplitude * cos(order * rotation of the wheel's shaft + phase)",
 )
 
 
@@ -135,12 +135,12 @@ def shaft_step(scene, steps_per_mesh_cycle: int) -> float:
 
 EFFECT = Effect(
     section="torque_ripple",
-    description="harmonics of the wheel shaft's turn on its torque",
-    absent="constant torque",
+    description="load torque that varies with the rotation of the wheel's shaft, as a sum of harmonics",
+    absent="constant load torque",
     text=TorqueRippleText,
     data=TorqueRipple,
-    terms=("varying torque",),
-    variables=(ResultVariable("wheel_couple", "N mm", "torque on the wheel's shaft, positive where it resists the drive"),),
+    terms=("varying load torque",),
+    variables=(ResultVariable("wheel_couple", "N mm", "load torque on the wheel's shaft, positive where it resists the rotation"),),
     rules=torque_keeps_its_sign,
     load=load,
     results=results,

@@ -214,9 +214,9 @@ def number(
     otherwise: str = "",
 ) -> Any:
     """A bare number; ``above`` and ``below`` are excluded, ``lowest`` and ``highest`` included."""
-    least = f"above {above:g}" if lowest is None else f"from {lowest:g}"
+    least = f"above {above:g} and" if lowest is None else f"from {lowest:g}"
     most = f"below {below:g}" if highest is None else f"up to {highest:g}"
-    allowed = Allowed(f"a number {least} and {most}, without unit, such as {example:g}", below=too_low, meaning=meaning, otherwise=otherwise)
+    allowed = Allowed(f"a number {least} {most}, without unit, such as {example:g}", below=too_low, meaning=meaning, otherwise=otherwise)
     return Field(None if otherwise else default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
 
 

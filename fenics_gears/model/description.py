@@ -152,17 +152,17 @@ def _accuracy_rows(model: Model) -> Rows:
 def _contact_fields(model: Model) -> str:
     """Of how many steps contact fields are stored."""
     if not model.scene.resolves_contact:
-        return "curves of all are stored"
-    return f"curves of all are stored, contact fields of the last {model.contact_steps}" if model.contact_steps else "curves of all are stored, no contact fields"
+        return "curves are stored for all"
+    return f"curves are stored for all, contact fields for the last {model.contact_steps}" if model.contact_steps else "curves are stored for all, contact fields for none"
 
 
 def _period_rows(model: Model) -> Rows:
     """Mesh cycles of the common period: after it all that differs between cycles repeats."""
     period, gears = common_period(model.scene), model.scene.gears
     if period == inf:
-        return [("mesh cycles of the common period", "none", "no two cycles are alike")]
+        return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
     whole = period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth)
-    return [("mesh cycles of the common period", period, "every tooth has met every other" if whole else "all cycles are alike" if period == 1 else "")]
+    return [("mesh cycles of the common period", period, "after which every tooth has met every other" if whole else "(all mesh cycles are alike)" if period == 1 else "")]
 
 
 def _frequency_rows(model: Model) -> Rows:
@@ -171,9 +171,9 @@ def _frequency_rows(model: Model) -> Rows:
     for number, vibration in enumerate(model.vibrations, 1):
         steps, unmoved = vibration.steps_per_period(model.time_step), "" if vibration.excited else ", not excited by the mesh"
         damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
-        rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps a period{damped}{unmoved}"))
-    rows.append(("highest frequency that is resolved", resolved_frequency(model.time_step), f"Hz: by the time step, periods right within {PERIOD_ERROR:.0%}"))
-    rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps a period"))
+        rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps per period{damped}{unmoved}"))
+    rows.append(("highest frequency that is resolved", resolved_frequency(model.time_step), f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"))
+    rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
     return rows
 
 

@@ -70,7 +70,7 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
 def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str, tuple]:
     numbered = {
         "units": "1",
-        "long_name": "number of the tooth pair in each slot, from 1 on in the order in which they enter; 0 where none is in reach",
+        "long_name": "number of the tooth pair in each slot, from 1 in the order in which they enter; 0 for an empty slot",
         # A pair's number less this is the mesh phase at which it reaches the start of contact.
         "number_at_phase_0": recorder.first_number,
     }
@@ -80,16 +80,16 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
         "gear": ("gear", list(GEARS), {"long_name": "gear"}),
         "path_point": path_point_coordinate(),
-        "slot": ("slot", np.arange(recorder.slots), {"long_name": "place of a tooth pair among those that can touch at once"}),
+        "slot": ("slot", np.arange(recorder.slots), {"long_name": "slot for a tooth pair that can touch"}),
     }
     if "contact_time" in arrays:
         coordinates |= {
             "contact_time": ("contact_time", arrays["contact_time"], {"units": "s", "long_name": "time at which contact fields are stored"}),
             "contact_mesh_phase": (
-                "contact_time", arrays["contact_mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start, of the contact fields"},
+                "contact_time", arrays["contact_mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start at the times of the contact fields"},
             ),
             "contact_pair_number": (
-                ("contact_time", "slot"), arrays["contact_pair_number"], numbered | {"long_name": f"{numbered['long_name']}, of the contact fields"},
+                ("contact_time", "slot"), arrays["contact_pair_number"], numbered | {"long_name": "pair_number at the times of the contact fields"},
             ),
         }  # fmt: skip
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]

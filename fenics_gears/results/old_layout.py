@@ -25,7 +25,7 @@ def upgraded(result: xr.Dataset) -> xr.Dataset:
     numbers = np.zeros((len(phase), slots), dtype=np.int32)
     step, pair = np.nonzero(there)
     numbers[step, held[step, pair] % slots] = held[step, pair]
-    labels = {"units": "1", "long_name": "number of the tooth pair in each slot; 0 where none is in reach", "number_at_phase_0": first}
+    labels = {"units": "1", "long_name": "number of the tooth pair in each slot; 0 for an empty slot", "number_at_phase_0": first}
     variables = {name: _in_slots(variable, step, pair, held, slots) for name, variable in result.data_vars.items()}
     contact = any("contact_time" in variable.dims for variable in variables.values())
     coordinates = {name: each for name, each in result.coords.items() if "pair" not in each.dims}

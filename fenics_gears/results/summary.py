@@ -94,7 +94,7 @@ def _pressure(attributes) -> list[Row]:
         return []
     place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
-    return [("peak contact pressure, off edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+    return [("peak contact pressure, without tip edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
 
 
 def _power(attributes) -> list[Row]:
@@ -130,7 +130,7 @@ def solver_rows(dataset) -> list[Row]:
     rows = []
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
-        rows.append(("Newton iterations a step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
+        rows.append(("Newton iterations per step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
     return rows + _rungs(dataset.attrs)
 
 

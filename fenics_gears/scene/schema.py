@@ -28,17 +28,17 @@ def _face_width(meaning: str, otherwise: str):
 
 
 class Gear(Section):
-    """``[gears.pinion]`` drives and ``[gears.wheel]`` is driven; an external pair."""
+    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives, the wheel is driven; both are external gears."""
 
     teeth: int = whole_number(5, 1000, 16, meaning="number of teeth")
     profile_shift: float = number(0.196, meaning="profile shift coefficient, in modules", lowest=-5, highest=5)
     tip_diameter: float = _diameter("82.64 mm", "tip diameter")
-    root_diameter: float = _diameter("62.50 mm", "root diameter; it gives the rack's dedendum")
+    root_diameter: float = _diameter("62.50 mm", "root diameter, from which the dedendum of the generating rack follows")
     bore_diameter: float = _diameter("30 mm", "bore diameter; the bore is a rigid ring on the shaft")
     rack_tip_radius: float = number(
         0.38, meaning="tip radius of the generating rack, in modules; it shapes the fillet", lowest=0, highest=2, default=0.38
     )
-    face_width: Optional[float] = _face_width("width of this gear", "that of `[gears]`")
+    face_width: Optional[float] = _face_width("face width of this gear", "that of `[gears]`")
     material: Optional[OwnMaterialText] = None
 
 
@@ -47,21 +47,21 @@ class Gears(Section):
 
     module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module, in the plane of rotation")
     pressure_angle: float = quantity("10 deg", "35 deg", "20 deg", meaning="pressure angle of the generating rack")
-    centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the shafts' axes")
-    face_width: Optional[float] = _face_width("width of both gears; they meet over the smaller width, centred", "from both gears' own")
+    centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the axes")
+    face_width: Optional[float] = _face_width("face width of both gears; gears of unequal width mesh over the smaller one, centred", "each gear has its own `face_width`")
     pinion: Gear
     wheel: Gear
     material: Optional[MaterialText] = None
 
 
 class Load(Section):
-    """``[load]``: a constant torque on the output shaft's end."""
+    """``[load]``: the mean torque on the end of the output shaft."""
 
     wheel_torque: float = quantity(
         "-1e12 N m",
         "1e12 N m",
         "437 N m",
-        meaning="torque against the wheel's rotation; a negative one drives the pair from the wheel and needs `[coast_flanks]`",
+        meaning="torque that resists the wheel's rotation; where it is negative, the wheel drives, which needs `[coast_flanks]`",
     )
 
 
@@ -69,14 +69,14 @@ WHOLE_PERIOD = {HUNTING_TOOTH_PERIOD: None}
 
 
 class Motion(Section):
-    """``[motion]``: a speed, as one of the mesh frequency and the pinion's speed, and how long; without ``[inertia]`` nothing of it is needed."""
+    """``[motion]``: the speed, given as mesh frequency or as pinion speed, and the length of the run. A scene without ``[inertia]`` needs none of it."""
 
     mesh_frequency: Optional[float] = quantity(
         "1e-6 Hz",
         "1e6 Hz",
         "200 Hz",
-        meaning="tooth pairs that enter the mesh in a second",
-        otherwise="from `pinion_speed`; without `[inertia]` none is needed, and a mesh cycle counts as 1 s",
+        meaning="mesh frequency (pinion speed times number of teeth)",
+        otherwise="from `pinion_speed`. With `[inertia]` one of the two is required; otherwise a mesh cycle lasts 1 s",
     )
     pinion_speed: Optional[float] = quantity(
         "1e-6 rpm", "1e6 rpm", "750 rpm", meaning="nominal speed of the pinion, also in 1/min", otherwise="from `mesh_frequency`"
@@ -85,17 +85,16 @@ class Motion(Section):
         1,
         1_000_000,
         30,
-        meaning="how many mesh cycles are run",
-        otherwise="without `[inertia]` one, after which all repeats, or `\"hunting tooth period\"` where teeth or torques differ from cycle to cycle; "
-        "with it, it must be given",
+        meaning="number of mesh cycles of the run",
+        otherwise="required with `[inertia]`; without it 1, or `\"hunting tooth period\"` where mesh cycles differ",
         words=WHOLE_PERIOD,
     )
     recorded_cycles: Optional[int] = whole_number(
         1,
         1_000_000,
         2,
-        meaning="of how many of them, the last, contact fields are stored and pictures show; curves and numbers are of all",
-        otherwise="2; all of them with `[speed_ramp]`, or where `\"hunting tooth period\"` are run, contact fields of as many as 1 GB holds",
+        meaning="number of mesh cycles at the end of the run whose contact fields are stored and which pictures show; curves are stored for the whole run",
+        otherwise="2; all with `[speed_ramp]` or `mesh_cycles = \"hunting tooth period\"`, but contact fields of no more than 1 GB",
         words=WHOLE_PERIOD,
     )
 
@@ -105,19 +104,19 @@ MOST_CONTACT_NODES = 1000
 
 
 class Accuracy(Section):
-    """``[accuracy]``: how a scene is computed, not what; what is left out is derived from the scene."""
+    """``[accuracy]``: element sizes, contact nodes, time steps and the model of the mesh. Fields that are left out are derived from the scene."""
 
     target: Optional[float] = quantity(
         "0.05 %",
         "50 %",
         "1 %",
-        meaning="error in the transmission error's curve and its height that the settings of this section may cause, all together; the cheapest "
-        "settings that reach it are chosen by test runs",
-        otherwise="nothing is measured, and each setting is as given or by its own default",
+        meaning="largest numerical error allowed in the curve and in the peak-to-peak value of the transmission error; test runs find the cheapest settings "
+        "of this section that keep it",
+        otherwise="no test runs; each setting has its given or default value",
     )
     element: Optional[Literal[tuple(ELEMENTS)]] = choice(
         *ELEMENTS,
-        meaning="finite element: triangles or quadrilaterals of first or second order; `Q1 incompatible` is the paper's, with Wilson's modes",
+        meaning="finite element: triangle (P) or quadrilateral (Q) of first or second order; `Q1 incompatible`, with Wilson's incompatible modes, is the paper's",
         otherwise="`P2`",
     )
     flank_element_size: Optional[float] = quantity(
@@ -125,49 +124,49 @@ class Accuracy(Section):
         "1 m",
         "0.08 mm",
         meaning="size of the elements on the flank",
-        otherwise="a quarter of the Hertz half-width at the whole load on one pair and the smallest relative radius; 1/200 to 1/25 of the module",
+        otherwise="a quarter of the smallest Hertz half-width of one pair under the whole load, but at least 1/200 and at most 1/25 of the module",
     )
     body_element_size: Optional[float] = quantity(
         "1e-6 mm",
         "10 m",
         "1.3 mm",
-        meaning="largest element in tooth and rim; those of fillets, coast flank and bore are finer or coarser by as much as it is",
-        otherwise="a part of the module, by the element's order",
+        meaning="size of the largest elements in tooth and rim; the elements of fillets, coast flank and bore are scaled with it",
+        otherwise="a fixed fraction of the module for each order of element",
     )
     contact_length: Optional[float] = quantity(
         "1e-6 mm",
         "10 m",
         "1.5 mm",
-        meaning="length, across the line of action, in which the contact of a tooth pair is looked for",
-        otherwise="so long that beyond it the flanks open more than the teeth deflect",
+        meaning="length, across the line of action, over which the contact nodes of a tooth pair are spread",
+        otherwise="so long that beyond it the gap is larger than the deflection of the teeth",
     )
     contact_nodes: Optional[int] = whole_number(
-        2, MOST_CONTACT_NODES, 20, meaning="contact nodes of a tooth pair", otherwise="0.7 flank elements apart, 1 apart for elements of first order"
+        2, MOST_CONTACT_NODES, 20, meaning="number of contact nodes of a tooth pair", otherwise="a spacing of 0.7 flank elements, or of 1 flank element of first order"
     )
     interpolation: Optional[Literal["averaged", "collocated"]] = choice(
         "averaged",
         "collocated",
-        meaning="how contact nodes see the flanks: by averages over their hat functions, or at their own points",
+        meaning="displacement of the flank at a contact node: averaged with the node's hat function, or taken at the node alone (collocation)",
         otherwise="`averaged`",
     )
     elastic_teeth: Optional[int] = whole_number(
         1,
         1000,
         2,
-        meaning="how far the load of a tooth is felt: 1 by no other tooth, 2 by its neighbours, and so on",
-        otherwise="by all teeth that are loaded together",
+        meaning="teeth that the load on a tooth deflects: 1 that tooth alone, 2 its neighbours too, and so on",
+        otherwise="all teeth that can be loaded at the same time",
     )
     steps_per_mesh_cycle: Optional[int] = whole_number(
         2,
         1_000_000,
         100,
         meaning="time steps of a mesh cycle",
-        otherwise="200; with `[inertia]` up to 1000, for 20 steps in the period of the drivetrain's highest frequency; 1000 where flanks are rigid too",
+        otherwise="200; with `[inertia]` as many as give the highest natural frequency 20 steps per period, at most 1000; with `[inertia]` and rigid flanks 1000",
     )
     condensation: Optional[Literal["once", "every step"]] = choice(
         "once",
         "every step",
-        meaning="`once`: the fast route; `every step`: the paper's own, which meshes both gears anew at every position, slow, the yardstick",
+        meaning="`once`: each gear is meshed and condensed once; `every step`: both gears are meshed anew at every position, as in the paper, which is slow and serves for comparison",
         otherwise="`once`",
     )
     model: Optional[Literal["elastic", "rigid teeth", "stiffness table", "ISO 6336-1"]] = choice(
@@ -175,8 +174,8 @@ class Accuracy(Section):
         "rigid teeth",
         "stiffness table",
         "ISO 6336-1",
-        meaning="what the mesh is computed as: the full contact, rigid teeth, a table of one quasi-static, frictionless mesh cycle of the full "
-        "contact over phase and load, or the standard's stiffness c' and c_gamma",
+        meaning="model of the tooth contact: elastic contact, rigid teeth, a table of the elastic mesh stiffness over phase and load (quasi-static, "
+        "frictionless), or c' and c_gamma of ISO 6336-1",
         otherwise="`elastic`",
     )
 
@@ -196,7 +195,7 @@ class AllowedContactFields(Allowed):
 
 
 class Output(Section):
-    """``[output]``: results that cost something of their own."""
+    """``[output]``: results that take additional time or storage."""
 
     root_stress: bool = switch(
         meaning="stress along the fillets of the loaded teeth over time, and dynamic factors by force and by stress; see [stress](stress.md)"
@@ -206,16 +205,16 @@ class Output(Section):
         json_schema_extra={
             "allowed": AllowedContactFields(
                 'true, false, or "last N cycles", such as "last 3 cycles"',
-                meaning="at which steps pressure, traction and place of every contact node are stored: at all, at none, or in the last mesh cycles of "
-                "the run; pictures of stresses and of the pressure over the flank need them. It stands in place of `motion.recorded_cycles`",
-                otherwise="in the last `motion.recorded_cycles`",
+                meaning="steps at which pressure, traction and place of every contact node are stored: all, none, or those of the last mesh cycles. Stress "
+                "pictures and pressure maps need them. Replaces `motion.recorded_cycles`",
+                otherwise="the last `motion.recorded_cycles`",
             )
         },
     )
 
 
 class _AlwaysThere(Section):
-    title: Optional[str] = text(500, meaning="what the scene is called in summaries and pictures", otherwise="the file's name")
+    title: Optional[str] = text(500, meaning="title in summaries and pictures", otherwise="the name of the file")
     gears: Gears
     load: Load
     motion: Motion = Field(default_factory=Motion)

@@ -32,7 +32,7 @@ def effect_costs(report: EffectReport) -> Figure:
     axes = figure.subplots(1, 4, sharey=True, gridspec_kw={"width_ratios": (1.0, 1.1, 1.1, 1.1)})
     places = _places(rows)
     _unknowns(axes[0], rows, places)
-    _bars(axes[1], report, places, "step_time", MICRO, "Time a step (µs, median)")
+    _bars(axes[1], report, places, "step_time", MICRO, "Time per step (µs, median)")
     _whiskers(axes[1], rows, places)
     _bars(axes[2], report, places, "transmission_error", MILLI, "T$_{EPP}$ (µm)")
     _bars(axes[3], report, places, "peak_force", 1.0, "Peak contact force (N)")

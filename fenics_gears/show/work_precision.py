@@ -35,15 +35,15 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
     front = report.front
     others = [each for each in report.settings if each.name != OWN and each not in front]
     if others:
-        axes.plot([each.times.total for each in others], [each.charged for each in others], "o", color=GREY, markersize=5, label="settings that another one beats in both")
+        axes.plot([each.times.total for each in others], [each.charged for each in others], "o", color=GREY, markersize=5, label="other settings: another is quicker and more accurate")
     axes.plot([each.times.total for each in front], [each.charged for each in front], "-o", color=PALETTE[0], label="Pareto front: none is quicker and as accurate")
-    axes.plot(report.own.times.total, report.own.charged, "*", color=PALETTE[1], markersize=16, label="the scene's own setting")
+    axes.plot(report.own.times.total, report.own.charged, "*", color=PALETTE[1], markersize=16, label="the scene's own settings")
     for place, each in enumerate(report.models):
         axes.plot(each.times.total, each.charged, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
     axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")
     _logarithmic(axes, [*report.settings, *report.models], report.floor)
     _labels(axes, front)
-    axes.set_title("Whole settings: error charged (sum of its parts, or distance from the reference)")
+    axes.set_title("Total error (sum of the errors of all settings, or difference from the reference)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=10.5)
 
 
@@ -88,7 +88,7 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _percent_over_seconds(axes: Axes) -> None:
-    axes.set_xlabel("Time of a run (s, median; meshing, condensing, marching)")
+    axes.set_xlabel("Time of a run (s, median; meshing, condensing, time stepping)")
     axes.set_ylabel("Relative error (%), the larger of T$_E$ in L$_2$ and T$_{EPP}$")
     plain = FuncFormatter(lambda value, _: f"{value:g}")
     axes.xaxis.set_major_formatter(plain)

@@ -53,7 +53,7 @@ def section(name: str, report: AccuracyReport) -> str:
     remarks = [f"* {remark}" for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))]
     return "\n".join([
         f"**{table.in_one_sentence(report)}**", "", f"![](pictures/accuracy_{name}.png)", "",
-        f"Whole settings and cheaper models; \\* on the Pareto front. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
+        f"Combinations of settings, and cheaper models; \\* on the Pareto front. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
         *(line.replace(" *|", " \\*|") for line in whole), "", f"Each setting alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
     ])  # fmt: skip
 

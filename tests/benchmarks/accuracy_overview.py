@@ -24,7 +24,7 @@ MODEL_MARKS = ("s", "^", "D")
 
 @dataclass(frozen=True)
 class Point:
-    """A whole setting or a cheaper model: what it is charged, relative, its time (s), whether it pays and what limits it."""
+    """A whole setting or a cheaper model: its total error, relative, its time (s), whether it is on the Pareto front and what limits it."""
 
     name: str
     error: float
@@ -64,7 +64,7 @@ def overview(file: Path) -> Overview:
         lines = list(csv.DictReader(opened))
     points = tuple(
         Point(
-            line["name"], float(line["charged_error"]), float(line["time_s"]), line["on_front"] == "1", line["limited_by"], line["kind"] == "model",
+            line["name"], float(line["total_error"]), float(line["time_s"]), line["on_front"] == "1", line["limited_by"], line["kind"] == "model",
         )  # fmt: skip
         for line in lines if line["kind"] in ("setting", "model")
     )  # fmt: skip
@@ -100,7 +100,7 @@ def overview_picture(found: dict[str, Overview]) -> Figure:
         _panel(panel, each)
         panel.set_title(TITLES[name])
     for panel in panels[2:]:
-        panel.set_xlabel("Time of a run (s, median; meshing, condensing, marching)")
+        panel.set_xlabel("Time of a run (s, median; meshing, condensing, time stepping)")
     figure.supylabel("Relative error (%), the larger of T$_E$ in L$_2$ and T$_{EPP}$", fontsize=12)
     # Each kind of mark once, whichever panels have it.
     marks = {label: handle for panel in panels for handle, label in zip(*panel.get_legend_handles_labels())}
@@ -149,6 +149,6 @@ def overview_section(found: dict[str, Overview]) -> str:
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
         "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
-        "Errors are the larger of those of T_E in L2 and of T_EPP: the sum of the errors of all settings, or the difference from the reference where that is larger. Times: medians of "
+        "Errors are [total errors](accuracy.md#how-errors-are-measured), the larger of those of T_E and of T_EPP. Times are medians of "
         f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip

@@ -4,7 +4,7 @@
 
 A line for each element, size and case: distance of the two transmission errors over the last cycle (root mean square and
 largest, of the mean), of their means and of their peak-to-peak values; then seconds of meshing, condensing and marching by either
-route, first case of a size without any cache. With --arms the reference route once more with the base radii as arms of normal forces.
+route, first case of a size without any cache. With --arms the reference route once more with the base radii as lever arms of normal forces.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from fenics_gears.simulation.warm_up import compile_kernels
 
 SCENE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 LENGTH = 1.5
-HEADING = "element size/mm case             rms/mean   max/mean  mean      T_EPP(ref)/urad  T_EPP    fast/s  ref/s  ratio  by rung of the ladder"
+HEADING = "element size/mm case             rms/mean   max/mean  mean      T_EPP(ref)/urad  T_EPP    fast/s  ref/s  ratio  steps by method"
 
 
 def cases(scene, cycles: int) -> dict:

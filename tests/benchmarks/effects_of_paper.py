@@ -22,7 +22,7 @@ BEGIN, END = "<!-- effects of the paper's scene: begin -->", "<!-- effects of th
 
 def section(report: EffectReport) -> str:
     """The table and the sentences below it."""
-    headings = ("effects", "unknowns", "closed nodes (most)", "Newton a step", "time a step, us", "condensing, s", "T_EPP, um", "peak force, N")
+    headings = ("effects", "unknowns", "closed nodes (most)", "Newton iterations per step", "time per step, us", "condensing, s", "T_EPP, um", "peak force, N")
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
     lines += [f"| {' | '.join((*cells[:5], *cells[6:9]))} |" for cells in table.table_rows(report)]
     where = report.machine

@@ -56,13 +56,13 @@ def section() -> str:
     of = lambda found: [[each[name] for each in found] for name in QUANTITIES]  # noqa: E731
     words = [f"{name}, %" for name in QUANTITIES]
     return "\n".join([
-        f"Half-width {width:.3f} mm, relative radius {hertz.radius:.2f} mm, {hertz.line_load:.0f} N/mm; approach: between this load and {SMALLER:g} of it. "
-        "Errors, and in brackets the order from the line above.", "",
-        f"Contact nodes, flank elements {FLANK_ELEMENTS[-1]} in a half-width:", "",
+        f"Half-width {width:.3f} mm, relative radius {hertz.radius:.2f} mm, {hertz.line_load:.0f} N/mm. Approach: its change between this load and {SMALLER:g} of it. "
+        "The tables give errors, and in brackets the order from the line above.", "",
+        f"Contact nodes refined, with {FLANK_ELEMENTS[-1]} flank elements in a half-width:", "",
         *table(["contact nodes in a half-width", *words], [f"{n}" for n in CONTACT_NODES], of(nodes)), "",
-        "Flank elements alone, each flank under Hertz's own pressure, without contact nodes:", "",
+        "Flank elements refined, each flank under Hertz's pressure, without contact nodes:", "",
         *table(["flank elements in a half-width", "approach, pinion, %", "approach, wheel, %"], [f"{n}" for n in FLANK_ELEMENTS], alone), "",
-        "Both together:", "",
+        "Both refined together:", "",
         *table(["flank elements and contact nodes in a half-width", *words], [f"{n}" for n in FLANK_ELEMENTS[1:]], of(both)),
     ])  # fmt: skip
 

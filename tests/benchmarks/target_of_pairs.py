@@ -133,17 +133,18 @@ def rows_of(name: str, scene: Scene, not_reached: list[str]) -> tuple[list[Row],
 def page(rows: list[Row], references: dict[str, Reference], not_reached: list[str]) -> str:
     """The section of docs/accuracy.md."""
     lines = [f"|{'|'.join(HEADINGS)}|", "|" + "---|" * len(HEADINGS), *(f"|{'|'.join(row.cells)}|" for row in rows)]
-    told = [f"{name} {100.0 * max(each.uncertainty.values()):.2g} %" for name, each in references.items()]
+    told = [f"{name}: {100.0 * max(each.uncertainty.values()):.2g} %" for name, each in references.items()]
     where = machine()
     ratios = [row.times[0].total / row.times[1].total for row in rows]
     within = sum(row.true <= row.target for row in rows)
     refused = "".join(f"\n\nRefused: {each}" for each in not_reached)
     return (
         f"**Of {len(rows)} targets {within} are reached; the chosen settings take {np.median(ratios):.2g} times as long as the cheapest settings found (median), "
-        f"at most {max(ratios):.2g} times.**\n\n" + "\n".join(lines) + refused + f"\n\nThe references are uncertain by: {', '.join(told)}. Quasi-static, without "
-        "friction; all but the last with 30 um of tip relief, without which sharp edges are in contact and errors decrease slowly. "
-        "The cheapest settings are those with the least time among "
-        f"{len(SEARCHED) * len(STEPS)} of each pair, judged by their true error, in which single errors may cancel by chance (finer settings were added where none of these reached a target). Times without the cache, medians of {ROUNDS} in "
+        f"at most {max(ratios):.2g} times.**\n\nSettings are the element, the size of flank elements, the number of contact nodes, the steps per mesh cycle, and the size of body elements "
+        "relative to the default (body x4).\n\n" + "\n".join(lines) + refused + f"\n\nUncertainty of the references: {'; '.join(told)}. All runs are quasi-static, without "
+        "friction; all pairs but the last have 30 um of tip relief. "
+        f"The cheapest settings are the quickest of {len(SEARCHED) * len(STEPS)} for each pair that reach the target by their true error, in which single errors may cancel by chance. "
+        f"Finer settings were added where none of these reached it. Times are without the cache, medians of {ROUNDS} in "
         f"turns; load {where['load']}, {where['processor']}, {where['versions']}."
     )
 

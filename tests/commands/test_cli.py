@@ -95,7 +95,7 @@ def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation
     lines = {line.split("  ")[1]: line for line in output.out.splitlines() if line.startswith("  ")}
     assert lines["transmission error, mean"].endswith("2.5 um = 5e-05 rad")
     assert lines["transmission error, peak to peak"].endswith("10 um = 0.0002 rad")
-    assert lines["Newton iterations a step"].endswith("3.00 on average, 4 at most")
+    assert lines["Newton iterations per step"].endswith("3.00 on average, 4 at most")
     # Progress and summary have their seconds of one clock.
     told = dict(line.split(": ") for line in output.err.splitlines())
     assert list(told) == ["march", "draw pictures"]
@@ -353,7 +353,7 @@ def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, ca
         assert any(abs(number - float(value)) <= last_digit for number in found), printed
     lines = {line.split()[0]: line for line in output.splitlines() if line.startswith("  ")}
     assert " on " in lines["friction"] and "pair_friction_force" in lines["friction"]
-    assert " off " in lines["tip_relief"] and "true involutes" in lines["tip_relief"]
+    assert " off " in lines["tip_relief"] and "without tip relief" in lines["tip_relief"]
     assert simulation.calls == []
     assert files(tmp_path) == []
 

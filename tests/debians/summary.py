@@ -17,7 +17,7 @@ def table(trials: list[Trial]) -> str:
     rows.append(["Dockerfile's container", *(_ended(trial.calls.get("container")) for trial in trials)])
     for ranks in (1, *RANKS):
         few = "a few of " if any(trial.quick for trial in trials) else ""
-        name = f"{few}the suite" if ranks == 1 else f"{few}its finite elements, mpirun -n {ranks}"
+        name = f"{few}the suite" if ranks == 1 else f"{few}finite elements, mpirun -n {ranks}"
         rows.append([f"{name}: passed, failed, skipped", *(_outcome(trial.tests.get(ranks)) for trial in trials)])
         rows.append([f"{name}, s", *(f"{trial.tests[ranks].seconds:.0f}" if ranks in trial.tests else "-" for trial in trials)])
     rows.append(["all green", *("yes" if trial.is_green else "NO" for trial in trials)])

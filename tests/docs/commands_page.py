@@ -13,8 +13,7 @@ from fenics_gears.elasticity.cache import DEFAULT_SIZE
 
 HEADING = """# Commands
 
-`./gears` in a checkout sets up what is missing and is then the program itself; where it is installed (`pip install .`) the command is `gears`. What each command
-writes is said in [the README](../README.md#commands).
+In a checkout the command is `./gears`, which installs what is missing on first use. After `pip install .` it is `gears`. [The README](../README.md#commands) lists what each command does.
 
 This page is written by `python -m tests.docs.write` from the program's argument parser; a test says when it is out of date.
 """
@@ -36,7 +35,7 @@ def page() -> str:
     """The whole page."""
     whole = parser()
     lines = [HEADING, "## `gears`", "", f"    gears{_usage(whole)} COMMAND ...", "", *_options(whole), ""]
-    lines += ["`-h`, `-v` and `-q` may stand after any command, too.", ""]
+    lines += ["Every command also accepts `-h`, `-v` and `-q`.", ""]
     for name, (words, command) in commands().items():
         rest = " [PYTEST'S OPTIONS]" if name == "test" else _usage(command)
         lines += [f"## `gears {name}`", "", capital(words), "", f"    gears {name}{rest}", ""]
@@ -68,7 +67,7 @@ def _options(command: argparse.ArgumentParser) -> list[str]:
         written = ", ".join(f"`{_spelling(action, name) if action.option_strings else name}`" for name in names)
         # A name in angle brackets would be taken for a tag.
         rows.append((written, action.help.replace("<", "\\<")))
-    return table(("argument", "is"), rows)
+    return table(("argument", "meaning"), rows)
 
 
 def _exit_codes() -> list[str]:
@@ -81,9 +80,9 @@ def _exit_codes() -> list[str]:
 def _environment() -> list[str]:
     """Variables of the environment that the program reads."""
     rows = [
-        ("`FENICS_GEARS_PYTHON`", "the Python that `./gears` uses; without it one is found or made"),
-        ("`FENICS_GEARS_CACHE`", "folder of the condensed gears; without it the user's cache folder"),
-        ("`FENICS_GEARS_CACHE_SIZE`", f"the most that they take together, such as `500 MB`; without it {DEFAULT_SIZE}"),
+        ("`FENICS_GEARS_PYTHON`", "Python for `./gears`; if not set, `./gears` finds or makes one"),
+        ("`FENICS_GEARS_CACHE`", "folder of the cache of condensed gears; if not set, the user's cache folder"),
+        ("`FENICS_GEARS_CACHE_SIZE`", f"largest size of this cache, such as `500 MB`; if not set, {DEFAULT_SIZE}"),
         ("`OMP_NUM_THREADS`", "threads of the factorisation; 1 under mpirun"),
     ]
-    return ["## Environment", "", *table(("variable", "is"), rows)]
+    return ["## Environment", "", *table(("variable", "meaning"), rows)]

@@ -18,44 +18,45 @@ from fenics_gears.simulation.simulate import simulate
 HEADING = """# The result
 
 A run's result is one `xarray.Dataset`, the same in memory (`simulate`) and in `run.nc`, which is NetCDF-4: xarray, ParaView, MATLAB, Panoply and `ncdump` open it
-([in Python](python.md)). Every variable has `units` and `long_name`. A variable that belongs to an effect is there when the scene names the effect. Values that do not
-exist are not a number: places of contact nodes that a pair does not have, shares of rigid pairs that touch together.
+([in Python](python.md)). Every variable has `units` and `long_name`. A variable of an effect exists only if the scene names the effect. Missing values are NaN, for example
+the places of contact nodes where a slot holds no pair, or the forces of rigid tooth pairs that touch at the same time.
 
 ## Signs
 
-* Directions: x is along the line of action, from the pinion's tangent point to the wheel's, y off it, towards the pinion's centre.
-* Rotations and torques are positive in the pinion's sense of rotation, on both gears; the wheel turns the other way, nominally. Displacements and rotations are those from the nominal motion: a
-  wheel that lags has a positive `rotation`, and the transmission error is positive where the wheel lags behind the pinion.
-* Reactions are what a gear does to its shaft: under the normal force F the pinion presses along -x and the wheel along +x. `reaction_couple` is then negative on both: -F r_b1 on the pinion's shaft, which
-  the drive has to overcome, and -F r_b2 on the wheel's, which turns the load. Friction adds to them.
-* `load.wheel_torque` and `wheel_couple` are torques of the load on the wheel's shaft: positive where they resist the drive, that is in the pinion's sense of rotation.
-* Normal forces and pressures are positive in compression. Friction on the pinion acts along -y where it is positive. Sliding is that of the pinion's flank over the wheel's, positive towards the pinion's tip:
-  negative before the pitch point, positive after it.
-* Work is positive from the pinion to the wheel; where the wheel drives, `work_input` and `work_output` are negative. `input_power` is that of the gear that drives, and positive.
+* **Directions.** x points along the line of action, from the tangent point on the pinion's base circle to that on the wheel's. y is perpendicular to it and points towards the pinion's centre.
+* **Rotations and torques** of both gears are positive in the pinion's sense of rotation, so the wheel's nominal rotation is negative. Displacements and rotations are relative to the nominal motion. A wheel that
+  lags behind has a positive `rotation`, and the transmission error is then positive.
+* **Reactions** are forces and torques of a gear on its shaft. Under the normal force F the pinion presses its shaft along -x, the wheel along +x. Without friction `reaction_couple` is -F r_b1 on the pinion's shaft and -F r_b2
+  on the wheel's.
+* **Load.** `load.wheel_torque` and `wheel_couple` are torques of the load on the wheel's shaft. They are positive where they resist the wheel's rotation.
+* **Contact.** Normal forces and pressures are positive in compression. A positive friction force acts on the pinion along -y. The sliding speed is that of the pinion's flank relative to the wheel's, positive towards the
+  pinion's tip: negative before the pitch point, positive after it.
+* **Work** is positive from the pinion to the wheel. Where the wheel drives, `work_input` and `work_output` are negative, but `input_power` is positive.
 
-At whole numbers of `mesh_phase` a new pair reaches the theoretical start of contact; with bearings and teeth that give way it touches before.
+At whole numbers of `mesh_phase` a new pair reaches the theoretical start of contact. Deflected teeth and bearings let it touch earlier.
 
 This page is written by `python -m tests.docs.write`, from `fenics_gears/effects`, `fenics_gears/results/attributes.py` and a run with every effect; a test says when it is out of date.
 """
-PAIRS = """Curves are of all steps. `pair_number` says which tooth pair a slot holds: pairs are numbered from 1 on in the order in which they enter, 0 is none; a pair's number
-less the attribute `number_at_phase_0` of `pair_number` is the mesh phase at which it reaches the theoretical start of contact. `by_pair(result["pair_normal_force"])` of
-`fenics_gears.results` gives each pair its own curve, over `pair` in place of `slot`, `shown(result)` the last cycles, which pictures show
-([in Python](python.md#tooth-pairs)). Files of earlier versions are read as results are now.
+PAIRS = """**Tooth pairs.** Variables over `time` cover all steps of the run. `pair_number` says which tooth pair a slot holds, 0 for none. Pairs are numbered from 1 in the order in which they
+enter. A pair reaches the theoretical start of contact at the mesh phase `pair_number` minus the attribute `number_at_phase_0` of that variable. Two functions of `fenics_gears.results`
+help ([in Python](python.md#tooth-pairs)): `by_pair(result["pair_normal_force"])` gives each pair its own curve, with the dimension `pair` in place of `slot`; `shown(result)` returns the
+last mesh cycles, which pictures show. The program also reads files of earlier versions, in the form described here.
 
-All numbers among the attributes are of the settled steps, whatever contact fields are stored: of all steps from `settled_from` on, when the slowest vibration that the start sets off has
-fallen to 1 %; without inertia of all. Where cycles are not alike these are whole common periods: as many mesh cycles as pass until every deviation has met every other.
-The last common period counts in any case, where all cycles are alike the last `recorded_cycles`; `warnings` say what of the start is left then, and where fewer cycles were run than the common period has.
+**Settled steps.** Numbers among the attributes are taken over the settled steps, from `settled_from` to the end. Steps are settled when the slowest vibration excited by the start has
+decreased to 1 %; without inertia all steps are. Where mesh cycles differ, whole common periods are taken: a common period is the number of mesh cycles after which every
+deviation has met every other, such as the hunting tooth period. If the run is too short for this, the last common period is taken, or the last `recorded_cycles` where all mesh cycles are equal,
+and `warnings` say how much of the start is left. They also say if the run is shorter than the common period.
 """
 DIMENSIONS = {
-    "time": "all steps that were marched, the first being step 0",
-    "contact_time": "those of them, the last, whose contact fields are stored (`[output] contact_fields`)",
+    "time": "all time steps, with the start as step 0",
+    "contact_time": "steps whose contact fields are stored, at the end of the run (`[output] contact_fields`)",
     "gear": '"pinion", "wheel"',
-    "slot": "places for the tooth pairs that can touch at once; a pair keeps its own as long as it is in reach, `pair_number` says which is there",
-    "path_point": "points of the path of contact: A start, B and D ends of contact by the fewest pairs, C pitch point, E end",
-    "contact_node": "contact nodes of a pair, in the order of their offset",
+    "slot": "places for the tooth pairs that can touch at the same time; a pair keeps its slot as long as it can touch",
+    "path_point": "points of the path of contact: A start of contact, B LPSTC of the pinion, C pitch point, D HPSTC of the pinion, E end of contact",
+    "contact_node": "contact nodes of a pair, in the order of their offset from the line of action",
     "pinion_tooth": "teeth of the pinion, in the order in which they mesh",
-    "wheel_tooth": "teeth of the wheel, likewise",
-    "fillet_point": "points along both fillets of a tooth, from the root circle to the form circle, the drive side's first",
+    "wheel_tooth": "teeth of the wheel, in the order in which they mesh",
+    "fillet_point": "points along both fillets of a tooth, from the root circle to the form circle, first on the drive side, then on the coast side",
     "fillet": '"drive", "coast": the two sides of a tooth',
 }
 ROOT_STRESS = "`[output] root_stress`"
@@ -81,17 +82,17 @@ def page(result: xr.Dataset | None = None) -> str:
             lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
     lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
     lines += ["## Attributes", "", *_attributes(), ""]
-    lines += [f"One attribute more for each method of the solver that was used, Newton or one of its [fallbacks](model.md#fallbacks), the number of steps that it solved: `{RUNG}newton` and so on"]
-    lines += [f"({', '.join(METHODS)}).", "", f"With `[accuracy] target`, one for the error of each knob: `{ESTIMATED}steps per mesh cycle` and so on."]
+    lines += [f"Further attributes give the number of steps that each method solved, Newton's and its [fallbacks](model.md#fallbacks): `{RUNG}newton` and so on"]
+    lines += [f"({', '.join(METHODS)}).", "", f"With `[accuracy] target`, further attributes give the estimated error of each setting: `{ESTIMATED}steps per mesh cycle` and so on."]
     return "\n".join(lines) + "\n"
 
 
 def _dimensions(result: xr.Dataset) -> list[str]:
-    return table(("dimension", "is"), [(f"`{name}`", DIMENSIONS[name]) for name in sorted(result.sizes, key=list(DIMENSIONS).index)])
+    return table(("dimension", "meaning"), [(f"`{name}`", DIMENSIONS[name]) for name in sorted(result.sizes, key=list(DIMENSIONS).index)])
 
 
 def _coordinates(result: xr.Dataset) -> list[str]:
-    return table(("coordinate", "dimensions", "units", "is"), [_row(result, name) for name in result.coords])
+    return table(("coordinate", "dimensions", "units", "meaning"), [_row(result, name) for name in result.coords])
 
 
 def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[str]:
@@ -100,13 +101,13 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
     for each in variables:
         name, dimensions, units, words = _row(result, each.name)
         assert (units, words) == (each.units, each.long_name), f"{each.name} is not as declared"
-        beside = f" (beside `[{effect_named(each.needs).written}]`)" if each.needs else ""
+        beside = f" (only with `[{effect_named(each.needs).written}]`)" if each.needs else ""
         rows.append((name, dimensions, units, words + beside))
-    return table(("variable", "dimensions", "units", "is"), rows)
+    return table(("variable", "dimensions", "units", "meaning"), rows)
 
 
 def _root_stress(result: xr.Dataset) -> list[str]:
-    return table(("variable", "dimensions", "units", "is"), [_row(result, name) for name in undeclared_variables(result)])
+    return table(("variable", "dimensions", "units", "meaning"), [_row(result, name) for name in undeclared_variables(result)])
 
 
 def undeclared_variables(result: xr.Dataset) -> list[str]:
@@ -121,4 +122,4 @@ def _row(result: xr.Dataset, name: str) -> tuple[str, str, str, str]:
 
 
 def _attributes() -> list[str]:
-    return table(("attribute", "units", "is", "there when"), [(f"`{each.name}`", each.units, each.meaning, each.when) for each in RESULT_ATTRIBUTES])
+    return table(("attribute", "units", "meaning", "only if"), [(f"`{each.name}`", each.units, each.meaning, each.when) for each in RESULT_ATTRIBUTES])

@@ -18,12 +18,11 @@ from fenics_gears.scene.schema import SceneText
 
 HEADING = """# The scene
 
-A scene is a TOML file. `[gears]` and `[load]` are always there, `[motion]` wherever time matters; `[accuracy]` says how, not what; any other section is an
-[effect](effects.md), simulated where the section is named and not constructed where it is absent. [The demo](../demos/lundvall2004.toml) is a whole scene.
+A scene is a TOML file. `[gears]` and `[load]` are required, `[motion]` only with `[inertia]`. `[accuracy]` and `[output]` control how finely the scene is computed and what is stored. Every
+other section switches on one [effect](effects.md); if it is left out, the effect is not there. [The demo](../demos/lundvall2004.toml) is a complete scene.
 
-Quantities are texts with a number and a unit, `"4.5 mm"`, `"0.203e9 N mm/rad"`; a bare number stands only where there is no unit. Any unit of the right kind will do; inside, all is N, mm, s
-and rad. Wrong scenes are refused before anything is computed, all mistakes at once, each with its line, its value, what is allowed and the nearest known name;
-`gears check SCENE` does only that.
+A quantity is written as text with a number and a unit, `"4.5 mm"` or `"0.203e9 N mm/rad"`, in any unit of its kind. Only numbers without dimension are written without a unit.
+`gears check SCENE` lists all mistakes in a scene at once, each with its line, its value, what is allowed and the nearest known name. Every command checks the scene in this way before it computes.
 
 This page is written by `python -m tests.docs.write` from the scene's schema; a test says when it is out of date.
 """
@@ -46,14 +45,14 @@ class SectionOfScene:
 
 def page() -> str:
     """The whole page."""
-    lines = [HEADING, *_units(), "## The whole file", "", *fields(SceneText, "the top")]
-    lines += ["## What is always there", ""]
+    lines = [HEADING, *_units(), "## Top of the file", "", *fields(SceneText, "the top")]
+    lines += ["## Gears, load and motion", ""]
     for name in ALWAYS:
         lines += _with_parts(name)
-    lines += ["## How it is computed, and what is put out", ""]
+    lines += ["## Accuracy and output", ""]
     for name in ("accuracy", "output"):
         lines += _with_parts(name)
-    lines += ["## Effects", "", "An example of each: [effects](effects.md#examples).", ""]
+    lines += ["## Effects", "", "[Effects](effects.md#examples) has an example of each.", ""]
     for each in EFFECTS:
         if not each.within:
             lines += _effect(each.section)
@@ -62,13 +61,13 @@ def page() -> str:
 
 def _units() -> list[str]:
     rows = [(kind, ", ".join(f"`{name}`" for name in names)) for kind, names in units.names_by_kind().items()]
-    words = "Names of units, which may be combined by blanks, `*`, `/`, `^` and brackets (`kg m^2`, `N/mm`); no prefix is guessed. A speed may be in `min^-1` or `1/min`, too:"
+    words = "These units may be combined by blanks, `*`, `/`, `^` and brackets (`kg m^2`, `N/mm`). Other prefixes are not accepted. A speed may also be in `min^-1` or `1/min`."
     return ["## Units", "", words, "", *table(("for", "units"), rows), ""]
 
 
 def _effect(name: str) -> list[str]:
     found = effect_named(name)
-    lines = [f"### `[{found.written}]`", "", capital(f"{found.description}; without it: {found.absent}")]
+    lines = [f"### `[{found.written}]`", "", f"{capital(found.description)} Without this section: {found.absent}."]
     for words, names in (("Needs", found.needs), ("Excludes", found.excludes)):
         if names:
             lines.append(f"{words} {', '.join(f'`[{effect_named(name).written}]`' for name in names)}.")
@@ -111,7 +110,7 @@ def fields(kind: type[BaseModel], place: str) -> list[str]:
         allowed = allowed_in(kind, name)
         if allowed is not None:
             rows.append((f"`{name}`", _meaning(allowed, f"{place}.{name}"), _allowed(allowed), _left_out(allowed, field, f"{place}.{name}")))
-    return [*table(("field", "is", "allowed", "left out"), rows), ""] if rows else []
+    return [*table(("field", "meaning", "allowed", "default"), rows), ""] if rows else []
 
 
 def _meaning(allowed: Allowed, path: str) -> str:
@@ -128,7 +127,7 @@ def _allowed(allowed: Allowed) -> str:
 
 def _left_out(allowed: Allowed, field, path: str) -> str:
     if field.default is PydanticUndefined:
-        return "must be there"
+        return "required"
     if allowed.otherwise:
         return allowed.otherwise
     if field.default is None:

@@ -9,5 +9,5 @@ def test_a_frequency_of_several_vibrations_is_told_once():
     """Count: three modes of like bearings have one frequency; a fourth has its own."""
     modes = [Vibration(frequency, 1e-3, True) for frequency in (1592.0, 1592.0, 1592.0, 1800.0)]
     (said,) = time_step_warnings(modes, 400.0, 20, FOLLOWING)
-    assert "about 3 vibrations at 1592 Hz (5.03 steps a period), 1800 Hz (4.44 steps a period);" in said
+    assert "about 3 vibrations at 1592 Hz (5.03 steps per period), 1800 Hz (4.44 steps per period);" in said
     assert said.count("1592 Hz") == 1

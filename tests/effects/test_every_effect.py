@@ -29,7 +29,7 @@ METHODS = {
     "body_meshes": {"fenics_gears.elasticity.whole_body.condensed", "fenics_gears.contact.whole_body_cycle"},
     TEETH: {"fenics_gears.elasticity.gear_compliance"},
 }
-# What only hard cases of them load: the start of a fast mesh, the stepping of unsampled vibrations, the ladder's last rung.
+# What only hard cases of them load: the start of a fast mesh, the stepping of unsampled vibrations, the last of the fallbacks.
 RARE = {"inertia": {"fenics_gears.dynamics.mean_equilibrium"}, "friction": {"fenics_gears.contact.tresca", "cvxopt"}}
 
 

@@ -117,7 +117,7 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
         "sum_of_forces": float(np.abs(on_pinion[:2] + on_wheel[:2]).max()) / total,
         "sum_of_moments": abs(couple) / (total * pair.centre_distance),
     }
-    # A tip's edge touches along a line of its own, at another arm.
+    # A tip's edge touches along a line of its own, with another lever arm.
     if not frictional and all(each.place.line is None for each in operator.pairs):
         found["couples_by_base_radii"] = abs(on_pinion[2] - on_wheel[2]) / total
     return found

@@ -57,7 +57,7 @@ def judged_steps(measured, drawn, limits, examples: int) -> None:
     finally:
         for name, (words, limit, unit) in limits.items():
             measured(f"{words}, single steps", worst[name], f"{limit:g} {unit}".rstrip(), unit)
-        measured("single steps drawn at random", f"{count['solved']} solved, {count['typed']} typed errors", "no other end")
+        measured("random single steps", f"{count['solved']} solved, {count['typed']} errors with their cause", "all")
 
 
 def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]:

@@ -17,8 +17,11 @@ HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "hard_cases.md"
 HEADING = """# Hard cases and measured values
 
-These cases must stay numerically stable. Each row belongs to a file `tests/hard_cases/test_row_NN_*.py`; the docstrings of its tests name the
+These cases must stay numerically stable. Case NN is tested by the files `tests/hard_cases/test_row_NN_*.py`; the docstrings of their tests name the
 authority of every limit. `python -m tests.hard_cases.table` runs these tests and writes this page with the values that they measured.
+
+"x / y" is x divided by y. "x ... y" are the smallest and the largest of several measurements. "Stand-in teeth" are teeth without finite elements (`tests/stand_in.py`).
+An error "with its cause" names why contact has no solution or did not converge. Further symbols are those of [the model](model.md).
 """
 
 
@@ -45,16 +48,14 @@ class Collector:
 
 
 def page(collector: Collector) -> str:
-    """The documentation's page: a row a case, its measurements below one another."""
-    lines = [HEADING, f"Python {platform.python_version()} on {platform.machine()}.", ""]
-    lines += ["| # | case | must hold | measured | limit | tests |", "|---|---|---|---|---|---|"]
+    """The documentation's page: a section for each case, its measurements in a table."""
+    lines = [HEADING, f"Python {platform.python_version()} on {platform.machine()}."]
     for row, (name, must_hold) in CASES.items():
         outcomes = ", ".join(f"{count} {outcome}" for outcome, count in sorted(collector.tests[row].items())) or "none"
-        entries = list(collector.measured[row].items()) or [("", [("", "")])]
-        for i, (what, lines_of_it) in enumerate(entries):
-            value, limit = spread([each for each, _ in lines_of_it]), lines_of_it[-1][1]
-            start = f"| {row} | {name} | {must_hold} " if i == 0 else "| | | "
-            lines.append(f"{start}| {what + ': ' if what else ''}{value} | {limit} | {outcomes if i == 0 else ''} |")
+        lines += ["", f"## {row}. {name[0].upper()}{name[1:]}", "", f"**Must hold:** {must_hold}. **Tests:** {outcomes}.", ""]
+        lines += ["| quantity | measured | limit |", "|---|---|---|"]
+        for what, lines_of_it in collector.measured[row].items():
+            lines.append(f"| {what} | {spread([each for each, _ in lines_of_it])} | {lines_of_it[-1][1]} |")
     return "\n".join(lines) + "\n"
 
 
@@ -66,6 +67,8 @@ def spread(values: list[str]) -> str:
     try:
         ordered = sorted(different, key=lambda value: float(value.split()[0]))
     except ValueError:
+        return "; ".join(different)
+    if any("," in value for value in different):
         return "; ".join(different)
     return f"{ordered[0]} ... {ordered[-1]}"
 

@@ -21,15 +21,15 @@ from fenics_gears.system.progress import SilentProgress
 # Row, words, limit and unit of each residual of `invariants.step_residuals`.
 LAWS = {
     "penetration": (1, "largest penetration", 1e-4, "um"),
-    "tension": (1, "largest tension, of the load", 1e-6, ""),
-    "complementarity": (1, "p_n gap, of load times length", 1e-10, ""),
-    "cone": (2, "friction beyond the cone, of the load", 1e-6, ""),
-    "wrong_way": (2, "friction along the slip, of load times length", 1e-10, ""),
-    "dissipation": (2, "energy gained by friction, of load times length", 1e-10, ""),
-    "sum_of_forces": (3, "sum of forces on the two gears", 1e-12, ""),
-    "sum_of_moments": (3, "sum of their moments", 1e-12, ""),
-    "couples_by_base_radii": (3, "T1/rb1 - T2/rb2 without friction", 1e-12, ""),
-    "equilibrium": (3, "springs, load and contact out of balance, quasi-static", 1e-6, ""),
+    "tension": (1, "largest tension / load", 1e-6, ""),
+    "complementarity": (1, "p_n gap / (load x length)", 1e-10, ""),
+    "cone": (2, "friction beyond mu p_n / load", 1e-6, ""),
+    "wrong_way": (2, "work of friction in the direction of slip / (load x length)", 1e-10, ""),
+    "dissipation": (2, "energy gained by friction / (load x length)", 1e-10, ""),
+    "sum_of_forces": (3, "sum of forces on the two gears / load", 1e-12, ""),
+    "sum_of_moments": (3, "sum of moments on the two gears / load torque", 1e-12, ""),
+    "couples_by_base_radii": (3, "T1/rb1 - T2/rb2 without friction / load", 1e-12, ""),
+    "equilibrium": (3, "residual of the quasi-static equilibrium / load", 1e-6, ""),
 }
 
 
@@ -58,8 +58,8 @@ class Tally:
         for name, value in self.worst.items():
             row, words, limit, unit = LAWS[name]
             measured(f"{words}, {gears}", value, f"{limit:g} {unit}".rstrip(), unit, row=row)
-        ended = f"{self.scenes} scenes, {self.steps} steps, {self.failed} typed errors"
-        measured(f"scenes drawn at random, {gears}", ended, "every step converges or the error is typed", row=1)
+        ended = f"{self.scenes} scenes, {self.steps} steps, {self.failed} errors with their cause"
+        measured(f"random scenes, {gears}", ended, "all converge or end with the cause", row=1)
 
 
 def is_right(failure, scene) -> bool:

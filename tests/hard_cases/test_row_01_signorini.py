@@ -8,9 +8,9 @@ FRICTIONS = st.one_of(st.just(0.0), st.floats(1e-6, 2.0))
 # Of hard_cases.md; what is left of the balance is round-off.
 LIMITS = {
     "penetration": ("largest penetration", 1e-4, "um"),
-    "tension": ("largest tension, of the largest force", 1e-6, ""),
-    "complementarity": ("p_n gap, of force times length", 1e-10, ""),
-    "balance": ("forces out of balance, of the largest term", 1e-12, ""),
+    "tension": ("largest tension / largest force", 1e-6, ""),
+    "complementarity": ("p_n gap / (force x length)", 1e-10, ""),
+    "balance": ("residual of the equilibrium / largest term", 1e-12, ""),
 }
 
 

@@ -10,10 +10,10 @@ from fenics_gears.contact.step_solver import solve_step
 
 # Of hard_cases.md and model.md section 4.
 LIMITS = {
-    "cone": ("friction beyond the cone, of the largest force", 1e-6, ""),
-    "stick": ("slip of a node inside its cone", 1e-4, "um"),
-    "wrong_way": ("friction along the slip, of force times length", 1e-10, ""),
-    "dissipation": ("energy gained by friction, of force times length", 1e-10, ""),
+    "cone": ("friction beyond mu p_n / largest force", 1e-6, ""),
+    "stick": ("slip of a sticking node", 1e-4, "um"),
+    "wrong_way": ("work of friction in the direction of slip / (force x length)", 1e-10, ""),
+    "dissipation": ("energy gained by friction / (force x length)", 1e-10, ""),
 }
 
 
@@ -39,5 +39,5 @@ def test_friction_dissipates_what_it_bounds(measured):
         full = 0.2 * solution.forces[:6] * np.abs(slip)
         scale = np.abs(solution.forces).max() * np.abs(slip).max()
         worst = max(worst, float(np.abs(lost - full).max() / scale) if scale else 0.0)
-    measured("energy lost against mu p_n slip at every node", worst, "1e-10 of force times slip")
+    measured("friction loss of a node, difference from mu p_n slip", worst, "1e-10 of force x slip")
     assert worst <= 1e-10

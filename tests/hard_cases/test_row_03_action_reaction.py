@@ -40,7 +40,7 @@ def test_contact_forces_sum_to_nothing(case, measured):
     size = np.hypot(x_1, y_1).max()
     forces = max(np.abs(x_1 + x_2).max(), np.abs(y_1 + y_2).max()) / size
     moments = np.abs(c_1 + c_2 + centre[0] * y_2 - centre[1] * x_2).max() / (size * pair.centre_distance)
-    measured(f"{name}: forces, moments left over", f"{forces:.1g}, {moments:.1g}", "1e-12")
+    measured(f"{name}: sum of forces, sum of moments", f"{forces:.1g}, {moments:.1g}", "1e-12")
     assert forces <= 1e-12
     assert moments <= 1e-12
 
@@ -59,7 +59,7 @@ def test_reactions_are_what_the_springs_and_the_load_hold(case, measured):
     held.append(np.abs(couple.sel(gear="wheel") + scene.load.wheel_torque).max().item() / torque)
     twist = scene.shafts.torsional_stiffness * result.rotation.sel(gear="pinion")
     held.append(np.abs(twist - couple.sel(gear="pinion")).max().item() / torque)
-    measured(f"{name}: reactions against springs and load", max(held), "1e-12")
+    measured(f"{name}: difference of the reactions from springs and load", max(held), "1e-12")
     assert max(held) <= 1e-12
 
 
@@ -71,5 +71,5 @@ def test_couples_are_as_the_base_radii_without_friction(frequency, paper_scene, 
     pair, result = gear_pair(scene.gears), simulate(scene)
     by_radius = result.reaction_couple.values / np.array([pair.pinion.base_radius, pair.wheel.base_radius])
     difference = np.abs(by_radius[:, 0] - by_radius[:, 1]).max() / np.abs(by_radius).max()
-    measured(f"T1/rb1 against T2/rb2, {'quasi-static' if frequency is None else f'{frequency:g} Hz'}", difference, "1e-12")
+    measured(f"difference of T1/rb1 and T2/rb2, {'quasi-static' if frequency is None else f'{frequency:g} Hz'}", difference, "1e-12")
     assert difference <= 1e-12

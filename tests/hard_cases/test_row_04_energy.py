@@ -54,7 +54,7 @@ def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_fla
     closed = [np.count_nonzero(record.solution.status) for record in records]
     assert len(set(closed)) > 1
     worst = np.abs(defect).max() / max(work)
-    measured(f"{'damped' if damped else 'undamped'}, pushed with {speed:g} mm/s: defect of a step / work of the step", worst, "1e-11")
+    measured(f"{'damped' if damped else 'undamped'}, started with {speed:g} mm/s: defect of a step / work of the step", worst, "1e-11")
     assert worst <= 1e-11
 
 
@@ -66,7 +66,7 @@ def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_f
     steps = Steps.of(records)
     work = account(shafts, marcher.clock, steps, energy_variables(scene, shafts, steps)["energy"])
     done = np.abs(np.diff(work.load)).sum() + work.damping[-1] + work.friction[-1]
-    measured("with friction: defect / work done over 400 steps", np.abs(work.defect).max() / done, "1e-9")
+    measured("with friction, 400 steps: defect / work", np.abs(work.defect).max() / done, "1e-9")
     assert np.abs(work.defect).max() <= 1e-9 * done
     assert np.abs(work.rotation).max() <= 1e-9 * done
     assert np.diff(work.friction).min() >= -1e-12 * done
@@ -91,8 +91,8 @@ def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, me
         if flights == 400:
             break
     largest, smallest = max(energies) / dropped, min(energies) / dropped
-    measured("undamped bounce, 400 flights: energy / energy of the drop, largest", largest, "bounded (1.1)")
-    measured("undamped bounce, 400 flights: energy / energy of the drop, smallest", smallest, "not lost (0.9)")
+    measured("undamped bounce, 400 flights: largest energy / initial energy", largest, "1.1")
+    measured("undamped bounce, 400 flights: smallest energy / initial energy", smallest, "at least 0.9")
     assert flights == 400
     assert 0.9 <= smallest <= largest <= 1.1
 
@@ -114,7 +114,7 @@ def test_account_of_a_run_closes(paper_scene, measured, absent):
     defect = gained - (result.work_input - taken + result.work_contact_changes)
     done = float(result.work_input[-1])
     name = "without " + ", ".join(absent) if absent else "all effects"
-    measured(f"rolling, {name}: defect / work of the drive", float(np.abs(defect).max()) / done, "1e-9")
+    measured(f"rotating gears, {name}: defect / work of the drive", float(np.abs(defect).max()) / done, "1e-9")
     assert float(np.abs(defect).max()) <= 1e-9 * done
     assert result.energy_defect.values == pytest.approx(defect.values, abs=1e-9 * done)
 
@@ -126,8 +126,8 @@ def test_term_at_changes_of_contact_vanishes_with_the_step(paper_scene, measured
     for steps in (160, 640):
         result = simulate(replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))
         terms.append(abs(float(result.work_contact_changes[-1])) / float(result.work_damping[-1]))
-    measured("term at changes of contact / damping, 160 steps a cycle", terms[0], "recorded")
-    measured("the same, 640 steps a cycle", terms[1], "a quarter of it or less")
+    measured("`work_contact_changes` / damping loss, 160 steps per mesh cycle", terms[0], "recorded")
+    measured("`work_contact_changes` / damping loss, 640 steps per mesh cycle", terms[1], "a quarter of that with 160 steps")
     assert terms[1] <= 0.25 * terms[0]
 
 

@@ -27,7 +27,7 @@ def test_ring_equals_fully_meshed_gear(name, measured):
     mesh = whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)
     whole = whole_gear_compliance(mesh, PINION, STEEL, element=name, tooth_offsets=3)
     difference = max(relative(ring[offset] - whole.blocks[offset], whole.blocks[offset]) for offset in range(4))
-    measured(f"ring against whole gear, {name}", difference, "1e-9")
+    measured(f"ring of sectors and whole gear, {name}: difference", difference, "1e-9")
     assert difference <= 1e-9
 
 
@@ -38,7 +38,7 @@ def test_ring_of_an_odd_number_of_teeth(measured):
     ring = ring_compliance(condensed_sector(mesh, ELEMENTS["P2"], 0.3), 13, 12) / STEEL.youngs_modulus
     whole = whole_gear_compliance(whole_gear_mesh(mesh, 13), gear, STEEL, tooth_offsets=12)
     difference = relative(ring - whole.blocks, whole.blocks)
-    measured("ring against whole gear, 13 teeth, P2, all offsets", difference, "1e-9")
+    measured("ring of sectors and whole gear, 13 teeth, P2, all pairs of teeth: difference", difference, "1e-9")
     assert difference <= 1e-9
 
 
@@ -72,5 +72,5 @@ def test_condensed_equals_uncondensed(name, measured):
         into_frame = np.kron(np.eye(len(nodes)), rotation(offset * PINION.angular_pitch)).T
         found, expected = blocks[offset] @ forces, into_frame @ displacement[(2 * nodes[:, None] + [0, 1]).ravel()]
         differences.append(relative(found - expected, expected))
-    measured(f"condensed against uncondensed, {name}", max(differences), "1e-9")
+    measured(f"condensed and uncondensed, {name}: difference", max(differences), "1e-9")
     assert max(differences) <= 1e-9

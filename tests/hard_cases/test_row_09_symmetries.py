@@ -71,7 +71,7 @@ def test_any_start_angle(make, start, scene, measured):
     later = simulate(scene, preparation=begun_later).transmission_error.values[:-1]
     change = relative(np.roll(later, start) - usual, usual)
     friction = scene.friction.coefficient if scene.friction else 0.0
-    measured(f"start {start}/{len(usual)} of a mesh cycle later, mu = {friction:g}", change, "1e-10")
+    measured(f"start {start}/{len(usual)} of a mesh cycle later, mu = {friction:g}: difference", change, "1e-10")
     assert change <= 1e-10
 
 
@@ -81,7 +81,7 @@ def test_finer_steps_stand_at_the_same_angles(scene, measured):
     fine = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=120))
     errors = [simulate(each).transmission_error.values for each in (scene, fine)]
     change = relative(errors[1][::3] - errors[0], errors[0])
-    measured("40 and 120 steps a mesh cycle, at the same angles", change, "1e-10")
+    measured("40 and 120 steps per mesh cycle, at the same angles: difference", change, "1e-10")
     assert change <= 1e-10
 
 
@@ -102,7 +102,7 @@ def test_gears_swapped(element, relieved, scene, measured):
         other, swapped_forces = approach(there, pairings[1], grid, pair.contact_ratio - phase, force)
         changes.append(max(abs(other / usual - 1.0), relative(np.sort(swapped_forces) - np.sort(forces), forces)))
     name = element + (", tip relief" if relieved else "")
-    measured(f"gears swapped, {name}: transmission error and forces", max(changes), "1e-10")
+    measured(f"gears swapped, {name}: difference of transmission error and forces", max(changes), "1e-10")
     assert max(changes) <= 1e-10
 
 
@@ -127,5 +127,5 @@ def test_mirrored_pair(element, scene, measured):
         drive, _ = approach(flanks, pairing, grid, mirrored - phase, force)
         coast, _ = approach(flanks, pairing, grid, phase, -force, COAST)
         changes.append(abs(-coast / drive - 1.0))
-    measured(f"mirrored pair, {element}: transmission error", max(changes), "1e-10")
+    measured(f"mirrored pair, {element}: difference of the transmission error", max(changes), "1e-10")
     assert max(changes) <= 1e-10

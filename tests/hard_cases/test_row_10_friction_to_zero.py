@@ -24,8 +24,8 @@ def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
         error = simulate(replace(scene, friction=Friction(coefficient))).transmission_error.values
         rates.append(np.abs(error - plain).max() / scale / coefficient)
     shown = ", ".join(f"{rate:.3g}" for rate in rates[:4])
-    measured(f"{name}: relative difference over mu, mu = 1e-2 ... 1e-6", shown, "constant, 30 %")
-    measured(f"{name}: relative difference at mu = 1e-12", rates[-1] * COEFFICIENTS[-1], "2e-12")
+    measured(f"{name}: relative difference from mu = 0 / mu, for mu = 1e-2 to 1e-6", shown, "constant within 30 %")
+    measured(f"{name}: relative difference from mu = 0 at mu = 1e-12", rates[-1] * COEFFICIENTS[-1], "2e-12")
     assert rates[:5] == pytest.approx([rates[2]] * 5, rel=0.3)
     for rate, coefficient in zip(rates, COEFFICIENTS):
         # Beside the effect itself, only the round-off of the transmission error.
@@ -44,7 +44,7 @@ def test_frictionless_scene_has_nothing_tangential(paper_scene, measured):
     surplus = max(len(operator.compliance) - operator.nodes for operator in operators)
     motion = np.abs(result.centre_y.values).max()
     tangential = [name for name in result.data_vars if "friction" in name or "traction" in name]
-    measured("frictionless: tangential unknowns, motion off the line of action", f"{surplus}, {motion:.1g} mm", "0, 0")
+    measured("without friction: tangential unknowns, motion off the line of action", f"{surplus}, {motion:.1g} mm", "0, 0")
     assert surplus == 0
     assert all(operator.rigid_slip is None and operator.previous_compliance is None for operator in operators)
     assert all(len(operator.jacobian) == operator.nodes for operator in operators)

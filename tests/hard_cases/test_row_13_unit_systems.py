@@ -60,7 +60,7 @@ def in_units(scene, length, force, time):
 
 SYSTEMS = {
     "SI (m, N, s)": (1e-3, 1.0, 1.0),
-    "E x 1e6, forces with it": (1.0, 1e6, 1.0),
+    "Young's modulus and forces x 1e6": (1.0, 1e6, 1.0),
     "gears three times as large, steel": (3.0, 9.0, 3.0),
     "inch, pound-force, minute": (1.0 / 25.4, 1.0 / 4.4482216152605, 1.0 / 60.0),
 }
@@ -104,7 +104,7 @@ def test_units_scale_out(system, maker, usual, measured):
     forces = np.abs(there.normal_force.values / force - here.normal_force.values).max() / here.normal_force.max().item()
     iterations = int(np.abs(there.newton_iterations.values - here.newton_iterations.values).max())
     measured(f"{system}: largest change", max(angle, forces), "1e-9")
-    measured(f"{system}: iterations of a step that change", float(iterations), "0")
+    measured(f"{system}: change of the number of iterations", float(iterations), "0")
     assert angle <= 1e-9
     assert forces <= 1e-9
     assert iterations == 0

@@ -25,7 +25,7 @@ SECOND_ORDER, FIRST_ORDER = ("P2", "Q2"), ("P1", "Q1")
 def test_second_order_elements_are_right_in_a_thick_ring(name, measured):
     """Exact solution (Lame): a ring pressed outwards at nu = 0.499, where nearly all resistance is against change of volume."""
     error = error_under_pressure(name, 0.499)
-    measured(f"thick ring under pressure, {name}", error, f"{TOLERANCE[name]:.1g}, (h/r)^4")
+    measured(f"thick ring under pressure, {name}: error", error, f"{TOLERANCE[name]:.1g}, (h/r)^4")
     assert error <= TOLERANCE[name]
 
 
@@ -57,7 +57,7 @@ def test_tooth_of_a_nearly_incompressible_gear(measured):
     reference = tooth_compliance("P2", 0.499)
     errors = {name: tooth_compliance(name, 0.499) / reference - 1.0 for name in ("Q2", "Q1 incompatible", "P1", "Q1")}
     for name, error in errors.items():
-        measured(f"tooth's compliance against P2, {name}", error, ALLOWED.get(name, "recorded, below -2 %"))
+        measured(f"compliance of a tooth with {name}, relative to P2", error, ALLOWED.get(name, "recorded, below -2 %"))
     assert abs(errors["Q2"]) <= 1e-3
     assert abs(errors["Q1 incompatible"]) <= 5e-3
     assert max(errors["P1"], errors["Q1"]) < -0.02
@@ -70,7 +70,7 @@ def test_elements_that_lock_are_named(name, paper_scene, measured):
     gears = replace(scene.gears, material=replace(scene.gears.material, poissons_ratio=0.499))
     soft = replace(scene, gears=gears, accuracy=replace(scene.accuracy, element=name))
     found = [warning for warning in model_of(soft).warnings if "locks in a nearly incompressible material" in warning]
-    measured(f"{name} at nu 0.499", f"{'named' if found else 'not named'}", "first order named")
+    measured(f"warning about {name} at nu 0.499", f"{'given' if found else 'none'}", "for elements of first order")
     assert len(found) == (name in FIRST_ORDER)
     assert all(name in warning and "0.499" in warning and "P2 or Q2" in warning for warning in found)
     assert ("locks in a nearly" in simulate(soft).attrs["warnings"]) == (name in FIRST_ORDER)

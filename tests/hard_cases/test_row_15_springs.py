@@ -30,10 +30,10 @@ def test_stiff_springs_tend_to_the_rigid_drivetrain(make, coarse, measured):
     for factor in (1e-3, 1.0, 1e3, 1e6, 1e9, 1e12):
         error = simulate(stiffened(make(coarse), factor)).transmission_error.values
         distances.append(np.abs(error - rigid).max() / np.abs(rigid).max())
-    measured("distance from rigid springs, 1e-3 of nominal", distances[0], "falls with k")
-    measured("distance from rigid springs, nominal", distances[1], "falls with k")
-    measured("distance from rigid springs, 1e9 of nominal", distances[-2], "1e-9 of nominal's, within 30 %")
-    measured("distance from rigid springs, 1e12 of nominal", distances[-1], "1e-10")
+    measured("relative difference from rigid shafts and bearings, stiffness 1e-3 of nominal", distances[0], "decreases with stiffness")
+    measured("relative difference from rigid shafts and bearings, nominal stiffness", distances[1], "decreases with stiffness")
+    measured("relative difference from rigid shafts and bearings, stiffness 1e9 of nominal", distances[-2], "1e-9 of that with nominal stiffness, within 30 %")
+    measured("relative difference from rigid shafts and bearings, stiffness 1e12 of nominal", distances[-1], "1e-10")
     assert np.all(np.diff(distances) <= 0.0)
     assert distances[2:5] == pytest.approx([distances[1] / 1e3, distances[1] / 1e6, distances[1] / 1e9], rel=0.3)
     assert distances[-1] <= 1e-10
@@ -41,10 +41,10 @@ def test_stiff_springs_tend_to_the_rigid_drivetrain(make, coarse, measured):
 
 @pytest.mark.parametrize("factor", [1e-3, 1e3, 1e6, 1e9, 1e12])
 def test_springs_of_any_stiffness_march_in_time(factor, coarse, measured):
-    """From the task: with inertia every step converges, whatever the springs; the wheel's couple stays of the load's size."""
+    """From the task: with inertia every step converges, whatever the springs; the torque on the wheel stays of the size of the load."""
     result = simulate(stiffened(coarse, factor))
     torque = np.abs(result.reaction_couple.sel(gear="wheel").values).max() / coarse.load.wheel_torque
-    measured(f"largest torque over the load, springs {factor:g} of nominal", torque, "10")
+    measured(f"largest torque / load torque, stiffness {factor:g} of nominal", torque, "10")
     assert result.attrs["complete"]
     assert np.all(np.isfinite(result.transmission_error.values))
     assert torque < 10.0

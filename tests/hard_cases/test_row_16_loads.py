@@ -58,9 +58,9 @@ def test_contact_narrower_than_a_node_spacing_carries_the_load(coarse, measured)
     difference = np.abs(result.normal_force.values / force - 1.0).max()
     closed = int(result.closed_nodes.max())
     ratio = resolution.half_width / resolution.contact_grid.spacing
-    measured("narrow contact: half-width over node spacing", ratio, "below 0.5")
-    measured("narrow contact: error of the force carried", difference, "1e-11")
-    measured("narrow contact: most closed nodes", float(closed), "1 or 2 a pair")
+    measured("narrow contact: half-width / node spacing", ratio, "below 0.5")
+    measured("narrow contact: error of the total force", difference, "1e-11")
+    measured("narrow contact: most closed nodes", float(closed), "1 or 2 for each pair")
     assert ratio < 0.5
     assert 1 <= closed <= 4
     assert difference <= 1e-11

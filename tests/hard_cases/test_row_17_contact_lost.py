@@ -58,7 +58,7 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
     assert backward.coast_normal_force.values == pytest.approx(forward.normal_force.values, rel=1e-9)
     crossed = -backward.transmission_error.values - paper_pair.backlash / paper_pair.wheel.base_radius
     apart = [abs(of(crossed) / of(forward.transmission_error.values) - 1.0) for of in (np.mean, np.min, np.max)]
-    measured(f"static reversal, {len(absent)} effects left out: against the mirror image", max(apart), "5e-3")
+    measured(f"static reversal, {'without shafts and bearings' if absent else 'with shafts and bearings'}: relative difference from the mirror image", max(apart), "5e-3")
     assert max(apart) <= 5e-3
     assert backward.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
     assert backward.coast_flank_opening.values.max() <= 1e-12
@@ -74,7 +74,7 @@ def test_reversed_torque_with_friction_balances(both_flanks, paper_scene, measur
     # Across the coast flanks' own line of action: the reaction's part that the normal force does not explain.
     force = np.hypot(result.reaction_x.sel(gear="pinion").values, result.reaction_y.sel(gear="pinion").values)
     ratio = (force / result.coast_normal_force.values).max()
-    measured("static reversal with friction: reaction over normal force", ratio / np.hypot(1.0, 0.1) - 1.0, "1e-6 of sqrt(1 + mu^2)")
+    measured("static reversal with friction: reaction / normal force, relative difference from sqrt(1 + mu^2)", ratio / np.hypot(1.0, 0.1) - 1.0, "1e-6")
     assert ratio == pytest.approx(np.hypot(1.0, 0.1), rel=1e-6)
 
 
@@ -89,8 +89,8 @@ def test_coast_flanks_stand_a_backlash_apart(both_flanks, paper_pair, measured):
         sums = [sum(operator.gap[operator.on_drive_flanks == drive].min() for drive in (True, False)) for operator in operators]
         excess.append(np.mean(sums) - paper_pair.backlash)
     orders = np.log2(np.array(excess[:-1]) / excess[1:])
-    measured("openings of drive and coast flanks less the backlash, 0.12 mm", excess[0] * 1e3, "curvature, order 2", "um")
-    measured("its order in the node spacing", orders[-1], "2 +- 0.2")
+    measured("gaps of drive and coast flanks minus backlash, contact nodes 0.12 mm apart", excess[0] * 1e3, "of order 2", "um")
+    measured("order of this difference in the node spacing", orders[-1], "2 +- 0.2")
     assert orders[-1] == pytest.approx(2.0, abs=0.2)
 
 
@@ -103,13 +103,13 @@ def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):
     for name, run, last in (("forwards", scene, 1040), ("backwards", backwards(scene), 560)):
         always = shown(simulate(replace(run, motion=Motion(200.0, 12, 1)))).transmission_error.values
         settled[name] = np.abs(error[last - 40 : last + 1] - always).max() / np.abs(always).max()
-        measured(f"reversal while running, settled {name}, against always so", settled[name], "1e-4: e^-9.5 of the transient")
+        measured(f"reversal while running, settled {name}: relative difference from a run without reversal", settled[name], "1e-4")
     assert max(settled.values()) <= 1e-4
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
     free = ~driving & ~coasting
     assert driving[:81].all() and free[81:561].any() and coasting[520:561].all() and driving[1000:].all()
     first = result.attrs["contact_loss_first"]
-    measured("first loss after the reversal at 10 ms", first, "within 2 ms", "s")
+    measured("first contact loss after the reversal at 0.010 s", first, "0.012 s", "s")
     assert 0.010 < first < 0.012
     assert result.attrs["contact_loss_longest"] >= 0.9 * 480 * model_of(scene).time_step
     assert "no meaning" not in result.attrs["warnings"]
@@ -128,10 +128,10 @@ def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, pa
     place = result.rotation.sel(gear="wheel").values * paper_pair.wheel.base_radius
     inside = free[:-2] & free[1:-1] & free[2:] & (np.arange(len(free) - 2) > 20)
     bend = np.abs(np.diff(place, 2))[inside].max() / np.ptp(place)
-    measured("release: change of speed in flight, of the path in a step", bend, "1e-12")
+    measured("sudden release: change of the motion per step in flight / motion per step", bend, "1e-12")
     openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[free & (np.arange(len(free)) > 20)]
     apart = np.abs(openings / paper_pair.backlash - 1.0).max()
-    measured("release: both openings in flight against the backlash", apart, "0.01 (hat average)")
+    measured("sudden release: gaps of both flanks in flight / backlash - 1", apart, "0.01")
     assert bend <= 1e-12
     assert apart <= 0.01
     assert result.attrs["contact_loss_count"] >= 1 and result.attrs["contact_loss_opening"] >= paper_pair.backlash
@@ -171,8 +171,8 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(paper_sce
         exact = (expm(2e-3 * system) @ np.concatenate([position, velocity]))[:k]
         errors.append(np.abs(record.state.position - exact).max() / np.abs(position).max())
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    measured("flight against the drivetrain without gears, step by step", worst, "1e-12")
-    measured("flight against the matrix exponential: order", orders[-1], "2 +- 0.1")
+    measured("flight: relative difference from the drivetrain without gears", worst, "1e-12")
+    measured("flight: order of convergence to the exact solution (matrix exponential)", orders[-1], "2 +- 0.1")
     assert worst <= 1e-12
     assert orders == pytest.approx([2.0, 2.0], abs=0.1)
 
@@ -187,8 +187,8 @@ def test_undamped_resonance_crosses_the_backlash_and_comes_back(both_flanks, pap
     order = [name for _, _, name in _touches(driving, coasting)]
     returns = sum(before == "coast" and after == "drive" for before, after in zip(order[:-1], order[1:]))
     openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[free]
-    measured("undamped resonance: returns from the coast flanks in 40 cycles", returns, "1 or more")
-    measured("undamped resonance: openings in flight against the backlash", np.abs(openings / paper_pair.backlash - 1.0).max(), "0.01")
+    measured("undamped resonance: returns from the coast flanks in 40 mesh cycles", returns, "1 or more")
+    measured("undamped resonance: gaps of both flanks in flight / backlash - 1", np.abs(openings / paper_pair.backlash - 1.0).max(), "0.01")
     measured("undamped resonance: share of the time without drive contact", result.attrs["contact_loss_share"], "reported")
     assert returns >= 1 and not np.any(driving & coasting)
     assert openings == pytest.approx(paper_pair.backlash, rel=0.01)

@@ -24,7 +24,7 @@ def test_a_step_without_contact_is_the_drivetrain_alone(friction, measured):
     solution = solve_step(problem, all_open(problem))
     expected = np.linalg.solve(problem.stiffness, problem.load)
     error = np.abs(solution.coordinates - expected).max() / np.abs(expected).max()
-    measured(f"coordinates against K^-1 F, friction {friction:g}", error, "1e-13")
+    measured(f"coordinates, relative difference from K^-1 F, friction {friction:g}", error, "1e-13")
     assert np.all(solution.forces == 0.0)
     assert error <= 1e-13
 
@@ -49,7 +49,7 @@ def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks, measured
         forces = max(forces, float(np.abs(record.solution.forces).max()))
     exact = thrown - 50.0 * 1e-3 + 0.5 * free * 1e-3**2
     error = abs(record.state.position[0] - exact) / abs(exact)
-    measured("free flight of the wheel against C/J, 100 steps", error, "1e-11")
+    measured("free flight of the wheel, 100 steps: relative difference from rotation at the acceleration torque / J", error, "1e-11")
     measured("largest contact force in flight", forces, "0", "N")
     assert forces == 0.0
     assert error <= 1e-11
@@ -68,7 +68,7 @@ def test_free_flight_of_the_whole_drivetrain(paper_scene, paper_pair, stand_in_f
         state = scheme.advance(state, np.linalg.solve(scheme.stiffness, scheme.load(state, shafts.load)))
         assert np.all(record.solution.forces == 0.0)
         worst = max(worst, float(np.abs(record.state.position - state.position).max() / np.abs(state.position).max()))
-    measured("flight of the whole drivetrain against that without gears, 100 steps", worst, "1e-11")
+    measured("flight of the drivetrain, 100 steps: relative difference from the drivetrain without gears", worst, "1e-11")
     assert worst <= 1e-11
 
 

@@ -85,9 +85,9 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     split = np.abs(half[0] - half[1]).max() / half.max()
     together = np.abs(half.sum(axis=0) - first.forces).max() / first.forces.max()
     approach = abs(second.coordinates[0] / first.coordinates[0] - 1.0)
-    measured("coincident nodes: difference of the halves", split, "1e-10")
-    measured("coincident nodes: sum against nodes once; approach", f"{together:.1g}, {approach:.1g}", "1e-3, 1e-4 (the layer)")
-    measured("coincident nodes: dependent rows counted", float(twice.dependent_rows), f"{once.nodes}, and none once")
+    measured("coincident nodes: relative difference of their forces", split, "1e-10")
+    measured("coincident nodes: difference of force and of approach from single nodes", f"{together:.1g}, {approach:.1g}", "1e-3, 1e-4")
+    measured("coincident nodes: dependent equations counted", float(twice.dependent_rows), f"{once.nodes}")
     assert (once.dependent_rows, twice.dependent_rows) == (0, once.nodes)
     assert split <= 1e-10
     assert together <= 1e-3
@@ -103,7 +103,7 @@ def test_nodes_closer_than_elements_are_reported(element, nodes, scene, model, m
     carried = np.abs(result.normal_force.values / force - 1.0).max()
     change = np.abs(result.transmission_error.values / usual.transmission_error.values - 1.0).max()
     spacing = dense.accuracy.contact_length / (nodes - 1) / dense.accuracy.flank_element_size
-    measured(f"{element}, node spacing {spacing:.3g} of an element: force carried, transmission error", f"{carried:.1g}, {change:.1g}",
+    measured(f"{element}, node spacing {spacing:.3g} of an element: error of the total force, change of the transmission error", f"{carried:.1g}, {change:.1g}",
              "1e-11, recorded; warnings on rank and spacing")  # fmt: skip
     assert carried <= 1e-11
     assert "contact compliance is singular" in result.attrs["warnings"]
@@ -121,7 +121,7 @@ def test_rank_is_that_of_the_elements(flanks, measured):
         values = np.linalg.eigvalsh(compliance)
         missing = int(np.count_nonzero(values < 1e-13 * values[-1]))
         differing = max(differing, abs(dependent_rows(compliance) - missing))
-    measured("rank by Cholesky against eigenvalues: largest difference", float(differing), "0")
+    measured("rank by Cholesky and by eigenvalues: largest difference", float(differing), "0")
     assert differing == 0
 
 

@@ -17,7 +17,14 @@ WORDS = ("self-locking", "more than one solution")
 ABSENT = [(), ("bearings",), ("shafts", "bearings")]
 DYNAMIC = {"dynamic": lambda scene: scene, "quasi-static": quasi_static}
 # Of hard_cases.md, rows 1 and 2, by the names of `invariants.step_residuals`.
-LIMITS = {"penetration": 1e-4, "tension": 1e-6, "complementarity": 1e-10, "cone": 1e-6, "wrong_way": 1e-10, "dissipation": 1e-10}
+LIMITS = {
+    "penetration": ("largest penetration", 1e-4, "um"),
+    "tension": ("largest tension / load", 1e-6, ""),
+    "complementarity": ("p_n gap / (load x length)", 1e-10, ""),
+    "cone": ("friction beyond mu p_n / load", 1e-6, ""),
+    "wrong_way": ("work of friction in the direction of slip / (load x length)", 1e-10, ""),
+    "dissipation": ("energy gained by friction / (load x length)", 1e-10, ""),
+}
 
 
 @pytest.fixture(scope="module")
@@ -58,14 +65,15 @@ def locks_from(pair):
 @pytest.mark.parametrize("friction", [0.3, pytest.param(0.6, marks=pytest.mark.nightly), 1.0, 2.0])
 def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
     """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and friction have
-    the arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of contact), and not below."""
+    the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of contact), and not below."""
     run = marched(with_friction(DYNAMIC[dynamic](coarse), friction, absent))
     (said, converged, rungs), worst = outcome(run), worst_of(run)
     case = f"mu = {friction:g}, {dynamic}, {'all springs' if not absent else 'without ' + ' and '.join(absent)}"
-    ladder = ", ".join(f"{count} by {rung}" for rung, count in rungs.items() if rung != "newton")
-    measured(case, ("converges" if converged else "error") + (f" ({ladder})" if ladder else "") + (f"; {said}" if said else ""), "row 20")
-    for name, limit in LIMITS.items():
-        measured(f"{case}: {name}", worst[name], f"{limit:g}")
+    fallbacks = ", ".join(f"{count} by {method}" for method, count in rungs.items() if method != "newton")
+    causes = "; ".join(each.partition(":")[0] for each in said.split("; ") if ":" in each)
+    measured(case, ("converges" if converged else "error") + (f" ({fallbacks})" if fallbacks else "") + (f"; {causes}" if causes else ""), "converges, or names the cause")
+    for name, (words, limit, unit) in LIMITS.items():
+        measured(f"mu = {friction:g}: {words}", worst[name], f"{limit:g} {unit}".rstrip(), unit)
         assert worst[name] <= limit, name
     if friction < locks_from(paper_pair):
         assert converged and not said
@@ -74,15 +82,15 @@ def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse
 
 
 @pytest.mark.parametrize("dynamic", DYNAMIC)
-def test_locking_begins_where_the_arms_say(dynamic, coarse, paper_pair, measured):
+def test_locking_begins_where_the_lever_arms_say(dynamic, coarse, paper_pair, measured):
     """Exact: rb2/(L - x) at the first point where the teeth touch; just below nothing locks, well above something does."""
     limit = locks_from(paper_pair)
     below, above = (
         outcome(marched(with_friction(DYNAMIC[dynamic](coarse), factor * limit, ("shafts", "bearings"))))[0] for factor in (0.98, 1.15)
     )
-    measured(f"{dynamic}: friction coefficient from which the paper's pair can lock", limit, "rb2/(L - x)")
-    measured(f"{dynamic}: 2 % below", "self-locking" if "self-locking" in below else "no word of locking", "no word of locking")
-    measured(f"{dynamic}: 15 % above", "self-locking" if "self-locking" in above else "no word of locking", "self-locking")
+    measured(f"{dynamic}: friction coefficient above which the paper's pair can lock", limit, "rb2/(L - x)")
+    measured(f"{dynamic}: 2 % below this coefficient", "self-locking" if "self-locking" in below else "no self-locking", "no self-locking")
+    measured(f"{dynamic}: 15 % above this coefficient", "self-locking" if "self-locking" in above else "no self-locking", "self-locking")
     assert "self-locking" not in below
     assert "self-locking" in above
 
@@ -93,7 +101,7 @@ def test_the_summary_counts_the_fallbacks(coarse, measured):
     result = simulate(scene)
     counts = rungs_of(result)
     (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by fallbacks"]
-    measured("summary at mu = 2", line, "the counts of the result")
+    measured("fallbacks in the summary at mu = 2", line, "as counted in the result")
     assert sum(counts.values()) == result.attrs["steps"] and len(counts) > 1
     assert line == ", ".join(f"{count} by {rung}" for rung, count in counts.items() if rung != "newton")
     plain = summary_rows(simulate(with_friction(quasi_static(coarse), 0.3)))

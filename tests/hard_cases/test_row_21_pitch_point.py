@@ -64,14 +64,14 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     n = forces[0].shape[1] // 2
     total = forces[0][:, n:].sum(axis=1)
     difference = max(np.abs(other - forces[0]).max() for other in forces[1:]) / np.abs(forces[0]).max()
-    case = f"{'quasi-static' if changes else 'dynamic'}, {'rigid' if absent else 'elastic'} shafts, mu = {friction:g}"
-    rungs = ", ".join(f"{count} by {rung}" for rung, count in marches[0].steps_by_method.items() if count)
-    measured(f"{case}: rigid slip where a step lands on the pitch point", on_line(marches[0].records[AT]), "that of the nodes' width", "mm")
-    measured(f"{case}: steps", rungs, "none fails")
-    measured(f"{case}: forces 1e-12 mm beside, of the largest", difference, "1e-9")
-    measured(f"{case}: friction force before and after", f"{total[0]:.0f} N, {total[-1]:.0f} N", "turns its sign")
+    case = f"mu = {friction:g}"
+    methods = ", ".join(f"{count} by {method}" for method, count in marches[0].steps_by_method.items() if count)
+    measured(f"{case}: smallest nominal slip of a node in the step on the pitch point", on_line(marches[0].records[AT]), "recorded", "mm")
+    measured(f"{case}: steps solved", methods, "none fails")
+    measured(f"{case}: change of forces with the step 1e-12 mm beside / largest force", difference, "1e-9")
+    measured(f"{case}: friction force before and after", f"{total[0]:.0f} N, {total[-1]:.0f} N", "changes its sign")
     touching, turns = courses - {(OPEN,)}, {turn for course in courses for turn in itertools.pairwise(course)}
-    measured(f"{case}: courses of the nodes that touch", f"{len(touching)} different", "never from slip to slip")
+    measured(f"{case}: different sequences of slip and stick of the nodes", f"{len(touching)}", "never from slip to opposite slip")
     assert (SLIP_BACKWARD, SLIP_FORWARD) not in turns and (SLIP_FORWARD, SLIP_BACKWARD) not in turns
     assert (SLIP_BACKWARD, STICK, SLIP_FORWARD) in touching
     assert friction > 0.1 or len(touching) == 1
@@ -87,7 +87,7 @@ def test_no_step_fails_at_the_pitch_point(changes, steps, paper_scene, paper_pai
     marches = [past_the_pitch_point(replace(paper_scene, **changes), paper_pair, stand_in_flanks, beside, steps) for beside in BESIDE]
     last = [march.records[-1].state.position for march in marches]
     difference = max(np.abs(other - last[0]).max() for other in last[1:]) / np.abs(last[0]).max()
-    case = f"{'quasi-static' if changes else 'dynamic'}, {steps} steps a cycle"
-    measured(f"{case}: coordinates 1e-12 mm beside, of the largest", difference, "1e-9")
+    case = f"{'quasi-static' if changes else 'dynamic'}, {steps} steps per mesh cycle"
+    measured(f"{case}: change of coordinates with the step 1e-12 mm beside / largest", difference, "1e-9")
     assert [sum(march.steps_by_method.values()) for march in marches] == 3 * [AT + AFTER]
     assert difference <= 1e-9

@@ -46,8 +46,8 @@ def test_low_end_is_quasi_static_and_does_not_ring(coarse, friction, damping, me
     scene = coarse if friction == "friction" else frictionless(coarse)
     scene = scene if damping == "damped" else replace(scene, damping=None)
     cycles = difference(scene, 0.01)
-    measured(f"0.01 Hz against quasi-static, {friction}, {damping}", cycles.max(), "1e-6")
-    measured(f"its growth from first to third cycle, {friction}, {damping}", cycles[2] / cycles[0] - 1.0, "0.05")
+    measured(f"0.01 Hz, {friction}, {damping}: relative difference from quasi-static", cycles.max(), "1e-6")
+    measured(f"0.01 Hz, {friction}, {damping}: relative growth of this difference from first to third mesh cycle", cycles[2] / cycles[0] - 1.0, "0.05")
     assert cycles.max() <= 1e-6
     assert cycles[2] <= 1.05 * cycles[0]
 
@@ -57,7 +57,7 @@ def test_difference_to_quasi_static_vanishes_with_the_frequency(coarse, measured
     for name, scene, order in (("damped", coarse, 1.0), ("undamped", frictionless(replace(coarse, damping=None)), 2.0)):
         far, near = difference(scene, 0.1).max(), difference(scene, 0.01).max()
         found = np.log10(far / near)
-        measured(f"order of the difference in mesh frequency, {name}", found, f"{order:g}")
+        measured(f"order of this difference in mesh frequency, {name}", found, f"{order:g}")
         assert found == pytest.approx(order, abs=0.1)
 
 
@@ -69,7 +69,7 @@ def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coar
         marcher = Marcher(_AnyCycle(model.pair), model.equations_of_motion)
         assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
     slowest = model_of(coarse).vibrations[0].frequency
-    measured("mesh frequency below which backward Euler steps, 40 steps a cycle", 2.0 * slowest / 40, "2 f0/steps", "Hz")
+    measured("mesh frequency below which backward Euler is used, 40 steps per mesh cycle", 2.0 * slowest / 40, "2 f0/steps", "Hz")
 
 
 class _AnyCycle:
@@ -91,12 +91,12 @@ def test_high_end_is_the_rigid_mean_motion(coarse, measured):
         means = error[1:].reshape(cycles, -1).mean(axis=1)
         ripple[mesh_frequency] = np.ptp(error[-41:])
         drift = np.ptp(means) / np.ptp(static)
-        measured(f"{mesh_frequency / 1e3:g} kHz: ringing left of the start, of the static peak-to-peak value", drift, "0.01")
+        measured(f"{mesh_frequency / 1e3:g} kHz: vibration left from the start / static peak-to-peak value", drift, "0.01")
         assert drift <= 0.01
         assert means.mean() == pytest.approx(static.mean(), rel=0.01)
     order = np.log2(ripple[10e3] / ripple[20e3])
-    measured("20 kHz: ripple of the static peak-to-peak value", ripple[20e3] / np.ptp(static), "0.01")
-    measured("order of the ripple in 1/f", order, "2")
+    measured("20 kHz: peak-to-peak value / static peak-to-peak value", ripple[20e3] / np.ptp(static), "0.01")
+    measured("order of the peak-to-peak value in 1 / mesh frequency", order, "2")
     assert ripple[20e3] <= 0.01 * np.ptp(static)
     assert order == pytest.approx(2.0, abs=0.1)
 
@@ -107,13 +107,13 @@ def test_high_end_with_friction_stays_in_contact(coarse, measured):
     static = simulate(at(quasi_static(coarse), 200.0)).transmission_error.values
     result = simulate(at(replace(coarse, damping=None), 20e3, 100))
     drift = np.ptp(result.transmission_error.values[1:].reshape(100, -1).mean(axis=1)) / np.ptp(static)
-    measured("20 kHz with friction: ringing left of the start, of the static peak-to-peak value", drift, "0.05")
+    measured("20 kHz with friction: vibration left from the start / static peak-to-peak value", drift, "0.05")
     assert drift <= 0.05
     assert result.attrs["contact_loss_count"] == 0
 
 
 def swept(scene, mesh_frequencies, frictions, cycles):
-    """Runs, steps and steps by rung of a sweep; raises where a step fails."""
+    """Runs, steps and steps by method of a sweep; raises where a step fails."""
     runs, steps, rungs = 0, 0, {}
     for mesh_frequency in mesh_frequencies:
         for friction in frictions:
@@ -127,9 +127,9 @@ def swept(scene, mesh_frequencies, frictions, cycles):
     return runs, steps, rungs
 
 
-def _told(runs, steps, rungs):
-    climbed = ", ".join(f"{name} {count}" for name, count in rungs.items() if name != NEWTON) or "none"
-    return f"none in {steps} steps of {runs} runs; steps that left the first rung: {climbed}"
+def _outcome(runs, steps, rungs):
+    fallbacks = ", ".join(f"{name} {count}" for name, count in rungs.items() if name != NEWTON) or "none"
+    return f"none in {steps} steps of {runs} runs; steps solved by fallbacks: {fallbacks}"
 
 
 @pytest.mark.parametrize("count", [7, pytest.param(14, marks=pytest.mark.nightly)])
@@ -138,7 +138,7 @@ def test_no_step_fails_at_any_frequency_and_friction(coarse, measured, count):
     pairs = zip(np.geomspace(0.01, 20e3, count), 2 * (0.0, 0.3, 0.05, 0.6, 0.1, 0.45, 0.2))
     told = [swept(coarse, [frequency], [friction], 3) for frequency, friction in pairs]
     rungs = {name: sum(found.get(name, 0) for _, _, found in told) for name in {name for _, _, found in told for name in found}}
-    measured("failed steps, coarse", _told(sum(t[0] for t in told), sum(t[1] for t in told), rungs), "none")
+    measured("failed steps, coarse", _outcome(sum(t[0] for t in told), sum(t[1] for t in told), rungs), "none")
     assert sum(t[0] for t in told) == count
 
 
@@ -154,5 +154,5 @@ def test_no_step_fails_in_a_dense_sweep(coarse, kind, measured):
     if "mm" in kind:
         scene = replace(scene, accuracy=replace(scene.accuracy, element="P2", flank_element_size=0.06, contact_nodes=51))
     runs, steps, rungs = swept(scene, np.geomspace(0.01, 20e3, 25), (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6), 4)
-    measured(f"failed steps, dense sweep, {kind}", _told(runs, steps, rungs), "none")
+    measured(f"failed steps, dense sweep, {kind}", _outcome(runs, steps, rungs), "none")
     assert runs == 225

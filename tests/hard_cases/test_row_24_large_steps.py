@@ -26,10 +26,10 @@ def light(scene):
 
 
 CASES = {
-    "2 steps a cycle at 17 Hz": lambda scene: (scene, 17.0, 2),
-    "2 steps a cycle at 200 Hz": lambda scene: (scene, 200.0, 2),
+    "2 steps per mesh cycle at 17 Hz": lambda scene: (scene, 17.0, 2),
+    "2 steps per mesh cycle at 200 Hz": lambda scene: (scene, 200.0, 2),
     "40 steps at 200 Hz, natural frequencies x 1000": lambda scene: (light(scene), 200.0, 40),
-    "3 steps a cycle at 400 Hz": lambda scene: (scene, 400.0, 3),
+    "3 steps per mesh cycle at 400 Hz": lambda scene: (scene, 400.0, 3),
 }
 
 
@@ -43,7 +43,7 @@ def test_large_steps_are_finite_bounded_and_named(coarse, name, damped, measured
     result, static = simulate(scene), simulate(quasi_static(scene))
     ratio = result.energy.values.max() / static.energy.values.max()
     words = "damped" if damped else "undamped"
-    measured(f"largest energy over the static one, {name}, {words}", ratio, "2")
+    measured(f"largest energy / static energy, {name}, {words}", ratio, "2")
     assert np.all(np.isfinite(result.transmission_error.values))
     assert ratio <= 2.0
     said = [line for line in result.attrs["warnings"].splitlines() if f"within {PERIOD_ERROR:.0%} up to" in line]
@@ -67,8 +67,8 @@ def test_the_remedy_is_a_remedy(coarse):
 def test_resolved_means_a_period_right_within_one_per_cent(measured):
     """Exact: average acceleration turns a phase by 2 atan(omega dt/2) a step; its period is too long by (omega dt)^2/12, to leading order."""
     resolved = Vibration(resolved_frequency(1e-4), 0.0, True)
-    measured("steps in a resolved period", STEPS_OF_A_RESOLVED_PERIOD, "2 pi/sqrt(0.12)")
-    measured("error of the period there", resolved.period_error(1e-4), "0.01")
+    measured("steps per resolved period", STEPS_OF_A_RESOLVED_PERIOD, "2 pi/sqrt(0.12)")
+    measured("error of a period with that many steps", resolved.period_error(1e-4), "0.01")
     assert resolved.steps_per_period(1e-4) == pytest.approx(STEPS_OF_A_RESOLVED_PERIOD)
     assert resolved.period_error(1e-4) == pytest.approx(0.01, rel=0.01)
     # An oscillator stepped by hand: x'' = -omega^2 x from rest at 1.
@@ -90,6 +90,6 @@ def test_inertia_that_does_not_matter_is_named_and_its_effect_is_of_the_size_sai
     dynamic, static = simulate(scene).transmission_error.values, simulate(quasi_static(scene)).transmission_error.values
     difference = np.sqrt(np.mean((dynamic - static) ** 2)) / np.ptp(static)
     expected = effect_of_inertia(model_of(scene).vibrations[0], 1.0)
-    measured("1 Hz: difference to quasi-static of its peak-to-peak value", difference, f"{expected:.2g} expected")
+    measured("1 Hz: difference from quasi-static / peak-to-peak value", difference, f"{expected:.2g} expected")
     assert 0.1 <= difference / expected <= 10.0
     assert not any("inertia hardly" in words for words in model_of(replace(scene, motion=Motion(100.0, 2, 1))).warnings)

@@ -54,7 +54,7 @@ def test_order_two_while_the_status_stands(paper_scene, paper_pair, stand_in_fla
     """Exact solution: while the closed nodes stay closed the system is linear; the matrix exponential solves it."""
     errors = tied_errors(paper_scene, paper_pair, stand_in_flanks, (100, 200, 400))
     orders = np.log2(errors[:-1] / errors[1:])
-    measured("order while the status stands", orders[-1], "2 +- 0.1")
+    measured("order while the contact status is unchanged", orders[-1], "2 +- 0.1")
     assert orders == pytest.approx([2.0, 2.0], abs=0.1)
 
 
@@ -81,7 +81,7 @@ def bounce(scene, pair, flanks, steps, speed):
 
 BOUNCES = {
     "nodes open and close": (-150.0, 0.0, 0),
-    "teeth part and meet": (-300.0, 0.0, 1),
+    "teeth separate and touch again": (-300.0, 0.0, 1),
     "nodes stick, slip, open and close": (-150.0, 0.1, 0),
 }
 
@@ -97,6 +97,6 @@ def test_order_across_changes_of_status(paper_scene, paper_pair, stand_in_flanks
     counts = 100 * 2 ** np.arange(5)
     errors = [np.abs(bounce(scene, paper_pair, stand_in_flanks, int(steps), speed)[0] - exact).max() for steps in counts]
     order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
-    measured(f"order where {name}, {changes} changes", order, "at least about 1")
+    measured(f"order where {name}, {changes} changes of status", order, "at least about 1")
     assert changes > 5 and parted >= least
     assert order >= 0.9

@@ -96,7 +96,7 @@ def wrong_type(field: Field) -> list[str]:
 
 KINDS = {
     "NaN and infinity": not_numbers,
-    "huge": huge,
+    "far too large": huge,
     "negative": negative,
     "zero and denormal": zero,
     "wrong unit": wrong_unit,
@@ -136,7 +136,7 @@ def test_a_missing_field_is_named(outcome, measured):
     required = [field for field in fields() if field.required]
     said = {field.name: outcome(scene_with(field.path, None)) for field in required}
     wrong = [name for name, words in said.items() if words is None or f": {name}\n    is missing. Allowed: " not in words]
-    measured("missing: named", f"{len(required) - len(wrong)} of {len(required)} fields", "all")
+    measured("missing fields named", f"{len(required) - len(wrong)} of {len(required)} fields", "all")
     assert len(required) > 20 and wrong == []
     for field in fields():
         if not field.required:
@@ -155,7 +155,7 @@ def test_a_misspelt_field_is_answered_with_the_right_one(outcome, measured):
             wrong.append((field.name, said))
         elif field.required and "1 mistake in" not in said:
             wrong.append((field.name, said))
-    measured("misspelt: nearest known name given", f"{len(tries) - len(wrong)} of {len(tries)} fields", "all")
+    measured("misspelt fields: nearest known name given", f"{len(tries) - len(wrong)} of {len(tries)} fields", "all")
     assert wrong == []
 
 
@@ -188,7 +188,7 @@ def test_either_end_of_every_range_is_a_scene_or_refused(tmp_path, monkeypatch, 
         code, said = main(["check", "pair.toml"]), capsys.readouterr()
         outcomes.append((field.name, literal, code, "nan" in said.out.lower().split(), said.err))
     taken = sum(code == 0 for _, _, code, _, _ in outcomes)
-    measured("ends of ranges", f"{taken} described, {len(outcomes) - taken} refused in words", "each one or the other, no NaN")
+    measured("ends of ranges", f"{taken} accepted by `gears check`, {len(outcomes) - taken} refused with a message", "all one or the other, no NaN")
     assert all(code in (0, 2) and not nan and (code == 0) == (err == "") for _, _, code, nan, err in outcomes), outcomes
 
 
@@ -215,7 +215,7 @@ def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, mea
                 wrong.append((field.name, literal, codes[-1], said))
             if codes[-1] == 0 and not results.load("here/run.nc").transmission_error.notnull().all():
                 wrong.append((field.name, literal, "NaN"))
-    measured("runs at the ends of ranges, by night", f"{codes.count(0)} results, {codes.count(2)} refused, {codes.count(3)} typed errors", "no other")
+    measured("runs at the ends of ranges", f"{codes.count(0)} results, {codes.count(2)} refused, {codes.count(3)} errors with their cause", "all")
     assert wrong == []
 
 
@@ -308,7 +308,7 @@ def test_a_scene_edited_at_random_is_described_or_refused(place, capsys, measure
         codes.append(check_edited(place, each, capsys))
 
     edits()
-    measured("scenes edited at random", f"{codes.count(0)} taken, {codes.count(2)} refused in words", "each one or the other")
+    measured("scenes edited at random", f"{codes.count(0)} accepted, {codes.count(2)} refused with a message", "all one or the other")
     assert len(codes) >= examples
 
 

@@ -89,7 +89,7 @@ def directory_instead(path):
 
 def without_permission(path):
     if os.geteuid() == 0:
-        pytest.skip("root may read anything")
+        pytest.skip("root can read files without permission")
     path.chmod(0)
 
 
@@ -209,7 +209,7 @@ def test_a_damaged_case_is_computed_again(folder, undrawn, caplog, measured):
         assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
         after = stamps("here")
         repeated = [name for name in before if before[name] != after[name]]
-        measured(f"case of a study damaged: {damage}", f"{len(repeated)} computed again", "1, the numbers the same to the bit")
+        measured(f"case of a study damaged: {damage}", f"{len(repeated)} computed again", "1, with the same numbers to the bit")
         assert repeated == [first.name] and "computed again" in caplog.text
         assert load("here").drop_vars("wall_time").equals(combined.drop_vars("wall_time"))
 
@@ -275,5 +275,5 @@ def test_no_source_file_makes_code_of_data(measured):
     """Every module of the program: no pickle, no yaml, no numpy.load, no eval. What mpi4py sends between ranks is no file."""
     files = sorted(Path(fenics_gears.__file__).parent.rglob("*.py"))
     found = [each for path in files for each in unsafe_in(path)]
-    measured("source files through which data could become code", f"{len(found)} of {len(files)}", "none")
+    measured("source files that could execute data as code", f"{len(found)} of {len(files)}", "none")
     assert len(files) > 50 and found == []

@@ -52,7 +52,7 @@ def kills(folder, measured, moments, what):
             assert Cache(own).load(entry.stem) is not None
     ended = gears(folder, "run", "pair.toml", "--output", directory, "--quiet", "--no-pictures")
     again = results.load(directory / "run.nc").transmission_error.equals(usual.transmission_error)
-    measured(what, f"{killed} of {moments} killed, {kept} whole results, none half", "no half result, run again the same to the bit")
+    measured(what, f"{killed} of {moments} killed, {kept} complete results, none incomplete", "no incomplete result; run again, the same to the bit")
     assert ended.returncode == 0 and again
 
 
@@ -70,7 +70,7 @@ def test_a_run_killed_between_its_files(folder, measured, number, what):
     call = [sys.executable, "-c", program, str(number), "run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]
     ended = subprocess.run(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": "own"}, timeout=60)
     results_kept, entries = list(Path("here").glob("*.nc")), list(Path("own").glob("*.h5"))
-    measured(f"a run killed {what}", f"{len(results_kept)} results, {len(entries)} gears kept", "no half of either, run again the same to the bit")
+    measured(f"a run killed {what}", f"{len(results_kept)} results, {len(entries)} gears kept", "none incomplete; run again, the same to the bit")
     assert ended.returncode == -signal.SIGKILL and results_kept == [] and len(entries) == number - 1
     assert all(Cache(Path("own")).load(entry.stem) is not None for entry in entries)
     assert main(["run", "pair.toml", "--output", "usual", "--quiet", "--no-pictures"]) == main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]) == 0
@@ -113,7 +113,7 @@ def test_writers_killed_while_they_write(tmp_path, measured, pauses):
             stored, saved = Cache(tmp_path / "cache").load("key")["values"], results.load(tmp_path / "run.nc").transmission_error.values
             assert len(stored) == len(saved) == 400_000 and np.ptp(stored) == np.ptp(saved) == 0.0
             seen += 2
-    measured("files read while a writer is killed", f"{seen} of {seen} whole", "all")
+    measured("files read while a writer is killed", f"{seen} of {seen} complete", "all")
 
 
 def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
@@ -160,7 +160,7 @@ def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     names, unfinished = left_over(own)
     entries = [name for name in names if name.endswith(".h5")]
     found = f"{same} of {count} the same, {len(entries)} entries, {len(unfinished)} unfinished"
-    measured(f"{count} runs at once on one empty cache", found, f"{count}, a gear an entry, none")
+    measured(f"{count} runs at once on one empty cache", found, f"{count}, one entry for each gear, none")
     assert same == count and unfinished == [] and all("not usable" not in words for words in said)
     assert len(entries) == 2 and all(Cache(own).load(Path(name).stem) is not None for name in entries)
 
@@ -176,7 +176,7 @@ def test_readers_beside_a_writer(tmp_path, caplog, measured):
     with ThreadPoolExecutor(4) as pool:
         loaded = list(pool.map(write_and_read, range(40)))
     whole = sum(each is not None and np.array_equal(each["blocks"], ARRAYS["blocks"]) for each in loaded)
-    measured("reads beside writers of the same entry", f"{whole} of 40 whole", "all")
+    measured("reads beside writers of the same entry", f"{whole} of 40 complete", "all")
     assert whole == 40 and not caplog.records and len(list(own_cache.directory.iterdir())) == 1
 
 

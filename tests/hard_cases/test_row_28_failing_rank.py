@@ -44,7 +44,7 @@ def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, me
     done, failed = int(np.isfinite(combined["mean_transmission_error"]).sum()), int(combined["failed"].sum())
     outcome = f"exit code {ended.returncode}, {done} done, {failed} failed"
     expected = f"exit code 3, {3 - len(cases)} done, {len(cases)} failed"
-    measured(f"{len(cases)} of 3 cases cannot be written ({failing}), 2 ranks", outcome, f"{expected}, no hang")
+    measured(f"cases {' and '.join(map(str, failing))} of 0 to 2 cannot be written, 2 ranks", outcome, f"{expected}, no hang")
     assert ended.returncode == 3, ended.stderr
     assert list(combined["failed"].values) == [int(index in failing) for index in range(3)]
     assert all("directory" in str(combined["failure"].values[index]).lower() for index in failing)

@@ -76,11 +76,11 @@ def test_description_says_what_a_run_will_use(paper_scene):
     sections = dict(describe(paper_scene))
     accuracy = {label: value for label, value, _ in sections["Accuracy"]}
     assert accuracy["flank element size"] == 0.08
-    assert accuracy["steps"] == "3000, curves of all are stored, contact fields of the last 201"
+    assert accuracy["steps"] == "3000, curves are stored for all, contact fields for the last 201"
     assert "Natural frequencies with one tooth pair in mesh (about)" in sections
     rows = {label: (value, unit) for label, value, unit in sections["Natural frequencies with one tooth pair in mesh (about)"]}
     frequency, said = rows["mode 1"]
-    assert said.startswith(f"Hz: {1.0 / (frequency * 5e-5):.3g} steps a period, damping ratio")
+    assert said.startswith(f"Hz: {1.0 / (frequency * 5e-5):.3g} steps per period, damping ratio")
     # (omega dt)^2/12 = 1 %, and Nyquist's two steps.
     assert rows["highest frequency that is resolved"][0] == pytest.approx(sqrt(0.12) / (2.0 * pi * 5e-5))
     assert rows["highest frequency that is sampled"][0] == pytest.approx(1e4)

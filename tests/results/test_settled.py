@@ -89,7 +89,7 @@ def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
         assert summary_rows(found[cycles])[0][0] == "WARNING" and summary_rows(found[cycles])[0][1].startswith(said)
     assert "common period" not in found[1081].attrs["warnings"] and summary_rows(found[1081])[0][0] != "WARNING"
     rows = [row for _, section in describe(scene) for row in section]
-    assert ("mesh cycles of the common period", 1081, "every tooth has met every other") in rows
+    assert ("mesh cycles of the common period", 1081, "after which every tooth has met every other") in rows
     assert any("only 23 of the 1081" in str(row[1]) for row in rows)
 
 

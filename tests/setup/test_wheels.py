@@ -24,7 +24,7 @@ def here():
     except OSError:
         suite = ""
     if not (SETUP / f"{suite}.pip").exists():
-        pytest.skip(f"{suite or 'this system'} has no list of wheels")
+        pytest.skip(f"{suite or 'this system'} needs no wheels")
     found = wheels(suite)
     if any(_installed(name) != version for name, version in found.items()):
         pytest.skip("this Python is not the one that setup/install makes")

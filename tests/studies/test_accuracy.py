@@ -175,7 +175,7 @@ def test_what_was_timed_less_often_is_told(report):
     """Authority: house rule; a number says how it was measured."""
     assert table.timed(report).endswith("single settings as often.")
     fewer = replace(report, rounds=5)
-    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(fewer) and "within 60 s" in table.timed(fewer)
+    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(fewer) and "time limit of 60 s" in table.timed(fewer)
 
 
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
@@ -207,7 +207,7 @@ def test_the_sentence_says_no_more_than_the_reference_can(report):
     """Authority: the reference's uncertainty; a target below it is not claimed."""
     said = table.in_one_sentence(replace(report, uncertainty=dict.fromkeys(MEASURES, 0.004)))
     assert "0.1 % cannot be assessed" in said and said.startswith("1 % in T_E")
-    assert f"the largest part of the scene's own error is that of the {table.largest_part(report.own.parts)}" in said
+    assert f"% is due to the {table.largest_part(report.own.parts)}." in said
     cheap = replace(report.settings[0], errors=dict.fromkeys(MEASURES, 1e-4), parts={"steps per mesh cycle": 2e-4})
     sure = replace(report, settings=(replace(report.own), cheap), uncertainty=dict.fromkeys(MEASURES, 1e-5))
     cost = table.seconds(cheap.times.total)
@@ -275,12 +275,12 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
     output = capsys.readouterr().out
     assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["accuracy.csv", "accuracy.png"]
     assert (tmp_path / "there" / "accuracy.png").read_bytes().startswith(b"\x89PNG")
-    assert "the largest part of the scene's own error" in output and "rigid teeth" in output
+    assert "The scene's own settings have an error of" in output and "rigid teeth" in output
     with open(tmp_path / "there" / "accuracy.csv", encoding="utf-8", newline="") as file:
         lines = list(csv.DictReader(file))
     assert {line["kind"] for line in lines} == {"single setting", "setting", "model", "reference"}
     own = next(line for line in lines if line["name"] == reports.OWN)
-    assert float(own["charged_error"]) >= float(own["judged_error"]) > 0.0
+    assert float(own["total_error"]) >= float(own["judged_error"]) > 0.0
     assert float(own["time_s"]) == pytest.approx(sum(float(own[f"time_{stage}_s"]) for stage in ("mesh", "condense", "march")))
     assert all(None not in line and None not in line.values() for line in lines)
 

@@ -78,7 +78,7 @@ def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
 
 
 def _tables(lines: list[dict[str, str]]) -> list[Block]:
-    headings = ("Effects", "Unknowns", "Newton a step", "Time a step (µs)", "Condensing (s)", "T_EPP (µm)", "Peak force (N)")
+    headings = ("Effects", "Unknowns", "Newton iterations per step", "Time per step (µs)", "Condensing (s)", "T_EPP (µm)", "Peak force (N)")
     rows, skipped = [], []
     for line in lines:
         if not line["step_time_s"]:

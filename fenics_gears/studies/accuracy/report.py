@@ -67,7 +67,7 @@ class WholeResult:
 
     @property
     def charged(self) -> float:
-        """The error that it is charged; see `whole.charged_error`."""
+        """Its total error; see `whole.charged_error`."""
         return whole.charged_error(judged(self.errors), self.parts)
 
 

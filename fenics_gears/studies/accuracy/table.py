@@ -15,7 +15,7 @@ from fenics_gears.studies.machine import write_lines
 ORDERED = ("T_E", "T_EPP", "root stress")
 HEADINGS = ("setting", "value", *MEASURES, "time", "order T_E", *ORDERED[1:], "expected")
 UNITS = ("", "", *["%"] * len(MEASURES), "s", *[""] * len(ORDERED), "")
-WHOLE_HEADINGS = ("whole setting", "charged", *MEASURES, "mesh", "condense", "march", "time", "what limits it")
+WHOLE_HEADINGS = ("settings", "total error", *MEASURES, "meshing", "condensing", "time stepping", "time", "what limits it")
 WHOLE_UNITS = ("", "%", *["%"] * len(MEASURES), "s", "s", "s", "s", "")
 TARGETS = (0.01, 0.001)
 # An order further than this from the expected one gets a remark.
@@ -36,7 +36,7 @@ def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
 
 
 def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
-    """A row for each whole setting and cheaper model; those of the Pareto front are marked."""
+    """A row for each combination of settings and each cheaper model; those of the Pareto front are marked."""
     front = report.front
     rows = []
     for each in (*report.settings, *report.models):
@@ -77,14 +77,14 @@ def limits_it(each: WholeResult) -> str:
 
 def in_one_sentence(report: AccuracyReport) -> str:
     """What an error of 1 % and of 0.1 % costs, and what limits the scene's own setting."""
-    costs = "; ".join(_cost(report, target) for target in TARGETS if target >= report.floor)
+    costs = ". ".join(_cost(report, target) for target in TARGETS if target >= report.floor)
     missed = [f"{100 * target:g} %" for target in TARGETS if target < report.floor]
     if missed:
-        unknown = f"{' and '.join(missed)} cannot be assessed: the reference itself is uncertain by {percent(report.floor)} %"
-        costs = "; ".join(filter(None, (costs, unknown, _best(report) if len(missed) == len(TARGETS) else "")))
+        unknown = f"{' and '.join(missed)} cannot be assessed, since the reference is uncertain by {percent(report.floor)} %"
+        costs = ". ".join(filter(None, (costs, unknown, _best(report) if len(missed) == len(TARGETS) else "")))
     mine = report.own
     worst = largest_part(mine.parts)
-    return f"{costs}; the largest part of the scene's own error is that of the {worst} ({percent(mine.parts[worst])} of {percent(mine.charged)} %)."
+    return f"{costs}. The scene's own settings have an error of {percent(mine.charged)} %, of which {percent(mine.parts[worst])} % is due to the {worst}."
 
 
 def _cost(report: AccuracyReport, target: float) -> str:
@@ -92,19 +92,19 @@ def _cost(report: AccuracyReport, target: float) -> str:
     reached = [each for each in report.front if each.charged <= target]
     if reached:
         return f"{words} costs {seconds(reached[0].times.total)} s ({reached[0].name})"
-    return f"{words} was not reached; {_best(report)}"
+    return f"{words} was not reached: {_best(report)}"
 
 
 def _best(report: AccuracyReport) -> str:
     best = report.front[-1]
-    return f"the best setting that was run has an error of {percent(max(best.charged, report.floor))} % and costs {seconds(best.times.total)} s"
+    return f"the best settings that were run have an error of {percent(max(best.charged, report.floor))} % and cost {seconds(best.times.total)} s"
 
 
 def remarks(report: AccuracyReport) -> list[str]:
     """Remarks on how to read the numbers."""
     found = [
-        f"the reference, Richardson's limits of all settings together, is uncertain by {percent(report.floor)} % in T_E and T_EPP; smaller errors cannot be assessed",
-        "the error of a single setting is measured with all others fine; the charged error of a whole setting is the sum of these, or its own difference from the reference where that is larger",
+        f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in T_E and T_EPP; smaller errors cannot be assessed",
+        "the error of a single setting is measured with all others fine; the total error is the sum of these errors, or the difference from the reference where that is larger",
     ]
     for result in report.refinements:
         order = result.order("T_E")
@@ -116,12 +116,12 @@ def remarks(report: AccuracyReport) -> list[str]:
             found.append(f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g} ({result.refinement.why})")
     if any(result.refinement.base for result in report.refinements):
         found.append(
-            'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their nodes, not the base radius; '
-            "the difference, measured with coarser settings than the others, does not vanish with refinement"
+            'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their nodes in place of the base radius. '
+            "Its difference was measured with coarser settings than the others; it does not vanish with refinement"
         )
     peak = report.uncertainty["peak pressure"]
     if peak > 0.1:
-        found.append(f"the peak pressure does not converge in these runs ({percent(peak)} % uncertain), as where a tip's edge is in contact")
+        found.append(f"the peak pressure does not converge in these runs (it is uncertain by {percent(peak)} %); contact at a sharp tip edge is a usual cause")
     return found
 
 
@@ -129,10 +129,10 @@ def timed(report: AccuracyReport) -> str:
     """How often settings were timed, in words."""
     counts = [each.times.rounds for result in report.refinements for each in result.levels]
     again = sum(rounds >= report.rounds for rounds in counts)
-    words = f"Times are medians. Whole settings were timed {report.rounds} times in turns, "
+    words = f"Times are medians. Combinations of settings were timed {report.rounds} times in turns, "
     if again == len(counts):
         return words + "single settings as often."
-    return words + f"{again} of {len(counts)} single settings as often, and the others, which take longest, once, to stay within {report.seconds_on_single:g} s."
+    return words + f"{again} of {len(counts)} single settings as often. The slowest single settings were timed once, to keep the time limit of {report.seconds_on_single:g} s."
 
 
 def write_csv(report: AccuracyReport, file: Path) -> None:
@@ -157,7 +157,7 @@ def _whole_lines(report: AccuracyReport):
         words = each.setting.words if each.setting else ""
         kind = "setting" if each.setting else "model"
         yield {
-            "kind": kind, "name": each.name, "setting": words, **_errors(each.errors), "charged_error": each.charged, **_times(each.times),
+            "kind": kind, "name": each.name, "setting": words, **_errors(each.errors), "total_error": each.charged, **_times(each.times),
             "on_front": int(each in report.front), "limited_by": limits_it(each),
         }  # fmt: skip
 

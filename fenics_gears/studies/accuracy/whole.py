@@ -1,6 +1,6 @@
 """Whole settings: the sum of their parts' errors, a path of them from coarse to fine, and the Pareto front.
 
-Errors may cancel in one run and add up at another load or speed. So a whole setting is charged the sum of its parts' errors, each measured
+Errors may cancel in one run and add up at another load or speed. So the total error of a whole setting is the sum of its parts' errors, each measured
 with the others fine, or its own distance from the reference where that is larger.
 """
 
@@ -26,7 +26,7 @@ Errors = Mapping[tuple[str, int], float]
 
 
 def charged_error(direct: float, parts: Mapping[str, float]) -> float:
-    """The error that a whole setting is charged: its `direct` distance from the reference, or the sum of its parts' errors if that is larger."""
+    """The total error of a whole setting: its `direct` difference from the reference, or the sum of its parts' errors if that is larger."""
     return max(direct, sum(parts.values()))
 
 

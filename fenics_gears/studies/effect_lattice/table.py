@@ -13,7 +13,7 @@ from fenics_gears.studies.machine import write_lines
 MICRO, MILLI = 1e6, 1e3
 NUMBERS_OF_ONE = " (numbers of the first row that says so)"
 HEADINGS = (
-    "effects", "unknowns", "closed nodes", "Newton a step", "time a step", "operators", "condensing", "T_EPP", "peak force", "",
+    "effects", "unknowns", "closed nodes", "Newton iterations per step", "time per step", "operators", "condensing", "T_EPP", "peak force", "",
 )  # fmt: skip
 UNITS = ("", "centre + contact", "mean (most)", "", "us", "s", "s", "um", "N", "remark")
 

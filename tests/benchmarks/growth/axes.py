@@ -169,7 +169,7 @@ AXES = (
             "operators": Theory(0.0, "the positions of one mesh cycle are used for all cycles"),
             "solving": Theory(1.0, LINEAR),
             "operators arrays": Theory(0.0, "the positions of one mesh cycle are used for all cycles"),
-            "solving arrays": Theory(0.0, "steps that are not recorded are not kept"),
+            "solving arrays": Theory(0.0, "contact forces are kept for the last cycles only; the curves of the result are not counted here"),
         },
     ),
 )  # fmt: skip

@@ -51,7 +51,7 @@ def section(found: Mapping[str, Points], machine: Mapping[str, str]) -> str:
             parts += ["", f"## {axis.name[0].upper()}{axis.name[1:]}", "", *_exponent_table(axis, points), "", *_point_table(axis, points)]
     fewest = min(int(point[f"{stage}_rounds"]) for name, points in found.items() for point in points for stage in _timed(name))
     parts += ["", (
-        f"Processor seconds on one thread, medians of 5 runs, of {fewest} or more where a stage takes longer than a second; each point in a process "
+        f"Times are processor seconds on one thread: medians of 5 runs, or of at least {fewest} where a stage takes longer than a second. Each point ran in a process "
         f"of its own. {machine['processor']}, load {machine['load']}; {machine['versions']}."
     )]  # fmt: skip
     return "\n".join(parts)
