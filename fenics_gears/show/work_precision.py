@@ -35,11 +35,11 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
     front = report.front
     others = [each for each in report.settings if each.name != OWN and each not in front]
     if others:
-        axes.plot([each.times.total for each in others], [each.charged for each in others], "o", color=GREY, markersize=5, label="other settings: another is quicker and more accurate")
-    axes.plot([each.times.total for each in front], [each.charged for each in front], "-o", color=PALETTE[0], label="Pareto front: none is quicker and as accurate")
-    axes.plot(report.own.times.total, report.own.charged, "*", color=PALETTE[1], markersize=16, label="the scene's own settings")
+        axes.plot([each.times.total for each in others], [each.total_error for each in others], "o", color=GREY, markersize=5, label="other settings: another is quicker and more accurate")
+    axes.plot([each.times.total for each in front], [each.total_error for each in front], "-o", color=PALETTE[0], label="Pareto front: none is quicker and as accurate")
+    axes.plot(report.own.times.total, report.own.total_error, "*", color=PALETTE[1], markersize=16, label="the scene's own settings")
     for place, each in enumerate(report.models):
-        axes.plot(each.times.total, each.charged, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
+        axes.plot(each.times.total, each.total_error, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
     axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")
     _logarithmic(axes, [*report.settings, *report.models], report.floor)
     _labels(axes, front)
@@ -51,7 +51,7 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
     """Numbers at the points, and what they are in the corner that a falling front leaves free."""
     lines = []
     for number, each in enumerate(front, 1):
-        axes.annotate(str(number), (each.times.total, each.charged), xytext=(6, 5), textcoords="offset points", fontsize=11, color=PALETTE[0])
+        axes.annotate(str(number), (each.times.total, each.total_error), xytext=(6, 5), textcoords="offset points", fontsize=11, color=PALETTE[0])
         lines.append(f"{number}  {each.setting.words if each.setting else each.name}; limited by {limits_it(each)}")
     axes.text(
         0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=9.0, color=DARK, linespacing=1.5,
@@ -60,7 +60,7 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
 
 
 def _logarithmic(axes: Axes, results, floor: float) -> None:
-    errors = np.array([each.charged for each in results])
+    errors = np.array([each.total_error for each in results])
     axes.set_xscale("log")
     axes.set_yscale("log")
     # Room above for the list of settings.

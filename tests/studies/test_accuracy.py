@@ -57,7 +57,7 @@ def report(scene, tiny, tmp_path_factory):
 def test_a_scene_with_friction_is_measured_too(scene, tiny):
     """Authority: definition; the scene's own error is charged at least its distance from the reference, and all cheaper models run."""
     found = reports.measure(replace(scene, friction=scene_of(TEETH, "friction").friction), quick=True)
-    assert found.own.charged >= judged(found.own.errors) > 0.0 and not found.failures and len(found.models) == len(reports.MODELS)
+    assert found.own.total_error >= judged(found.own.errors) > 0.0 and not found.failures and len(found.models) == len(reports.MODELS)
 
 
 def refined(report, name):
@@ -103,7 +103,7 @@ def test_more_steps_are_better(report):
 def test_a_setting_is_charged_at_least_its_parts_and_its_distance(report):
     """Authority: issue 6, errors that cancel are no accuracy."""
     for each in report.settings:
-        assert each.charged >= judged(each.errors) and each.charged >= sum(each.parts.values()) * (1 - 1e-12)
+        assert each.total_error >= judged(each.errors) and each.total_error >= sum(each.parts.values()) * (1 - 1e-12)
 
 
 def test_cheaper_models_stand_beside_them(report):
@@ -259,7 +259,7 @@ def test_the_picture_names_every_setting_that_pays(report):
     for number, each in enumerate(report.front, 1):
         assert f"{number}  {each.setting.words}" in said
     for each in (*report.settings, *report.models):
-        for value, (low, high) in ((each.times.total, whole.get_xlim()), (each.charged, whole.get_ylim())):
+        for value, (low, high) in ((each.times.total, whole.get_xlim()), (each.total_error, whole.get_ylim())):
             assert low <= value <= high
     assert len(alone.lines) >= 5
     assert len(set(MARKS)) == len(MARKS) >= len(refinement.refinements(report.scene))

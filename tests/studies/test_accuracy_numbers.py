@@ -120,16 +120,16 @@ def test_errors_that_cancel_are_no_accuracy():
     direct = measures.distance({SPAN: span(1.0, 1.0)}, exact, SPAN)
     parts = {"h": measures.distance({SPAN: span(1.0, 0.0)}, exact, SPAN), "k": measures.distance({SPAN: span(0.0, 1.0)}, exact, SPAN)}
     assert direct == 0.0
-    assert whole.charged_error(direct, parts) == pytest.approx(0.10)
-    honest = whole.charged_error(measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()})
+    assert whole.total_error(direct, parts) == pytest.approx(0.10)
+    honest = whole.total_error(measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()})
     assert honest == pytest.approx(0.025)
-    assert whole.pareto_front([(1.0, whole.charged_error(direct, parts)), (1.5, honest)]) == [0, 1]
+    assert whole.pareto_front([(1.0, whole.total_error(direct, parts)), (1.5, honest)]) == [0, 1]
 
 
 def test_a_model_is_charged_its_distance_and_a_setting_never_less():
     """Authority: definition; no setting makes a cheaper model's error smaller."""
-    assert whole.charged_error(0.2, {}) == 0.2
-    assert whole.charged_error(0.2, {"a": 0.01}) == 0.2
+    assert whole.total_error(0.2, {}) == 0.2
+    assert whole.total_error(0.2, {"a": 0.01}) == 0.2
 
 
 def refinement(name, field, values, expected=2.0):

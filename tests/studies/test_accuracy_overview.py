@@ -48,5 +48,5 @@ def test_a_saved_report_says_what_the_page_says(name):
     report = saved_report(scenes()[name], file)
     assert f"**{in_one_sentence(report)}**" in PAGE.read_text(encoding="utf-8")
     saved = overview(file)
-    assert {each.name: each.charged for each in (*report.settings, *report.models)} == pytest.approx({each.name: each.error for each in saved.points})
+    assert {each.name: each.total_error for each in (*report.settings, *report.models)} == pytest.approx({each.name: each.error for each in saved.points})
     assert [each.name for each in report.front] == [each.name for each in saved.front]

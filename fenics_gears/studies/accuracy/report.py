@@ -66,9 +66,9 @@ class WholeResult:
     times: Times
 
     @property
-    def charged(self) -> float:
-        """Its total error; see `whole.charged_error`."""
-        return whole.charged_error(judged(self.errors), self.parts)
+    def total_error(self) -> float:
+        """Its total error; see `whole.total_error`."""
+        return whole.total_error(judged(self.errors), self.parts)
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class AccuracyReport:
     @property
     def front(self) -> tuple[WholeResult, ...]:
         """The Pareto front of the whole settings, the quickest first."""
-        places = whole.pareto_front([(each.times.total, each.charged) for each in self.settings])
+        places = whole.pareto_front([(each.times.total, each.total_error) for each in self.settings])
         return tuple(self.settings[place] for place in places)
 
     @property

@@ -43,7 +43,7 @@ def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
         name = each.name + (" *" if each in front else "")
         times = (seconds(each.times.median(stage)) for stage in STAGES)
         rows.append((
-            name, percent(each.charged), *(percent(each.errors[measure]) for measure in MEASURES), *times, seconds(each.times.total), limits_it(each),
+            name, percent(each.total_error), *(percent(each.errors[measure]) for measure in MEASURES), *times, seconds(each.times.total), limits_it(each),
         ))  # fmt: skip
     return rows
 
@@ -84,12 +84,12 @@ def in_one_sentence(report: AccuracyReport) -> str:
         costs = ". ".join(filter(None, (costs, unknown, _best(report) if len(missed) == len(TARGETS) else "")))
     mine = report.own
     worst = largest_part(mine.parts)
-    return f"{costs}. The scene's own settings have an error of {percent(mine.charged)} %, of which {percent(mine.parts[worst])} % is due to the {worst}."
+    return f"{costs}. The scene's own settings have an error of {percent(mine.total_error)} %, of which {percent(mine.parts[worst])} % is due to the {worst}."
 
 
 def _cost(report: AccuracyReport, target: float) -> str:
     words = f"{100 * target:g} % in T_E and T_EPP"
-    reached = [each for each in report.front if each.charged <= target]
+    reached = [each for each in report.front if each.total_error <= target]
     if reached:
         return f"{words} costs {seconds(reached[0].times.total)} s ({reached[0].name})"
     return f"{words} was not reached: {_best(report)}"
@@ -97,7 +97,7 @@ def _cost(report: AccuracyReport, target: float) -> str:
 
 def _best(report: AccuracyReport) -> str:
     best = report.front[-1]
-    return f"the best settings that were run have an error of {percent(max(best.charged, report.floor))} % and cost {seconds(best.times.total)} s"
+    return f"the best settings that were run have an error of {percent(max(best.total_error, report.floor))} % and cost {seconds(best.times.total)} s"
 
 
 def remarks(report: AccuracyReport) -> list[str]:
@@ -157,7 +157,7 @@ def _whole_lines(report: AccuracyReport):
         words = each.setting.words if each.setting else ""
         kind = "setting" if each.setting else "model"
         yield {
-            "kind": kind, "name": each.name, "setting": words, **_errors(each.errors), "total_error": each.charged, **_times(each.times),
+            "kind": kind, "name": each.name, "setting": words, **_errors(each.errors), "total_error": each.total_error, **_times(each.times),
             "on_front": int(each in report.front), "limited_by": limits_it(each),
         }  # fmt: skip
 

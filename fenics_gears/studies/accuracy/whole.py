@@ -25,7 +25,7 @@ MOST_BYTES = 1.8e9
 Errors = Mapping[tuple[str, int], float]
 
 
-def charged_error(direct: float, parts: Mapping[str, float]) -> float:
+def total_error(direct: float, parts: Mapping[str, float]) -> float:
     """The total error of a whole setting: its `direct` difference from the reference, or the sum of its parts' errors if that is larger."""
     return max(direct, sum(parts.values()))
 
