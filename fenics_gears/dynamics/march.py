@@ -65,8 +65,8 @@ class March:
 
     `kept`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at which friction
-    locks a closed node (`contact.existence`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
-    (k, k), N/mm: of every step.
+    locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may have more than one solution
+    (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one (k, k), N/mm: of every step.
     """
 
     friction: float
@@ -78,6 +78,8 @@ class March:
     steps_by_method: dict[str, int] = field(default_factory=lambda: dict.fromkeys(METHODS, 0))
     separations: list[tuple[int, float]] = field(default_factory=list)
     locked: list[int] = field(default_factory=list)
+    judged: int = 0
+    uncertified: int = 0
     interrupted: bool = False
     seconds: float = 0.0
     _last: list[Steps] = field(default_factory=list)
@@ -133,23 +135,32 @@ class Marcher:
         self._at_once, self._reported = 1, 0.0
 
     def run(
-        self, steps: int, kept: int, report: Callable[[int, int], None] | None = None, observe: Callable[[Steps], None] | None = None
+        self,
+        steps: int,
+        kept: int,
+        report: Callable[[int, int], None] | None = None,
+        observe: Callable[[Steps], None] | None = None,
+        judged: int = 0,
     ) -> March:
         """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with blocks of steps.
+
+        `judged`: of so many last steps it is judged whether friction leaves more than one solution.
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
         with threadpool_limits(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved: None))
+            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved: None), judged)
 
-    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps], None]) -> March:
+    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps], None], judged: int) -> March:
         march, begun = March(self.friction, self.dynamic.stiffness, kept), time.perf_counter()
 
         def take(solved: Steps) -> None:
             march.take(solved)
             if self._may_lock:
                 march.locked += [int(record.step) for record in solved.records if record.step > 0 and self._locks(record)]
+            if self.friction and solved.numbers[-1] > steps - judged:
+                self._judge(march, [record for record in solved.records if record.step > steps - judged])
             observe(solved)
 
         try:
@@ -329,6 +340,12 @@ class Marcher:
         wheel = self.drivetrain.coordinates.index("rotation_2")
         motion[wheel] = np.sign(self.load(record.step)[wheel])
         return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
+
+    def _judge(self, march: March, records: list[Record]) -> None:
+        from fenics_gears.contact.uniqueness import uncertified
+
+        solved = ((record.position.operator, record.solution.status, record.solution.forces) for record in records)
+        march.judged, march.uncertified = march.judged + len(records), march.uncertified + uncertified(march.stiffness, march.friction, solved)
 
     def _static_start(self, step: int) -> Record:
         position = self.cycle.position(step)

@@ -67,7 +67,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
         of_flanks += _sharp_edge(recorder.model.scene, watched)
     return [
         *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
-        *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *(() if cycle.traits.prescribes_friction else _uniqueness(march)),
+        *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *_uniqueness(march),
     ]  # fmt: skip
 
 
@@ -206,15 +206,9 @@ def _locking(cycle: Cycle, march: March) -> list[str]:
 
 def _uniqueness(march: March) -> list[str]:
     """Steps at which the solution cannot be proved to be the only one."""
-    if not march.friction:
-        return []
-    from fenics_gears.contact.uniqueness import uncertified
-
-    solved = ((record.position.operator, record.solution.status, record.solution.forces) for record in march.records)
-    count = uncertified(march.stiffness, march.friction, solved)
-    if not count:
+    if not march.uncertified:
         return []
     return [
-        f"in {count} of the last {len(march.records)} steps there may be more than one solution: friction couples the contact nodes so "
+        f"in {march.uncertified} of the last {march.judged} steps there may be more than one solution: friction couples the contact nodes so "
         f"strongly that the one found cannot be certified as the only one (friction.coefficient is {march.friction:g})"
     ]

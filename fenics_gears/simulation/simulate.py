@@ -78,7 +78,8 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
     scene = model.scene
     progress.stage("march")
     try:
-        return Marcher(cycle, model.equations_of_motion).run(model.steps, min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1, progress.update, recorder.take)
+        judged = 0 if cycle.traits.prescribes_friction else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
+        return Marcher(cycle, model.equations_of_motion).run(model.steps, 1, progress.update, recorder.take, judged)
     except ContactNotConverged as failure:
         failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
         raise
