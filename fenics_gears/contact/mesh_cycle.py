@@ -110,16 +110,20 @@ class CycleTraits:
     own_solver: bool = False
 
 
+# Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps.
+SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.25
+
+
 @dataclass
 class Kept:
-    """How much memory kept positions may take and take, bytes; those beyond are made again each time the cycle comes round."""
+    """How much memory (bytes) operators may take and the kept ones do; those beyond are made again each time the cycle comes round."""
 
     most: float = inf
     taken: float = 0.0
 
     def takes(self, size: float) -> bool:
         """Whether there is room for this many bytes more, which are then counted."""
-        if self.taken + size > self.most:
+        if self.taken + size > SHARE_KEPT * self.most:
             return False
         self.taken += size
         return True

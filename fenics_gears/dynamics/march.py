@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_limits
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle, Position
 from fenics_gears.contact.step_solver import HALVED, METHODS, NEWTON, StepProblem, StepSolution, cold_start
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
@@ -39,8 +39,6 @@ VaryingLoad = Callable[[float], np.ndarray]
 MOST_HALVINGS = 6
 # Steps are handed on in blocks of at most so many.
 LONGEST_BLOCK = 512
-# Of the memory that contact operators may take.
-SHARE_OF_A_BLOCK = 0.25
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,8 @@ UNLIKE_CYCLES = 5
 REMESHED_UNKNOWN, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 1.5e-10, 7.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
+# What a result needs to know of a contact node at a position, numbers, and their copies side by side.
+NUMBERS_OF_A_NODE = 2 * 25
 # Matrices of a flank's size that are held while its teeth are joined, and the tangential rows' own products (measured).
 MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
 
@@ -149,7 +151,8 @@ def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float
         GEAR + UNKNOWN * gear.unknowns + gear.inverses * FLANK_CUBE * gear.flank_dofs**3 + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
-    held = sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
+    nodes = _positions(model) * rows / (2 if model.scene.friction is not None else 1)
+    held = BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * nodes + sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
     return condensing, _marching(model, rows), held, operator_bytes(_positions(model), rows, model.scene.friction is not None)
 
 
