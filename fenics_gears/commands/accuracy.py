@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from fenics_gears.commands.measuring import measured, print_origin, scene_to_measure, write_report
-from fenics_gears.commands.shared import add_output_argument, add_scene_argument
+from fenics_gears.commands.shared import add_memory_argument, add_output_argument, add_scene_argument
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -19,6 +19,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         "--timing-seconds", type=float, metavar="SECONDS",
         help="time limit for repeating runs of single settings, which are timed five times each, the quickest first (default: 60)",
     )  # fmt: skip
+    add_memory_argument(command)
     command.set_defaults(command=accuracy)
 
 

@@ -72,7 +72,6 @@ def _parser() -> argparse.ArgumentParser:
     loudness = shared.add_mutually_exclusive_group()
     loudness.add_argument("-v", "--verbose", action="store_true", default=argparse.SUPPRESS, help="report in detail what is being done")
     loudness.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors")
-    shared.add_argument("--memory", metavar="SIZE", default=argparse.SUPPRESS, help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free)')
     parser = argparse.ArgumentParser(
         prog="gears",
         description="Spur gear pairs as flexible multi-body systems with frictional contact.",

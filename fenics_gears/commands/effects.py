@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from fenics_gears.commands.measuring import measured, print_origin, scene_to_measure, write_report
-from fenics_gears.commands.shared import add_output_argument, add_scene_argument
+from fenics_gears.commands.shared import add_memory_argument, add_output_argument, add_scene_argument
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -14,6 +14,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("effects", parents=[shared], help=words)
     add_scene_argument(command)
     add_output_argument(command)
+    add_memory_argument(command)
     command.set_defaults(command=effects)
 
 

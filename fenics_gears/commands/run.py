@@ -11,6 +11,7 @@ from fenics_gears.commands.shared import (
     INTERRUPTED,
     NO_MEANING,
     RUN_FILE,
+    add_memory_argument,
     add_output_argument,
     add_scene_argument,
     checked_scene_and_directory,
@@ -28,6 +29,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     add_scene_argument(command)
     add_output_argument(command)
     command.add_argument("--no-pictures", action="store_true", help="write run.nc without pictures; `gears plot` can draw them later")
+    add_memory_argument(command)
     command.set_defaults(command=run)
 
 

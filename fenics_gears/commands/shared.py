@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from fenics_gears.errors import ComputationError, GeometryError, SceneError
 from fenics_gears.system.console import on_terminal
+from fenics_gears.system.memory import size_in_bytes
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 # Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its numbers mean nothing.
@@ -27,6 +29,22 @@ def add_scene_argument(command) -> None:
 def add_output_argument(command) -> None:
     """The option --output of a command that writes a scene's results."""
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the scene file>)")
+
+
+def add_memory_argument(command) -> None:
+    """The option --memory of a command that runs scenes."""
+    command.add_argument(
+        "--memory", metavar="SIZE", default=argparse.SUPPRESS, type=_size,
+        help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free, shared by the processes of an MPI job)',
+    )  # fmt: skip
+
+
+def _size(text: str) -> str:
+    try:
+        size_in_bytes(text, "--memory", "8 GB")
+    except SceneError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return text
 
 
 def add_run_argument(command) -> None:

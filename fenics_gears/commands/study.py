@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import INTERRUPTED, shown_progress
+from fenics_gears.commands.shared import INTERRUPTED, add_memory_argument, shown_progress
 from fenics_gears.errors import ComputationError, SceneError
 
 
@@ -19,6 +19,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the study file>)")
     command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes, which share the cases")
+    add_memory_argument(command)
     command.set_defaults(command=study)
 
 
