@@ -2,8 +2,9 @@
 
     python -m tests.benchmarks.same_results OLD_CHECKOUT [SCENE ...]
 
-Prints, for each scene, the variable or attribute that differs most, relative to the largest value of that variable. Wall times and versions
-are left out. Exit code 1 where anything differs by more than 1e-12 or is missing.
+Prints, for each scene, the variables and attributes that differ most, relative to the largest value of that variable; what is nothing but round-off
+(the defect of the energy account, displacements below 1e-12 mm) by what it is the difference of. Wall times and versions are left out. Exit
+code 1 where anything differs by more than 1e-12 or is missing.
 """
 
 from __future__ import annotations
@@ -26,6 +27,9 @@ from fenics_gears import load_scene, simulate
 from fenics_gears.results import save
 save(simulate(load_scene(sys.argv[1])), sys.argv[2])
 """
+# Differences of large numbers, and what they are differences of.
+DIFFERENCES = {"energy_defect": "work_input", "work_contact_changes": "work_input", "drive_flank_opening": 1e-3, "centre_y": "centre_x"}
+PRINTED = 4
 VARIES = ("time_", "wall_time", "fenics_gears_version")
 
 
@@ -46,7 +50,9 @@ def differences(old: xr.Dataset, new: xr.Dataset) -> dict[str, float]:
         if name not in old.variables or name not in new.variables:
             found[name] = np.inf
             continue
-        found[name] = _difference(old[name].values, new[name].values)
+        scale = DIFFERENCES.get(name, 0.0)
+        least = float(np.abs(old[scale].values).max()) if isinstance(scale, str) else scale
+        found[name] = _difference(old[name].values, new[name].values, least)
     names = {name for name in {*old.attrs, *new.attrs} if not name.startswith(VARIES)}
     for name in sorted(names):
         if name not in old.attrs or name not in new.attrs:
@@ -58,14 +64,14 @@ def differences(old: xr.Dataset, new: xr.Dataset) -> dict[str, float]:
     return found
 
 
-def _difference(old: np.ndarray, new: np.ndarray) -> float:
+def _difference(old: np.ndarray, new: np.ndarray, least: float = 0.0) -> float:
     if old.shape != new.shape:
         return np.inf
     if old.dtype.kind not in "fiu":
         return 0.0 if np.array_equal(old, new) else np.inf
     if not np.array_equal(np.isnan(old), np.isnan(new)):
         return np.inf
-    largest = np.nanmax(np.abs(old), initial=0.0)
+    largest = max(np.nanmax(np.abs(old), initial=0.0), least)
     difference = np.nanmax(np.abs(new.astype(float) - old), initial=0.0)
     return float(difference / largest) if largest else float(difference)
 
@@ -82,9 +88,9 @@ def main(arguments: list[str]) -> int:
             scene = scene.resolve()
             old, new = (result_of(checkout, scene, Path(directory)) for checkout in (old_checkout, HERE))
             found = differences(old, new)
-            name, largest = max(found.items(), key=lambda each: each[1])
-            failed |= largest > TOLERANCE
-            print(f"{scene.name}: {len(found)} values, largest difference {largest:.1e} ({name})", flush=True)
+            most = sorted(found.items(), key=lambda each: -each[1])[:PRINTED]
+            failed |= most[0][1] > TOLERANCE
+            print(f"{scene.name}: {len(found)} values, largest differences " + ", ".join(f"{name} {value:.1e}" for name, value in most), flush=True)
     return int(failed)
 
 
