@@ -10,7 +10,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
-from fenics_gears.results.numbers import HARMONICS, harmonics, largest_of_one_pair, mean_where_positive, shares_at
+from fenics_gears.results.numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 from fenics_gears.scene.data import Scene
 
 MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
@@ -66,7 +66,7 @@ def _pair_force(settled: xr.Dataset) -> dict[str, float]:
     over_time = np.max([settled[name].values.max(axis=1, initial=0.0) for name in names], axis=0)
     if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
         return {}
-    place = int(over_time.argmax())
+    place = first_largest(over_time)
     return {"largest_pair_force": float(over_time[place]), "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place])}
 
 
@@ -75,7 +75,7 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
     if "largest_contact_pressure" not in settled:
         return {}
     pressure = settled["largest_contact_pressure"].values
-    place = int(pressure.argmax())
+    place = first_largest(pressure)
     found: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
     edge = float(settled["largest_edge_pressure"].max())
     if edge:
@@ -102,7 +102,7 @@ def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
         stress = settled["root_stress_maximum"].sel(gear=gear).transpose("time", "slot").values
         if not np.nanmax(stress, initial=0.0):
             continue
-        step, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
+        step, slot = np.unravel_index(first_largest(stress), stress.shape)
         at = settled.isel(time=step, slot=slot)
         sides = at["root_stress_at_30_degrees"].sel(gear=gear)
         name = f"largest_root_stress_{gear}"

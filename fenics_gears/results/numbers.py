@@ -9,6 +9,8 @@ import numpy as np
 
 HARMONICS = 5
 ROUNDING = 1e-9  # mesh cycles
+# Of the largest of some values: what differs by less is the same.
+SAME = 1e-9
 
 
 def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
@@ -58,3 +60,8 @@ def largest_of_one_pair(stiffness: np.ndarray, pairs: np.ndarray) -> float:
     """Largest stiffness (steps,) at steps with one pair (steps,) in mesh; not a number where there are always more."""
     alone = pairs == 1
     return float(stiffness[alone].max()) if alone.any() else np.nan
+
+
+def first_largest(values: np.ndarray) -> int:
+    """Place of the first value that is the largest but for round-off: cycles repeat, and round-off must not say which of them is named."""
+    return int(np.argmax(values >= np.nanmax(values) * (1.0 - SAME)))
