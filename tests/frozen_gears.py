@@ -6,7 +6,8 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.model.drivetrain import drivetrain
 
 GRID = ContactGrid(length=1.5, nodes=20)

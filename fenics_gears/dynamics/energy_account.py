@@ -26,7 +26,7 @@ import numpy as np
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import VaryingLoad
+from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 
 

@@ -15,7 +15,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load
-from fenics_gears.dynamics.march import VaryingLoad
+from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.scene.data import Scene
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
-from fenics_gears.dynamics.march import VaryingLoad
+from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model

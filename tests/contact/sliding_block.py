@@ -10,7 +10,9 @@ from fenics_gears.contact.mesh_cycle import CycleTraits, Position
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution, solve_step
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.dynamics.steps import Record
 
 
 class SlidingBlock:

@@ -26,7 +26,8 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import MOST_HALVINGS, EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import MOST_HALVINGS, EquationsOfMotion
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.drivetrain import drivetrain
 

@@ -8,7 +8,9 @@ from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.dynamics.steps import Record
 from fenics_gears.model.drivetrain import drivetrain
 
 

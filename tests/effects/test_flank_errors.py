@@ -14,7 +14,8 @@ from fenics_gears.contact.flank_gaps import FlankGaps, flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects import without
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset

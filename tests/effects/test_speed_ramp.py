@@ -13,8 +13,9 @@ from tests.frozen_gears import GRID, frozen_marcher
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
+from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects import effect_named, result_variables

@@ -10,7 +10,7 @@ from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.steps import Record
 from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.errors import SceneError

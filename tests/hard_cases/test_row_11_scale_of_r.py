@@ -8,7 +8,8 @@ from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.step_solver import NEWTON, StepSolution, run_newton, solve_step
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.model.drivetrain import drivetrain
 
 SCALES = [1e-6, 1e-3, 1e3, 1e6]

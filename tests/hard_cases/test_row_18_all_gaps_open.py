@@ -13,7 +13,9 @@ from fenics_gears.contact.mesh_cycle import MeshCycle, Position
 from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher, Record
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.dynamics.steps import Record
 from fenics_gears.model.drivetrain import drivetrain
 
 

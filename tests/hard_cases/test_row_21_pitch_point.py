@@ -9,7 +9,8 @@ import pytest
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.model.drivetrain import drivetrain
 
 BESIDE = (0.0, 1e-12, -1e-12)

@@ -10,7 +10,7 @@ from tests.frozen_gears import frozen_marcher
 from fenics_gears.contact.laws import SLIP_FORWARD
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.backward_euler import BackwardEuler
-from fenics_gears.dynamics.march import Record
+from fenics_gears.dynamics.steps import Record
 
 
 def pushed(marcher, shafts, speed):

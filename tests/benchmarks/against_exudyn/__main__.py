@@ -28,7 +28,8 @@ from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.drivetrain import forces_of_torque
 from fenics_gears.dynamics.drivetrain_data import Bearings, Shaft, Shafts, Support
 from fenics_gears.dynamics.frequencies import natural_frequencies
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.drivetrain import drivetrain, lumped_gears
 

@@ -9,7 +9,8 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.published_newton import BETA, GAMMA, MOST_HALVINGS, Equations, iterates, merit
 from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, cold_start, solve_step
-from fenics_gears.dynamics.march import EquationsOfMotion, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of

@@ -1,0 +1,197 @@
+"""One step of the motion in time, from static equilibrium at the start: what `compiled_march` does for many steps, written to be read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
+from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
+from fenics_gears.dynamics.clock import Clock, SteadyClock
+from fenics_gears.dynamics.compiled_march import slip_at_start
+from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.steps import Record
+from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.backward_euler import BackwardEuler
+
+NO_SLIP = np.empty(0)
+# The start assumes long sliding before it, by this many steps.
+STEPS_SLID_BEFORE_START = 1e6
+# What acts on the centre coordinates besides the constant load: forces (k,), N, at a step.
+VaryingLoad = Callable[[float], np.ndarray]
+# A step is divided in two at most this often: the shortest part is 1/64 of a step.
+MOST_HALVINGS = 6
+
+
+@dataclass(frozen=True)
+class EquationsOfMotion:
+    """The motion that a march solves for: a drivetrain in steps of `time_step` (s), the longest; `friction` 0 where the scene has none.
+
+    `time_scales`: how mesh and step compare with the drivetrain's vibrations; they decide on the method in time and on the start.
+    `clock`: when a step is, every `time_step` unless given; `loads`: forces that vary, besides the drivetrain's own.
+    """
+
+    drivetrain: Drivetrain
+    time_step: float
+    friction: float = 0.0
+    time_scales: TimeScales = FOLLOWING
+    clock: Clock | None = None
+    loads: tuple[VaryingLoad, ...] = ()
+
+
+def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[BackwardEuler]:
+    """The method in time; quasi-static scenes, which average acceleration, do not import the other."""
+    if time_scales.averages_acceleration:
+        return AverageAcceleration
+    from fenics_gears.dynamics.backward_euler import BackwardEuler
+
+    return BackwardEuler
+
+
+class Stepper:
+    """Solves single steps of the equations of motion with the contact of a `cycle`."""
+
+    def __init__(self, cycle: Cycle, equations: EquationsOfMotion):
+        drivetrain, time_step, friction = equations.drivetrain, equations.time_step, equations.friction
+        self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
+        self.clock, self.loads = equations.clock or SteadyClock(time_step), equations.loads
+        self.dynamic = _method(equations.time_scales)(drivetrain, time_step)
+        self._static_drivetrain = replace(drivetrain, mass=None, damping=None)
+        self.static = AverageAcceleration(self._static_drivetrain, time_step)
+        varying = [load(step) for load in self.loads for step in range(cycle.steps)]
+        self.tolerance = Tolerance.of_load(float(np.abs([drivetrain.load, *varying]).max()))
+        self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
+        self._time_scales = equations.time_scales
+
+    def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
+        """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
+        duration = self.clock.duration(step - 1, step)
+        if duration != self.dynamic.step:
+            self.dynamic = type(self.dynamic)(self.drivetrain, duration)
+        return self.dynamic
+
+    def load(self, step: float) -> np.ndarray:
+        """All forces (k,), N, on the centre coordinates at `step`."""
+        return sum((load(step) for load in self.loads), self.drivetrain.load)
+
+    def start(self) -> Record:
+        """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the equations of motion.
+
+        With a mesh frequency above the lowest of the drivetrain the gears cannot follow: they start at rest in the frame of the nominal
+        motion, so as not to part at once. Above the highest they start where the forces of a whole cycle balance.
+        """
+        neighbours = [self._static_start(-1)]
+        for step in (0, 1) if self.dynamic.inert else (0,):
+            neighbours.append(self.step(self.static, neighbours[-1], step))
+        middle = neighbours[1]
+        if not self.dynamic.inert:
+            return middle
+        if self._time_scales.outruns_vibration:
+            return self._mean_start(middle)
+        velocity = np.zeros(len(self.drivetrain.coordinates))
+        if self._time_scales.follows_statics:
+            velocity = (neighbours[2].state.position - neighbours[0].state.position) / self.clock.duration(-1, 1)
+        # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
+        damping = self.drivetrain.damping
+        acceleration = np.zeros_like(velocity)
+        if damping is not None:
+            acceleration = -np.linalg.solve(self.drivetrain.mass, damping @ velocity)
+        return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
+
+    def _mean_start(self, static: Record) -> Record:
+        from fenics_gears.dynamics.mean_equilibrium import mean_equilibrium
+
+        mean = mean_equilibrium(
+            self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance, static.state.position,
+            STEPS_SLID_BEFORE_START, self.load,
+        )  # fmt: skip
+        drivetrain, jacobian = self.drivetrain, static.position.operator.jacobian
+        left = self.load(0) - drivetrain.stiffness @ mean.position - jacobian.T @ mean.solution.forces
+        if drivetrain.damping is not None:
+            left = left - drivetrain.damping @ mean.velocity
+        state = State(mean.position, mean.velocity, np.linalg.solve(drivetrain.mass, left))
+        return Record(0, state, static.position, mean.solution)
+
+    def step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
+        """One step of `scheme` from `last`, divided where the whole step has no solution."""
+        try:
+            return self._part(scheme, last, step, self.cycle.position(step))
+        except ContactNotConverged as failure:
+            # Without friction a static solution does not depend on the way to it.
+            depends_on_way = scheme.inert or self.friction > 0.0
+            if not (depends_on_way and self.cycle.traits.divisible) or isinstance(failure, NoStaticEquilibrium):
+                raise
+            try:
+                return self._divided(scheme, last, step, failure, 1)
+            except ContactNotConverged as last_failure:
+                _, _, history, sets = last_failure.attempts[-1]
+                words = f"no solution at {last_failure.step:.6g} with a step {2**MOST_HALVINGS} times as short"
+                failure.attempts.append((HALVED, words, history, sets))
+                raise failure from last_failure
+
+    def _divided(self, scheme: AverageAcceleration, last: Record, step: float, failure, halvings: int) -> Record:
+        """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the shortest."""
+        if halvings > MOST_HALVINGS:
+            raise failure
+        record, parts = last, ()
+        drivetrain = self.drivetrain if scheme.inert else self._static_drivetrain
+        for end in (0.5 * (last.step + step), step):
+            finer = type(scheme)(drivetrain, self.clock.duration(record.step, end))
+            try:
+                record = self._part(finer, record, end, self.cycle.between(end, record.step))
+            except ContactNotConverged as failed:
+                record = self._divided(finer, record, end, failed, halvings + 1)
+            parts += record.parts or (record,)
+        iterations = sum(part.solution.iterations for part in parts)
+        return replace(record, solution=replace(record.solution, iterations=iterations, method=HALVED), parts=parts)
+
+    def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
+        """From `last` to `position` without dividing."""
+        operator = position.operator
+        slip_before = NO_SLIP
+        if operator.rigid_slip is not None:
+            # Rigid flanks have no compliance: zeros that are no array in one piece.
+            compliance = np.ascontiguousarray(operator.previous_compliance)
+            slip_before = slip_at_start(operator.rigid_slip, operator.previous_jacobian, compliance, last.state.position, last.solution.forces)
+        carried = position.carried_from
+        status = np.zeros(operator.nodes, dtype=np.int8)
+        known = carried >= 0
+        status[known] = last.solution.status[carried[known]]
+        solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
+        return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
+
+    def _static_start(self, step: int) -> Record:
+        position = self.cycle.position(step)
+        operator = position.operator
+        slip_before = NO_SLIP if operator.rigid_slip is None else STEPS_SLID_BEFORE_START * operator.rigid_slip
+        rest = np.zeros(len(self.drivetrain.coordinates))
+        status = cold_start(operator.gap, operator.node_pair)
+        solution = self._solve(self.static, State(rest, rest, rest), position, slip_before, status, step)
+        return Record(step, State(solution.coordinates, rest, rest), position, solution)
+
+    def _solve(self, scheme, state: State, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
+        """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there is one."""
+        operator, load = position.operator, scheme.load(state, self.load(step))
+        problem = StepProblem(
+            scheme.stiffness, load, operator.compliance, operator.jacobian, operator.gap, slip_before,
+            self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words,
+        )  # fmt: skip
+        try:
+            return self.cycle.solve(position, problem, status, last)
+        except ContactNotConverged as failure:
+            failure.time, failure.step = self.clock.time(step), step
+            raise
+
+    def _moved_freely(self, scheme, load: np.ndarray) -> np.ndarray:
+        """How a load (k,) moves the drivetrain where only contact holds it; a varying load may change its sign."""
+        if scheme.inert or not len(self._free_motion):
+            return np.empty(0)
+        return -self._free_motion if self._free_motion @ load < 0.0 else self._free_motion
