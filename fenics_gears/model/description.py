@@ -176,6 +176,9 @@ def _frequency_rows(model: Model) -> Rows:
     rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
     return rows
 
+# Bytes; fewer are always kept.
+NOTABLE_OPERATORS = 1e9
+
 
 def _cost_rows(model: Model) -> Rows:
     """Expected cost; where inertia hardly matters also that of the quasi-static scene, at its own number of steps."""
@@ -199,4 +202,5 @@ def _cost(model: Model) -> Rows:
         *condensing,
         ("marching", f"{cost.marching:.1f}", "s"),
         ("memory", f"{cost.memory / 1e6:.0f}", "MB"),
+        *([("memory if contact operators are not kept", f"{(cost.memory - cost.operators) / 1e6:.0f}", "MB")] if cost.operators > NOTABLE_OPERATORS else []),
     ]
