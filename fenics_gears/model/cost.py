@@ -25,14 +25,14 @@ SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "
 GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.06, 1.7e-5, 2e-10, 4.5e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
-# Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and the square of its contact rows.
-PAIR, NODES_SQUARE, STEP, ROWS_SQUARE = 9e-4, 8e-8, 7.5e-5, 6e-10
+# Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and each of its contact rows.
+PAIR, NODES_SQUARE, STEP, ROW = 5e-4, 1.2e-7, 1.5e-5, 4e-7
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of unequal length.
-STEP_OF_EFFECT = {"flank_errors": 6e-5, "eccentricity": 4e-5, "torque_ripple": 2e-5, "coast_flanks": 3e-5, "speed_ramp": 5e-5}
+STEP_OF_EFFECT = {"flank_errors": 4e-5, "eccentricity": 2e-5, "torque_ripple": 1e-5, "coast_flanks": 5e-6, "speed_ramp": 1e-5}
 # Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in mesh (measured).
 UNLIKE_CYCLES = 5
-# For the reference route, seconds: an unknown of a remeshed sector, the cube of contact rows of a step, matrices of a position.
-REMESHED_UNKNOWN, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 1.5e-10, 7.0
+# For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a position.
+REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
 # What a result needs to know of a contact node at a position, numbers, and their copies side by side.
@@ -141,7 +141,7 @@ def _marching(model: Model, rows: float) -> float:
     pairs = loaded_pairs(model)
     nodes = rows / (2 if model.scene.friction is not None else 1)
     step = STEP + sum(STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene))
-    return _positions(model) * (PAIR * pairs + NODES_SQUARE * nodes**2) + model.steps * (step + ROWS_SQUARE * rows**2)
+    return _positions(model) * (PAIR * pairs + NODES_SQUARE * nodes**2) + model.steps * (step + ROW * rows)
 
 
 def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:
@@ -162,5 +162,5 @@ def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, floa
     positions, nodes, pairs = model.resolution.steps_per_mesh_cycle, model.resolution.contact_grid.nodes, loaded_pairs(model)
     rows = 2.0 * pairs * (order * (nodes - 1) + 1)
     condensing = positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears)
-    marching = model.steps * (5.0 * STEP + ROW_CUBE * rows**3)
+    marching = model.steps * (REMESHED_STEP + ROW_CUBE * rows**3)
     return condensing, marching, BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2, 0.0
