@@ -79,7 +79,7 @@ class Limits:
             total = total + cost.GEAR + cost.UNKNOWN * unknowns + cost.FLANK_CUBE * dofs**3
         loaded, positions = self._pairs * self._nodes(flank, length), 1.0 / np.asarray(step, dtype=float)
         rows = loaded * (2 if self._friction else 1)
-        of_step = cost.STEP + cost.ROWS_SQUARE * rows**2
+        of_step = cost.STEP + cost.ROW * rows
         of_operator = cost.PAIR * self._pairs + cost.NODES_SQUARE * loaded**2
         return total + positions * (of_operator + self._model.scene.motion.mesh_cycles * of_step)
 
