@@ -137,10 +137,11 @@ class Marcher:
         steps: int,
         kept: int,
         report: Callable[[int, int], None] | None = None,
-        observe: Callable[[Steps], None] | None = None,
+        observe: Callable[[Steps, March], None] | None = None,
         judged: int = 0,
     ) -> March:
-        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with blocks of steps.
+        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with
+        blocks of steps and the march so far.
 
         `judged`: of so many last steps it is judged whether friction leaves more than one solution.
 
@@ -148,9 +149,9 @@ class Marcher:
         """
         with threadpool_limits(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved: None), judged)
+            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged)
 
-    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps], None], judged: int) -> March:
+    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps, March], None], judged: int) -> March:
         march, begun = March(self.friction, self.dynamic.stiffness, kept), time.perf_counter()
 
         def take(solved: Steps) -> None:
@@ -159,7 +160,7 @@ class Marcher:
                 march.locked += [int(record.step) for record in solved.records if record.step > 0 and self._locks(record)]
             if self.friction and solved.numbers[-1] > steps - judged:
                 self._judge(march, [record for record in solved.records if record.step > steps - judged])
-            observe(solved)
+            observe(solved, march)
 
         try:
             last = self.start()
