@@ -178,10 +178,11 @@ def read(directory: Path) -> Recorded:
 def _write(file: FileIO, kind: Kind, first: int, values: np.ndarray) -> None:
     """Write the values of the steps from `first` on to their places."""
     own, size = np.ascontiguousarray(values, kind.type), kind.type.itemsize * prod(kind.shape)
-    places = np.arange(first, first + len(own)) % (kind.last + SPARE) if kind.last else np.arange(first, first + len(own))
-    # In one piece, or two where the places begin anew.
-    for part in np.split(np.arange(len(own)), np.flatnonzero(np.diff(places) != 1) + 1):
-        left, offset = own[part].tobytes(), int(places[part[0]]) * size if len(part) else 0
+    room = kind.last + SPARE if kind.last else first + len(own)
+    while len(own):
+        place = first % room
+        left, offset = memoryview(own[: room - place]).cast("B"), place * size
+        first, own = first + room - place, own[room - place :]
         while left:
             written = os.pwrite(file.fileno(), left, offset)
             left, offset = left[written:], offset + written
