@@ -13,6 +13,7 @@ import logging
 import os
 import shutil
 import time
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from io import FileIO
@@ -29,16 +30,20 @@ from fenics_gears.model.storage import Arrays
 from fenics_gears.results.kept import InMemory, Kind, Values
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.system.sealed import seal, unsealed
 
 logger = logging.getLogger(__name__)
 
 # A march that is over sooner keeps no journal.
 SECONDS_WITHOUT = 2.0
 HEADER, STATE = "journal.json", "state.json"
+DAMAGED = "it does not hold what was written into it"
 # Places beside those of the last steps: values that a reader still needs are not overwritten while a block or two are written.
 SPARE = 4 * LONGEST_BLOCK
 # What a March counts, and the lists that it makes longer; their files.
 COUNTS = ("newton_iterations", "steps", "steps_by_method", "judged", "uncertified")
+# Names of the check sums of a step's values, and whether they are of contact fields.
+CHECKS = {"check: curves": False, "check: fields": True}
 LISTS = {"separations": Kind(np.dtype(float), (2,)), "locked": Kind(np.dtype(np.int64), ())}
 
 
@@ -59,11 +64,17 @@ class Journal(InMemory):
     def __init__(self, place: Place, scene: Scene, stored: Arrays, steps: int, last: int):
         super().__init__(stored, steps, last)
         self.place, self.directory, self._scene = place, place.directory, scene
-        self._due, self._listed = time.monotonic() + SECONDS_WITHOUT, dict.fromkeys(LISTS, 0)
+        self._due, self._listed = time.monotonic() + SECONDS_WITHOUT, dict.fromkeys(LISTS, (0, 0))
         self._files: dict[str, FileIO] = {}
+        # How many steps are whole on disk.
+        self._whole = 0
 
     def put(self, first: int, values: Values, march: March | None = None) -> None:
         """Keep the values of the steps from `first` on, as InMemory does, and the counts of the `march`."""
+        if first < self._whole:
+            # Taken again after Ctrl-C, which came as soon as they were whole.
+            return
+        values = {**values, **self._checks(first, values)}
         if not self._files:
             super().put(first, values)
             if march is None or time.monotonic() < self._due:
@@ -86,16 +97,26 @@ class Journal(InMemory):
         """As InMemory does; curves of all steps are not read into memory before they are used."""
         return _read(self._files[name], self.kinds[name], steps) if self._files else super().get(name, steps)
 
+    def _checks(self, first: int, values: Values) -> dict[str, np.ndarray]:
+        """The check sums of curves and of contact fields, which the disk may keep for different steps."""
+        kinds = {name: Kind.of(name, own, self.stored, self.steps, self.last) for name, own in values.items()}
+        return {
+            check: check_sums(first, len(values["time"]), [np.ascontiguousarray(own, kinds[name].type) for name, own in values.items() if bool(kinds[name].last) == of_fields])
+            for check, of_fields in CHECKS.items()
+        }
+
     def _begin(self, steps: int) -> None:
         """Write all values so far, and hold them no longer."""
         remove(self.directory)
-        self.directory.mkdir(parents=True)
+        # Of a process that was killed while it removed its own.
+        (self.directory / STATE).unlink(missing_ok=True)
+        self.directory.mkdir(parents=True, exist_ok=True)
         kinds = self.kinds | LISTS
         header = {
             "version": fenics_gears.__version__, "scene": self._scene.text, "name": self._scene.name, "folder": str(self.place.scene_folder.absolute()), "steps": self.steps,
             "kinds": {name: [str(number), kind.type.str, kind.shape, kind.last] for number, (name, kind) in enumerate(kinds.items())},
         }  # fmt: skip
-        (self.directory / HEADER).write_text(json.dumps(header), encoding="utf-8")
+        self._write_text(HEADER, header)
         files = {name: open(self.directory / str(number), "w+b", buffering=0) for number, name in enumerate(kinds)}
         for name, kind in self.kinds.items():
             _write(files[name], kind, kind.kept_from(steps), super().get(name, steps))
@@ -104,13 +125,17 @@ class Journal(InMemory):
     def _commit(self, steps: int, march: March) -> None:
         """Say that so many steps are whole."""
         for name, kind in LISTS.items():
-            known, longer = self._listed[name], getattr(march, name)
-            _write(self._files[name], kind, known, np.array(longer[known:], dtype=kind.type).reshape(-1, *kind.shape))
-            self._listed[name] = len(longer)
-        state = {"steps": steps, "march": {name: getattr(march, name) for name in COUNTS}, "listed": self._listed}
-        aside = self.directory / f"{STATE}.{os.getpid()}"
-        aside.write_text(json.dumps(state), encoding="utf-8")
-        os.replace(aside, self.directory / STATE)
+            (known, check), longer = self._listed[name], getattr(march, name)
+            new = np.array(longer[known:], dtype=kind.type).reshape(-1, *kind.shape)
+            _write(self._files[name], kind, known, new)
+            self._listed[name] = len(longer), check + int(check_sums(known, len(new), [new]).sum())
+        self._write_text(STATE, {"steps": steps, "march": {name: getattr(march, name) for name in COUNTS}, "listed": self._listed})
+        self._whole = steps
+
+    def _write_text(self, name: str, content: dict) -> None:
+        text, aside = json.dumps(content).encode(), self.directory / f"{name}.{os.getpid()}"
+        aside.write_bytes(text + seal(text))
+        os.replace(aside, self.directory / name)
 
     def _give_up(self, steps: int) -> None:
         """Hold the values of the first so many steps in memory again, and remove the directory."""
@@ -118,7 +143,7 @@ class Journal(InMemory):
             for name, kind in self.kinds.items():
                 self._arrays[name] = np.empty((kind.last or self.steps, *kind.shape), kind.type)
                 self._arrays[name][kind.places(kind.kept_from(steps), steps)] = self.get(name, steps)
-        self._files, self._due = {}, float("inf")
+        self._files, self._due, self._whole = {}, float("inf"), 0
         with suppress(OSError):
             remove(self.directory)
 
@@ -151,28 +176,58 @@ def remove(directory: Path) -> None:
 def read(directory: Path) -> Recorded:
     """What a journal holds, also one that is still written. Raises ComputationError where it is damaged or of another version of the program."""
     try:
-        header = json.loads((directory / HEADER).read_text(encoding="utf-8"))
+        header, state = _text(directory / HEADER), _text(directory / STATE)
         if header["version"] != fenics_gears.__version__:
             raise ValueError(f"it was written by version {header['version']} of this program, which can read it; this is {fenics_gears.__version__}")
         kinds = {name: (number, Kind(np.dtype(kind), tuple(shape), last)) for name, (number, kind, shape, last) in header["kinds"].items()}
-        state = json.loads((directory / STATE).read_text(encoding="utf-8"))
-        lengths = dict.fromkeys(kinds, state["steps"]) | state["listed"]
+        lengths = dict.fromkeys(kinds, state["steps"]) | {name: length for name, (length, _) in state["listed"].items()}
         values = {}
         for name, (number, kind) in kinds.items():
             with open(directory / number, "rb") as file:
                 values[name] = _read(file, kind, lengths[name])
-        later = json.loads((directory / STATE).read_text(encoding="utf-8"))
+        # What a run that goes on has written over since, with the block that it is writing.
+        later = _text(directory / STATE)["steps"] + LONGEST_BLOCK
+        fields = {name: kind for name, (_, kind) in kinds.items() if kind.last}
+        for name, kind in fields.items():
+            values[name] = values[name][max(later - (kind.last + SPARE) - kind.kept_from(state["steps"]), 0) :]
+        listed = {name: values.pop(name) for name in LISTS}
+        if any(int(check_sums(0, len(own), [own]).sum()) != state["listed"][name][1] for name, own in listed.items()):
+            raise ValueError(DAMAGED)
+        _check(state["steps"], values, fields)
         scene = scene_from_text(header["scene"], header["name"], directory=Path(header["folder"]))
     except (OSError, ValueError, KeyError, GearsError) as failure:
         raise ComputationError(f"{directory}: cannot be read as the journal of a run: {failure}") from failure
-    # What a run that goes on has written over since, with the block that it is writing.
-    for name, (_, kind) in kinds.items():
-        if kind.last:
-            overwritten = later["steps"] + LONGEST_BLOCK - (kind.last + SPARE)
-            values[name] = values[name][max(overwritten - kind.kept_from(state["steps"]), 0) :]
-    march = state["march"] | {name: values.pop(name).tolist() for name in LISTS}
-    march["separations"] = [(int(step), opening) for step, opening in march["separations"]]
+    separations = [(int(step), float(opening)) for step, opening in listed["separations"]]
+    march = state["march"] | {"separations": separations, "locked": listed["locked"].tolist()}
     return Recorded(scene, header["steps"] - 1, march, values)
+
+
+def check_sums(first: int, count: int, values: Sequence[np.ndarray]) -> np.ndarray:
+    """Check sum (s,) of values (s, ...) of so many steps from `first` on: every word, and which step it is, has a part in it."""
+    sums = np.arange(first + 1, first + 1 + count).astype(np.uint32)
+    for own in values:
+        flat = own.reshape(len(own), -1) if own.size else np.zeros((len(own), 1))
+        words = flat.view(np.uint32 if flat.strides[0] % 4 == 0 else np.uint8).astype(np.uint32)
+        # Odd factors: no bit of a word is without effect.
+        sums = sums * np.uint32(31) + words @ (2 * np.arange(words.shape[1], dtype=np.uint32) + 1)
+    return sums
+
+
+def _check(steps: int, values: dict[str, np.ndarray], fields: Mapping[str, Kind]) -> None:
+    """Raise ValueError where the values are not those whose check sums they have; takes the sums out."""
+    for check, of_fields in CHECKS.items():
+        own = [each for name, each in values.items() if (name in fields) == of_fields and name not in CHECKS]
+        count = min(map(len, own), default=0)
+        if not np.array_equal(check_sums(steps - count, count, own), values[check][steps - count :]):
+            raise ValueError(DAMAGED)
+    for check in CHECKS:
+        del values[check]
+
+
+def _text(path: Path) -> dict:
+    """The content of a sealed file of JSON. Raises ValueError where it is damaged."""
+    with unsealed(path) as file:
+        return json.JSONDecoder().raw_decode(file.read().decode())[0]
 
 
 def _write(file: FileIO, kind: Kind, first: int, values: np.ndarray) -> None:
