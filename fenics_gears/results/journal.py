@@ -43,7 +43,7 @@ SPARE = 4 * LONGEST_BLOCK
 # What a March counts, and the lists that it makes longer; their files.
 COUNTS = ("newton_iterations", "steps", "steps_by_method", "judged", "uncertified")
 # Names of the check sums of a step's values, and whether they are of contact fields.
-CHECKS = {"check: curves": False, "check: fields": True}
+CHECKS, CHECK = {"check: curves": False, "check: fields": True}, Kind(np.dtype(np.uint32), ())
 LISTS = {"separations": Kind(np.dtype(float), (2,)), "locked": Kind(np.dtype(np.int64), ())}
 
 
@@ -74,7 +74,6 @@ class Journal(InMemory):
         if first < self._whole:
             # Taken again after Ctrl-C, which came as soon as they were whole.
             return
-        values = {**values, **self._checks(first, values)}
         if not self._files:
             super().put(first, values)
             if march is None or time.monotonic() < self._due:
@@ -83,8 +82,7 @@ class Journal(InMemory):
             if not self._files:
                 self._begin(first + len(values["time"]))
             else:
-                for name, own in values.items():
-                    _write(self._files[name], self.kinds[name], first, own)
+                self._write(first, len(values["time"]), values)
             self._commit(first + len(values["time"]), march)
         except OSError as failure:
             logger.warning(
@@ -97,13 +95,16 @@ class Journal(InMemory):
         """As InMemory does; curves of all steps are not read into memory before they are used."""
         return _read(self._files[name], self.kinds[name], steps) if self._files else super().get(name, steps)
 
-    def _checks(self, first: int, values: Values) -> dict[str, np.ndarray]:
-        """The check sums of curves and of contact fields, which the disk may keep for different steps."""
-        kinds = {name: Kind.of(name, own, self.stored, self.steps, self.last) for name, own in values.items()}
-        return {
-            check: check_sums(first, len(values["time"]), [np.ascontiguousarray(own, kinds[name].type) for name, own in values.items() if bool(kinds[name].last) == of_fields])
-            for check, of_fields in CHECKS.items()
-        }
+    def _write(self, first: int, count: int, values: Values) -> None:
+        """Write values of so many steps from `first` on, of contact fields those of the last of them, and their check sums."""
+        own = {name: np.ascontiguousarray(each, self.kinds[name].type) for name, each in values.items()}
+        for name, each in own.items():
+            _write(self._files[name], self.kinds[name], first + count - len(each), each)
+        for check, of_fields in CHECKS.items():
+            summed = [each for name, each in own.items() if bool(self.kinds[name].last) == of_fields]
+            known, sums = len(summed[0]) if summed else 0, np.zeros(count, np.uint32)
+            sums[count - known :] = check_sums(first + count - known, known, summed)
+            _write(self._files[check], CHECK, first, sums)
 
     def _begin(self, steps: int) -> None:
         """Write all values so far, and hold them no longer."""
@@ -111,16 +112,22 @@ class Journal(InMemory):
         # Of a process that was killed while it removed its own.
         (self.directory / STATE).unlink(missing_ok=True)
         self.directory.mkdir(parents=True, exist_ok=True)
-        kinds = self.kinds | LISTS
+        kinds = self.kinds | dict.fromkeys(CHECKS, CHECK) | LISTS
         header = {
             "version": fenics_gears.__version__, "scene": self._scene.text, "name": self._scene.name, "folder": str(self.place.scene_folder.absolute()), "steps": self.steps,
             "kinds": {name: [str(number), kind.type.str, kind.shape, kind.last] for number, (name, kind) in enumerate(kinds.items())},
         }  # fmt: skip
         self._write_text(HEADER, header)
         files = {name: open(self.directory / str(number), "w+b", buffering=0) for number, name in enumerate(kinds)}
-        for name, kind in self.kinds.items():
-            _write(files[name], kind, kind.kept_from(steps), super().get(name, steps))
-        self._files, self._arrays = files, {}
+        values = {name: super(Journal, self).get(name, steps) for name in self.kinds}
+        try:
+            self._files = files
+            self._write(0, steps, values)
+        except BaseException:
+            # Nothing of memory has been given up yet.
+            self._files = {}
+            raise
+        self._arrays = {}
 
     def _commit(self, steps: int, march: March) -> None:
         """Say that so many steps are whole."""
