@@ -37,8 +37,8 @@ STEPS_SLID_BEFORE_START = 1e6
 VaryingLoad = Callable[[float], np.ndarray]
 # A step is divided in two at most this often: the shortest part is 1/64 of a step.
 MOST_HALVINGS = 6
-# Steps are handed on in blocks of at most so many.
-LONGEST_BLOCK = 512
+# Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
+LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
 
 
 @dataclass(frozen=True)
@@ -181,7 +181,8 @@ class Marcher:
         """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of one, but at the end."""
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
-        longest = int(min(LONGEST_BLOCK, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
+        most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
+        longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         first = 1
         while first <= steps:

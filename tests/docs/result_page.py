@@ -53,7 +53,7 @@ While `gears run` marches through time, it writes the values of every block of s
 `gears report DIR`, `gears picture DIR` and `gears export DIR` read `run.nc.part`, also while the run goes on. They make the same result as if the run had been interrupted by Ctrl-C after the last step that is there. `complete` is 0,
 `stopped` is "not ended", and the first of the `warnings` says which steps are missing.
 
-* **What is lost:** the block of steps that was being computed, at most 512 steps (less than a second in most runs). A run that is killed in the first 2 seconds of its march leaves nothing.
+* **What is lost:** the block of steps that was being computed, at most 512 steps (less than a second in most runs), or 32 of the slower steps of `condensation = "every step"`. A run that is killed in the first 2 seconds of its march leaves nothing.
 * **Full disk:** the run goes on without `run.nc.part`, and a warning says so.
 * **Power failure:** the operating system may not have written everything to the disk. A `run.nc.part` that does not hold what was written into it is refused.
 * **Only the same version** of the program reads it. An older `run.nc` in the directory is read first; `gears plot DIR/run.nc.part` names the other one.
