@@ -40,10 +40,10 @@ HEADER, STATE = "journal.json", "state.json"
 DAMAGED = "it does not hold what was written into it"
 # Places beside those of the last steps: values that a reader still needs are not overwritten while a block or two are written.
 SPARE = 4 * LONGEST_BLOCK
-# What a March counts, and the lists that it makes longer; their files.
-COUNTS = ("newton_iterations", "steps", "steps_by_method", "judged", "uncertified")
 # Names of the check sums of a step's values, and whether they are of contact fields.
 CHECKS, CHECK = {"check: curves": False, "check: fields": True}, Kind(np.dtype(np.uint32), ())
+# What a March counts, and the lists that it makes longer.
+COUNTS = ("newton_iterations", "steps", "steps_by_method", "judged", "uncertified")
 LISTS = {"separations": Kind(np.dtype(float), (2,)), "locked": Kind(np.dtype(np.int64), ())}
 
 
