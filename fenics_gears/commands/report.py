@@ -6,7 +6,7 @@ import argparse
 from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.shared import CASES, RUN_FILE, STUDY_FILE, loaded_run, print_files, shown_progress
+from fenics_gears.commands.shared import CASES, JOURNAL, RUN_FILE, STUDY_FILE, loaded_run, print_files, run_or_journal, shown_progress
 from fenics_gears.errors import SceneError
 
 REPORT_FILE = "report.html"
@@ -44,10 +44,12 @@ def report(options: argparse.Namespace) -> int:
 
 def found_file(path: Path) -> tuple[Path, bool]:
     """The result's file that is meant, and whether it is a study's. Raises SceneError where there is none."""
+    run = run_or_journal(path)
+    if run.exists():
+        return run, run.name == STUDY_FILE
     if path.is_dir():
-        for name in (RUN_FILE, STUDY_FILE):
-            if (path / name).is_file():
-                return path / name, name == STUDY_FILE
+        if (path / STUDY_FILE).is_file():
+            return path / STUDY_FILE, True
         if (path / CASES).is_dir():
             raise SceneError(
                 f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again, it writes the file from what there is."
@@ -56,14 +58,12 @@ def found_file(path: Path) -> tuple[Path, bool]:
             f"{path}: there is neither {RUN_FILE} nor {STUDY_FILE} in it. A report is on a directory that `gears run` or `gears study` "
             "wrote."
         )
-    if not path.is_file():
-        raise SceneError(f"{path}: there is no such file or directory. A report is on what `gears run` or `gears study` wrote.")
-    return path, path.name == STUDY_FILE
+    raise SceneError(f"{path}: there is no such file or directory. A report is on what `gears run` or `gears study` wrote.")
 
 
 def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
     """The page's file: as asked for, in the directory asked for, or beside the result; a study's case has its own name."""
-    own = file.name in (RUN_FILE, STUDY_FILE)
+    own = file.name in (RUN_FILE, STUDY_FILE, JOURNAL)
     name = REPORT_FILE if own else f"{file.stem}.html"
     if asked is None:
         return file.parent / name

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fenics_gears.commands.shared import (
     INTERRUPTED,
+    JOURNAL,
     NO_MEANING,
     RUN_FILE,
     add_memory_argument,
@@ -43,11 +44,13 @@ def run(options: argparse.Namespace) -> int:
 
         assist(scene, comm)
         return 0
+    from fenics_gears.results.journal import Place
     from fenics_gears.studies.simulate import simulate
 
+    journal = Place(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
         try:
-            dataset = simulate(scene, progress=interruption, comm=comm)
+            dataset = simulate(scene, progress=interruption, comm=comm, journal=journal)
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
                 # Nothing was done that an earlier result in the directory should give way to.
@@ -82,10 +85,12 @@ def run(options: argparse.Namespace) -> int:
 def _save(dataset, directory: Path, interruption: Interruption) -> Path:
     """Write the result where no Ctrl-C can lose it, and return its file."""
     from fenics_gears import results
+    from fenics_gears.results.journal import remove
     from fenics_gears.system.output import write_whole
 
     interruption.ignore()
     file = write_whole(directory / RUN_FILE, lambda path: results.save(dataset, path))
+    remove(directory / JOURNAL)
     for picture in PICTURE_FILES:
         # Those of an earlier run would be taken for pictures of this one.
         (directory / picture).unlink(missing_ok=True)

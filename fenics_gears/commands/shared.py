@@ -19,6 +19,8 @@ INTERRUPTED = 130
 NOBODY_READS = 141
 
 RUN_FILE, STUDY_FILE, CASES = "run.nc", "study.nc", "cases"
+# What a long run has recorded so far, removed when it has written RUN_FILE.
+JOURNAL = f"{RUN_FILE}.part"
 
 
 def add_scene_argument(command) -> None:
@@ -89,17 +91,35 @@ def run_file(path: Path) -> Path:
             f"{path} is a study, of many runs. `gears report {directory}` writes a page of pictures on all of them; "
             f"of a single case this command takes the file, {directory / CASES}/NAME.nc."
         )
-    file = path / RUN_FILE if path.is_dir() else path
-    if not file.is_file():
+    file = run_or_journal(path)
+    if not file.exists():
         raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
     return file
 
 
+def run_or_journal(path: Path) -> Path:
+    """The file of a run in a directory or, where there is none, the journal of one that has not ended; any other path as it is."""
+    if not path.is_dir() or path.name == JOURNAL:
+        return path
+    from fenics_gears.results.journal import is_journal
+
+    return path / (JOURNAL if not (path / RUN_FILE).is_file() and is_journal(path / JOURNAL) else RUN_FILE)
+
+
 def loaded_run(file: Path, load: Callable | None = None):
-    """The dataset of a run's file, by `load` where it is another kind of result. Raises SceneError where it cannot be read: the call is wrong."""
+    """The dataset of a run's file, by `load` where it is another kind of result. Raises SceneError where it cannot be read: the call is wrong.
+
+    Of a run that has not ended, its journal is read, and it is said on the standard error what is missing.
+    """
     from fenics_gears import results
 
     try:
+        if file.name == JOURNAL:
+            from fenics_gears.simulation.unfinished import unfinished
+
+            dataset = unfinished(file)
+            print(f"{file}: {dataset.attrs['warnings'].splitlines()[0]}", file=sys.stderr)
+            return dataset
         return (load or results.load)(file)
     except ComputationError as error:
         raise SceneError(str(error)) from error

@@ -23,8 +23,8 @@ from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
 from fenics_gears.dynamics.steps import Record, Steps, drive_flanks_touch, smallest_openings
 
 SECONDS_BETWEEN_REPORTS = 0.1
-# Steps are handed on in blocks of at most so many.
-LONGEST_BLOCK = 512
+# Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
+LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
 
 
 @dataclass
@@ -90,10 +90,11 @@ class Marcher(Stepper):
         steps: int,
         kept: int,
         report: Callable[[int, int], None] | None = None,
-        observe: Callable[[Steps], None] | None = None,
+        observe: Callable[[Steps, March], None] | None = None,
         judged: int = 0,
     ) -> March:
-        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with blocks of steps.
+        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with
+        blocks of steps and the march so far.
 
         `judged`: of so many last steps it is judged whether friction leaves more than one solution.
 
@@ -101,9 +102,9 @@ class Marcher(Stepper):
         """
         with threadpool_limits(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved: None), judged)
+            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged)
 
-    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps], None], judged: int) -> March:
+    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps, March], None], judged: int) -> March:
         march, begun = March(self.friction, self.dynamic.stiffness, kept), time.perf_counter()
 
         def take(solved: Steps) -> None:
@@ -112,7 +113,7 @@ class Marcher(Stepper):
                 march.locked += [int(record.step) for record in solved.records if record.step > 0 and self._locks(record)]
             if self.friction and solved.numbers[-1] > steps - judged:
                 self._judge(march, [record for record in solved.records if record.step > steps - judged])
-            observe(solved)
+            observe(solved, march)
 
         try:
             last = self.start()
@@ -133,7 +134,8 @@ class Marcher(Stepper):
         """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of one, but at the end."""
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
-        longest = int(min(LONGEST_BLOCK, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
+        most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
+        longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         first = 1
         while first <= steps:

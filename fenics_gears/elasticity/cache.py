@@ -93,7 +93,7 @@ class Cache:
         try:
             if not path.exists():
                 return None
-            with h5py.File(unsealed(path), "r") as file:
+            with unsealed(path) as content, h5py.File(content, "r") as file:
                 if tuple(file.attrs.get(name) for name in ("format", "key")) != (FORMAT, key):
                     raise ValueError("it was stored under another name, or by another version")
                 arrays = {name: np.asarray(file[name]) for name in file}

@@ -1,4 +1,4 @@
-"""The arrays of a result and their sizes: one list, by which the recorder allocates them and their memory is counted."""
+"""The arrays of a result and their sizes: one list, by which the recorder keeps them and their memory is counted."""
 
 from __future__ import annotations
 
@@ -43,11 +43,6 @@ def stored_arrays(scene: Scene, size: Mapping[str, int]) -> Arrays:
         for name, dims in arrays.items()
         if "time" in dims or ("contact_time" in dims and size["contact_time"])
     }
-
-
-def allocated(arrays: Arrays, size: Mapping[str, int]) -> dict[str, np.ndarray]:
-    """The arrays, empty."""
-    return {name: np.empty(tuple(size[each] for each in dims), kind) for name, (dims, kind) in arrays.items()}
 
 
 def counted_bytes(arrays: Arrays, size: Mapping[str, int]) -> int:

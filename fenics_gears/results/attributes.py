@@ -41,7 +41,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("scene_name", "", "the name of the scene's file"),
     ResultAttribute("fenics_gears_version", "", "version of this program"),
     ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
-    ResultAttribute("stopped", "", "why the run is not complete: `interrupted` or `failed`", "`complete` is 0"),
+    ResultAttribute("stopped", "", "why the run is not complete: `interrupted`, `failed`, or `not ended` (killed or still running, read from `run.nc.part`)", "`complete` is 0"),
     ResultAttribute("warnings", "", "warnings, one on each line"),
     ResultAttribute("settled_from", "s", "time from which on steps are settled: the vibration excited by the start has decreased to 1 %", WITH_STEPS),
     ResultAttribute("settled_cycles", "1", "number of mesh cycles from `settled_from` to the end", WITH_STEPS),

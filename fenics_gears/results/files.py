@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -12,7 +13,7 @@ from xarray.conventions import cf_encoder, encode_dataset_coordinates
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.old_layout import upgraded
-from fenics_gears.system.sealed import seal, unsealed
+from fenics_gears.system.sealed import seal_of, unsealed
 
 
 def save(result: xr.Dataset, path: str | Path) -> None:
@@ -21,30 +22,68 @@ def save(result: xr.Dataset, path: str | Path) -> None:
     Raises OSError where the disk is full or the directory cannot be written.
     """
     path = Path(path)
-    content = netcdf(result)
     path.parent.mkdir(parents=True, exist_ok=True)
     aside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        with open(aside, "wb") as file:
-            file.write(content)
-            file.write(seal(content))
-            file.flush()
+        with open(aside, "w+b", buffering=0) as file:
+            written = NeverFull(file)
+            write_netcdf(result, written)
+            if written.failure is not None:
+                raise written.failure
+            file.write(seal_of(file, file.seek(0, os.SEEK_END)))
             os.fsync(file.fileno())
         os.replace(aside, path)
     finally:
         aside.unlink(missing_ok=True)
 
 
-def netcdf(dataset: xr.Dataset) -> memoryview:
-    """A dataset as the bytes of a NetCDF-4 file, what has several dimensions compressed.
+class NeverFull:
+    """A file for HDF5, which itself does not come back cleanly from a full disk: this goes on in memory then, and has the `failure`."""
 
-    Made in memory, since HDF5 itself does not come back cleanly from a full disk. Written by h5py, as the NetCDF-4 format specification
+    def __init__(self, file: BinaryIO):
+        self._file = file
+        self.failure: OSError | None = None
+
+    def __getattr__(self, name: str):
+        """Whatever cannot fail for want of room."""
+        return getattr(self._file, name)
+
+    def write(self, content) -> int:
+        """Write all of it."""
+        left, place = memoryview(content).cast("B"), self._file.tell()
+        try:
+            while left:
+                left = left[self._file.write(left) :]
+        except OSError as failure:
+            self._go_on_in_memory(failure)
+            self._file.seek(place)
+            self._file.write(content)
+        return len(content)
+
+    def truncate(self, size: int | None = None) -> int:
+        """Make it as long as that."""
+        try:
+            return self._file.truncate(size)
+        except OSError as failure:
+            self._go_on_in_memory(failure)
+            return self._file.truncate(size)
+
+    def _go_on_in_memory(self, failure: OSError) -> None:
+        self.failure, place = failure, self._file.tell()
+        self._file.seek(0)
+        self._file = io.BytesIO(self._file.read())
+        self._file.seek(place)
+
+
+def write_netcdf(dataset: xr.Dataset, content) -> None:
+    """Write a dataset into an empty open file as NetCDF-4, what has several dimensions compressed.
+
+    Written by h5py, as the NetCDF-4 format specification
     (appendix "NetCDF-4 format" of the NetCDF user's guide) has dimensions and attributes in HDF5: h5netcdf takes five times as long for so many variables.
     """
     import h5py
 
     variables, attributes = cf_encoder(*encode_dataset_coordinates(dataset))
-    content = io.BytesIO()
     with h5py.File(content, "w", track_order=True) as file:
         file.attrs.update(attributes)
         written = {name: _write_variable(file, name, variable) for name, variable in variables.items()}
@@ -56,7 +95,6 @@ def netcdf(dataset: xr.Dataset) -> memoryview:
             for axis, dimension in enumerate(variables[name].dims):
                 if name not in scales:
                     values.dims[axis].attach_scale(scales[dimension])
-    return content.getbuffer()
 
 
 def _write_variable(file, name: str, variable: xr.Variable):
@@ -83,7 +121,7 @@ def load(path: str | Path) -> xr.Dataset:
 def read(path: str | Path) -> xr.Dataset:
     """Read a saved dataset, whatever it holds, into memory. Raises ComputationError when it is damaged or not written by `save`."""
     try:
-        with xr.open_dataset(unsealed(Path(path)), engine="h5netcdf") as opened:
+        with unsealed(Path(path)) as content, xr.open_dataset(content, engine="h5netcdf") as opened:
             return opened.load()
     except (OSError, ValueError) as failure:
         raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure

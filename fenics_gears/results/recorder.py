@@ -1,7 +1,7 @@
 """Records a march while it goes: curves of all steps, contact fields of the last steps, and what the warnings need.
 
-Steps are evaluated some at a time and then dropped. Contact fields are kept in ring buffers, so that those of the last steps are there
-wherever the march ends.
+Steps are evaluated some at a time and then dropped; their values are kept in memory (`results.kept`) or, of a long march, in a journal on
+disk (`results.journal`). Contact fields are those of the last steps wherever the march ends.
 """
 
 from __future__ import annotations
@@ -12,70 +12,89 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
+from fenics_gears.dynamics.march import March
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
-from fenics_gears.model.storage import allocated, sizes, stored_arrays
+from fenics_gears.model.storage import sizes, stored_arrays
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
+from fenics_gears.results.kept import InMemory, Kept
 from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
 from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
 
 if TYPE_CHECKING:
+    from fenics_gears.results.journal import Place, Recorded
     from fenics_gears.results.root_stress_variables import RootStress
+
+# How the names of what the warnings need begin, beside those of the result.
+WATCHED = "watched: "
 
 
 class Recorder:
     """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root stress, if asked for.
 
-    `steps`: how many are recorded. `watched`: what the warnings need, by name (steps so far,). `first_number`: number of the pair that
-    reaches the start of contact as the run begins.
+    `journal`: where a long march is written down; in memory only where None. `steps`: how many are recorded. `first_number`: number of the
+    pair that reaches the start of contact as the run begins.
     """
 
-    def __init__(self, model: Model, cycle: Cycle, loads: Sequence[VaryingLoad] | None = None, stress: RootStress | None = None):
+    def __init__(
+        self, model: Model, cycle: Cycle, loads: Sequence[VaryingLoad] | None = None, stress: RootStress | None = None, journal: Place | None = None
+    ):
         self.model, self.cycle, self.stress = model, cycle, stress
         self.loads = model.loads if loads is None else loads
         places = [[pair.place for pair in cycle.pairs_at(index)] for index in range(cycle.steps)]
         self.first_number = 1 + max((place.index for each in places for place in each), default=0)
         self.slots = max(pairs_at_once(places), 1)
         self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.nodes)
-        self.arrays = allocated(stored_arrays(model.scene, self.size), self.size)
+        self.stored = stored_arrays(model.scene, self.size)
+        self._room = self._room_for(journal)
+        self.kept: Kept = self._room
+        # Complete when the recorder has finished.
+        self.arrays: dict[str, np.ndarray] = {}
+        self.watched: dict[str, np.ndarray] = {}
         self.steps = 0
-        self._watched: list[dict[str, np.ndarray]] = []
+        self._watched: tuple[str, ...] = ()
         # Steps that are not evaluated yet, and the last that is, from which the account goes on.
         self._waiting: list[Steps] = []
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
         self._layouts = KnownLayouts(cycle)
 
-    def take(self, solved: Steps) -> None:
-        """The next steps."""
+    def _room_for(self, journal: Place | None) -> InMemory:
+        room = self.stored, self.model.steps + 1, self.model.contact_steps
+        if journal is None:
+            return InMemory(*room)
+        from fenics_gears.results.journal import Journal
+
+        return Journal(journal, self.model.scene, *room)
+
+    def take(self, solved: Steps, march: March | None = None) -> None:
+        """The next steps, and the march so far, which a journal keeps too."""
         self._waiting.append(solved)
-        self._evaluate()
+        self._evaluate(march)
 
     def finish(self) -> None:
-        """After the last step: evaluate the remaining records, and put the contact fields into the order of time."""
+        """After the last step: evaluate the remaining records, and put all into the order of time."""
         self._evaluate()
-        stored = self.size["contact_time"]
-        for name, (dims, _) in stored_arrays(self.model.scene, self.size).items():
-            if dims[0] == "contact_time":
-                whole = self.arrays[name]
-                self.arrays[name] = np.roll(whole, -(self.steps % stored), axis=0) if self.steps > stored else whole[: self.steps]
-            else:
-                self.arrays[name] = self.arrays[name][: self.steps]
+        if not self.steps:
+            none = self.size | {"time": 0, "contact_time": 0}
+            self.arrays = {name: np.empty([none[each] for each in dims], kind) for name, (dims, kind) in self.stored.items()}
+            return
+        self.arrays = {name: self.kept.get(name, self.steps) for name in self.stored}
+        self.watched = {name: self.kept.get(f"{WATCHED}{name}", self.steps) for name in self._watched}
 
-    @property
-    def watched(self) -> dict[str, np.ndarray]:
-        """What the warnings need, of all steps."""
-        names = self._watched[0] if self._watched else ()
-        return {name: np.concatenate([each[name] for each in self._watched]) for name in names}
+    def recall(self, recorded: Recorded) -> None:
+        """Take over what a journal holds, in place of a march."""
+        self.kept, self.steps = recorded, len(recorded.values["time"])
+        self._watched = tuple(name.removeprefix(WATCHED) for name in recorded.values if name.startswith(WATCHED))
 
-    def _evaluate(self) -> None:
+    def _evaluate(self, march: March | None = None) -> None:
         while self._waiting:
-            self._evaluate_block(self._waiting[0])
+            self._evaluate_block(self._waiting[0], march)
 
-    def _evaluate_block(self, block: Steps) -> None:
+    def _evaluate_block(self, block: Steps, march: March | None) -> None:
         scene, cycle = self.model.scene, self.cycle
         nodes = SideBySide(self._layouts, block, self.slots, self.first_number)
         numbers = block.numbers
@@ -100,20 +119,12 @@ class Recorder:
             values |= stresses
         for found in from_effects(scene, "watched", cycle, block):
             watched |= found
-        self._keep(values, fields, len(block))
+        kept = {name: of for name, of in (values | fields).items() if name in self.stored}
+        self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()}, march)
         # Last of all: a march that is interrupted before this line evaluates these steps again.
-        self._watched.append(watched)
+        self._watched = tuple(watched)
         del self._waiting[0]
         self._last, self._worked, self.steps = block.between(len(block) - 1, len(block)), worked, self.steps + len(block)
-
-    def _keep(self, values: dict[str, np.ndarray], fields: dict[str, np.ndarray], count: int) -> None:
-        stored = self.size["contact_time"]
-        for name, array in self.arrays.items():
-            if name in fields:
-                own = fields[name][-stored:]
-                array[(self.steps + count - len(own) + np.arange(len(own))) % stored] = own
-            else:
-                array[self.steps : self.steps + count] = values[name]
 
     def _centres(self, block: Steps) -> dict[str, np.ndarray]:
         scene, drivetrain = self.model.scene, self.model.drivetrain

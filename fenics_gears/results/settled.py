@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import ceil, exp, inf, isfinite, log, pi, sqrt
 from typing import TYPE_CHECKING
 
+import numpy as np
 import xarray as xr
 
 from fenics_gears.effects import common_period
@@ -51,7 +52,8 @@ def settled(model: Model, steps: int) -> Settled:
 def of_settled(result: xr.Dataset) -> xr.Dataset:
     """A result with its settled steps only; contact fields stay as they are."""
     begin = result.attrs.get("settled_from")
-    return result if begin is None else result.isel(time=result["time"].values >= begin)
+    # A slice: parts of the arrays, no copies.
+    return result if begin is None else result.isel(time=slice(int(np.searchsorted(result["time"].values, begin)), None))
 
 
 def _slowest(model: Model) -> tuple[float, Vibration | None]:

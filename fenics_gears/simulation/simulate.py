@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from typing import TYPE_CHECKING
 
 import xarray as xr
 
@@ -21,6 +22,9 @@ from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress, SilentProgress
 
+if TYPE_CHECKING:
+    from fenics_gears.results.journal import Place
+
 
 def simulate(
     scene: Scene,
@@ -29,11 +33,13 @@ def simulate(
     cache: Cache | None = None,
     preparation: Preparation | None = None,
     comm=None,
+    journal: Place | None = None,
 ) -> xr.Dataset:
     """Run a scene whose settings are decided and return its result (docs/result.md); `studies.simulate` chooses them by a target first.
 
     `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
     of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.
+    `journal`: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the caller removes it.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
     computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with what was done before as
     its attribute `partial`.
@@ -45,9 +51,9 @@ def simulate(
     cycle.kept.most = for_operators
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
-    recorder = Recorder(model, cycle, stress=_root_stress(model, cycle, progress, cache))
+    recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache), journal=journal)
     march = _marched(recorder, gears, compiled, progress)
-    result = _result(recorder, march, gears, compiled, complete=not march.interrupted)
+    result = result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
     return _with_dynamic_factors(recorder, result, progress)
 
 
@@ -63,7 +69,7 @@ def memory_for_operators(model: Model) -> float:
     return allowed - held
 
 
-def _root_stress(model: Model, cycle, progress: Progress, cache: Cache):
+def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
     """What the recorder needs for root stresses where they are asked for; None for routes without stresses, such as rigid flanks."""
     if not (model.scene.output.root_stress and route_of(model).stresses):
         return None
@@ -81,7 +87,7 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
         judged = 0 if cycle.traits.prescribes_friction else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
         return Marcher(cycle, model.equations_of_motion).run(model.steps, 1, progress.update, recorder.take, judged)
     except ContactNotConverged as failure:
-        failure.partial = _result(recorder, failure.partial, gears, compiled, complete=False)
+        failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed")
         raise
 
 
@@ -105,13 +111,13 @@ def assist(scene: Scene, comm) -> None:
         route(model, SilentProgress(), None, comm)
 
 
-def _result(recorder: Recorder, march: March, gears, compiled: float, complete: bool) -> xr.Dataset:
+def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> xr.Dataset:
+    """The dataset of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
     result, model, cycle = dataset(recorder, march), recorder.model, recorder.cycle
     resolution = model.resolution
-    stopped = {} if complete else {"stopped": "interrupted" if march.interrupted else "failed"}
     return result.assign_attrs(
-        stopped,
-        complete=int(complete),
+        {"stopped": stopped} if stopped else {},
+        complete=int(not stopped),
         warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
         base_radius_wheel=model.pair.wheel.base_radius,
         element=resolution.element,

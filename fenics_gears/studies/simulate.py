@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import tomllib
 from dataclasses import asdict, replace
+from typing import TYPE_CHECKING
 
 import xarray as xr
 
@@ -16,6 +17,9 @@ from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import Preparation
 from fenics_gears.studies.fields import changed
 from fenics_gears.system.progress import Progress, SilentProgress
+
+if TYPE_CHECKING:
+    from fenics_gears.results.journal import Place
 
 # The remedy where a warning recommends a setting, for settings may not stand beside a target.
 OTHER_SETTINGS = "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene has, and change them"
@@ -29,6 +33,7 @@ def simulate(
     cache: Cache | None = None,
     preparation: Preparation | None = None,
     comm=None,
+    journal: Place | None = None,
 ) -> xr.Dataset:
     """Run a scene and return its result (docs/result.md).
 
@@ -37,7 +42,7 @@ def simulate(
     settings in place of the target, so that it repeats the run. Arguments, results and errors are those of `simulation.simulate.simulate`;
     with a target also TargetNotReached.
     """
-    arguments = {"progress": progress or SilentProgress(), "cache": cache, "preparation": preparation, "comm": comm}
+    arguments = {"progress": progress or SilentProgress(), "cache": cache, "preparation": preparation, "comm": comm, "journal": journal}
     target = scene.accuracy.target
     if target is None:
         return simulation.simulate(scene, **arguments)

@@ -7,11 +7,13 @@ sealed file.
 from __future__ import annotations
 
 import hashlib
-import io
+import os
 from pathlib import Path
+from typing import BinaryIO
 
 _MARK = b"\nsha256 "
 _LENGTH = len(_MARK) + 64
+_PART = 1 << 20
 
 
 def seal(content: bytes | memoryview) -> bytes:
@@ -19,9 +21,25 @@ def seal(content: bytes | memoryview) -> bytes:
     return _MARK + hashlib.sha256(content).hexdigest().encode()
 
 
-def unsealed(path: Path) -> io.BytesIO:
-    """The content of a sealed file. Raises ValueError where it is not what was written, OSError where it cannot be read."""
-    content = path.read_bytes()
-    if content[-_LENGTH:] != seal(memoryview(content)[:-_LENGTH]):
-        raise ValueError("it does not hold what was written into it, or was written by another version or program")
-    return io.BytesIO(content[:-_LENGTH])
+def seal_of(file: BinaryIO, length: int) -> bytes:
+    """The same of the first `length` bytes of an open file."""
+    digest, left = hashlib.sha256(), length
+    file.seek(0)
+    while left and (part := file.read(min(left, _PART))):
+        digest.update(part)
+        left -= len(part)
+    return _MARK + digest.hexdigest().encode()
+
+
+def unsealed(path: Path) -> BinaryIO:
+    """A sealed file, open at its beginning. Raises ValueError where it is not what was written, OSError where it cannot be read."""
+    file = open(path, "rb")
+    try:
+        length = os.fstat(file.fileno()).st_size - _LENGTH
+        if length < 0 or seal_of(file, length) != file.read(_LENGTH):
+            raise ValueError("it does not hold what was written into it, or was written by another version or program")
+        file.seek(0)
+        return file
+    except BaseException:
+        file.close()
+        raise

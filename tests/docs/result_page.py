@@ -47,6 +47,17 @@ decreased to 1 %; without inertia all steps are. Where mesh cycles differ, whole
 deviation has met every other, such as the hunting tooth period. If the run is too short for this, the last common period is taken, or the last `recorded_cycles` where all mesh cycles are equal,
 and `warnings` say how much of the start is left. They also say if the run is shorter than the common period.
 """
+UNFINISHED = """## A run that has not ended
+
+While `gears run` marches through time, it writes the values of every block of steps to the directory `run.nc.part` in its output directory, and removes the directory when `run.nc` is there. If the run is killed, `gears plot DIR`,
+`gears report DIR`, `gears picture DIR` and `gears export DIR` read `run.nc.part`, also while the run goes on. They make the same result as if the run had been interrupted by Ctrl-C after the last step that is there. `complete` is 0,
+`stopped` is "not ended", and the first of the `warnings` says which steps are missing.
+
+* **What is lost:** the block of steps that was being computed, at most 512 steps (less than a second in most runs), or 32 of the slower steps of `condensation = "every step"`. A run that is killed in the first 2 seconds of its march leaves nothing.
+* **Full disk:** the run goes on without `run.nc.part`, and a warning says so.
+* **Power failure:** the operating system may not have written everything to the disk. A `run.nc.part` that does not hold what was written into it is refused.
+* **Only the same version** of the program reads it. An older `run.nc` in the directory is read first; `gears plot DIR/run.nc.part` names the other one.
+"""
 DIMENSIONS = {
     "time": "all time steps, with the start as step 0",
     "contact_time": "steps whose contact fields are stored, at the end of the run (`[output] contact_fields`)",
@@ -81,6 +92,7 @@ def page(result: xr.Dataset | None = None) -> str:
         if each.variables:
             lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
     lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
+    lines += [UNFINISHED]
     lines += ["## Attributes", "", *_attributes(), ""]
     lines += [f"Further attributes give the number of steps that each method solved, Newton's and its [fallbacks](model.md#fallbacks): `{RUNG}newton` and so on"]
     lines += [f"({', '.join(METHODS)}).", "", f"With `[accuracy] target`, further attributes give the estimated error of each setting: `{ESTIMATED}steps per mesh cycle` and so on."]

@@ -21,6 +21,8 @@ from tests.studies.test_run_study import FIVE, FOUR, load, stopped_in_the_middle
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.results.journal import is_journal
+from fenics_gears.simulation.unfinished import unfinished
 from fenics_gears.studies.case_files import sole_writer
 
 
@@ -75,6 +77,45 @@ def test_a_run_killed_between_its_files(folder, measured, number, what):
     assert all(Cache(Path("own")).load(entry.stem) is not None for entry in entries)
     assert main(["run", "pair.toml", "--output", "usual", "--quiet", "--no-pictures"]) == main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]) == 0
     assert results.load("here/run.nc").transmission_error.equals(results.load("usual/run.nc").transmission_error)
+
+
+def lengthened(folder, cycles):
+    """The coarse scene with more mesh cycles, fields of the last one recorded; its name."""
+    text = Path("pair.toml").read_text(encoding="utf-8").replace("mesh_cycles = 2 ", f"mesh_cycles = {cycles} ").replace("recorded_cycles = 2", "recorded_cycles = 1")
+    (folder / "long.toml").write_text(text, encoding="utf-8")
+    return "long.toml"
+
+
+@pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.nightly)])
+def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, capsys, kills):
+    """kill -9 at moments drawn at random: every step that is there is the undisturbed run's to the last bit, `gears plot` and `gears report` draw
+    them and say that the run did not end. The run keeps a journal from its first block of steps on, not only after two seconds."""
+    scene = lengthened(folder, 400)
+    program = "import sys\nfrom fenics_gears.results import journal\njournal.SECONDS_WITHOUT = 0.0\nfrom fenics_gears.commands import cli\ncli.main(sys.argv[1:])\n"
+    assert main(["run", scene, "--output", "usual", "--quiet", "--no-pictures"]) == 0
+    usual, moments, there, wrong = results.load("usual/run.nc"), np.random.default_rng().uniform(0.0, 0.3, kills), [], 0
+    for number, moment in enumerate(moments):
+        directory = folder / f"out{number}"
+        process = subprocess.Popen([sys.executable, "-c", program, "run", scene, "--output", str(directory), "--quiet", "--no-pictures"], cwd=folder, env=environment())
+        deadline = time.monotonic() + 60
+        while not is_journal(directory / "run.nc.part") and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.002)
+        time.sleep(moment)
+        os.kill(process.pid, signal.SIGKILL)
+        process.wait(timeout=60)
+        ended = (directory / "run.nc").exists()
+        found = results.load(directory / "run.nc") if ended else unfinished(directory / "run.nc.part")
+        steps, of_field = found.sizes["time"], found.sizes["contact_time"]
+        there.append(steps)
+        wrong += sum(not variable.equals(usual.variables[name][:steps]) for name, variable in found.variables.items() if variable.dims[:1] == ("time",))
+        np.testing.assert_array_equal(found["contact_time"], usual["time"][steps - of_field : steps])
+        assert ended or (found.attrs["complete"], found.attrs["stopped"], found.attrs["steps"]) == (0, "not ended", steps - 1)
+    measured(f"a run killed at {kills} moments of its march: steps on disk", f"{min(there)} to {max(there)} of {usual.sizes['time']}, {wrong} curves wrong", "those done, none wrong")
+    assert wrong == 0 and min(there) > 0
+    if kills == 1 and not ended:
+        assert main(["plot", str(directory)]) == main(["report", str(directory), "--no-stress"]) == 0
+        assert capsys.readouterr().err.count(f"has not come to its end (its process was killed, or still runs): {steps - 1} of its {usual.attrs['steps']} steps are there") == 2
+        assert "INCOMPLETE RUN. Its process was killed, or still runs." in (directory / "report.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.nightly

@@ -5,7 +5,7 @@ import io
 import numpy as np
 import xarray as xr
 
-from fenics_gears.results.files import netcdf
+from fenics_gears.results.files import write_netcdf
 
 
 def several_kinds(steps: int) -> xr.Dataset:
@@ -30,7 +30,9 @@ def test_a_file_is_read_as_if_another_program_had_written_it():
     for steps in (0, 5):
         ours = several_kinds(steps)
         theirs = _by_h5netcdf(ours)
-        with xr.open_dataset(io.BytesIO(bytes(netcdf(ours))), engine="h5netcdf") as read, xr.open_dataset(theirs, engine="h5netcdf") as expected:
+        content = io.BytesIO()
+        write_netcdf(ours, content)
+        with xr.open_dataset(content, engine="h5netcdf") as read, xr.open_dataset(theirs, engine="h5netcdf") as expected:
             assert read.load().identical(expected.load())
             assert read.identical(ours)
 

@@ -46,7 +46,7 @@ def _alarm(run: Run) -> str:
 def _incomplete(run: Run) -> list[str]:
     if run.complete:
         return []
-    why = {"interrupted": " It was interrupted.", "failed": " It failed."}.get(run.dataset.attrs.get("stopped"), "")
+    why = {"interrupted": " It was interrupted.", "failed": " It failed.", "not ended": " Its process was killed, or still runs."}.get(run.dataset.attrs.get("stopped"), "")
     if not run.steps:
         return [f"INCOMPLETE RUN.{why} No step is stored."]
     stopped = f"It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}"

@@ -1,0 +1,45 @@
+"""The result of a run that has not come to its end, made of its journal: its process was killed, or still runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from fenics_gears.dynamics.march import March
+from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.model.model import model_of
+from fenics_gears.results.journal import read
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.simulate import result_of, root_stress_of
+from fenics_gears.system.progress import Progress, SilentProgress
+
+NOT_ENDED = "not ended"
+
+
+def unfinished(directory: Path, progress: Progress | None = None, cache: Cache | None = None) -> xr.Dataset:
+    """The result as it would be if the run had been interrupted after the last step of its journal; `complete` 0, `stopped` NOT_ENDED.
+
+    The gears are those of the cache, or condensed again. Raises ComputationError where the journal cannot be read.
+    """
+    progress, cache = progress or SilentProgress(), cache or user_cache()
+    recorded = read(directory)
+    model = model_of(recorded.scene)
+    gears, cycle = prepared(model, progress, cache)
+    recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache))
+    recorder.recall(recorded)
+    equations = model.equations_of_motion
+    march = March(equations.friction, equations.drivetrain.stiffness, **recorded.march)
+    result = result_of(recorder, march, gears, 0.0, NOT_ENDED)
+    return result.assign_attrs(warnings="\n".join([_missing(result, recorded.steps), *result.attrs["warnings"].splitlines()]))
+
+
+def _missing(result: xr.Dataset, steps: int) -> str:
+    there, last = result.attrs["steps"], result.isel(time=-1)
+    of = result.attrs["steps_per_mesh_cycle"]
+    return (
+        f"the run has not come to its end (its process was killed, or still runs): {there} of its {steps} steps are there, up to "
+        f"{float(last['time']):.4g} s (mesh cycle {float(last['mesh_phase']):.2f} of {steps / of:g}); what comes after them is missing, and all "
+        "numbers are of these steps"
+    )
