@@ -6,12 +6,12 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property
 from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.existence import locked_nodes, working
@@ -111,6 +111,12 @@ def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[Backwar
     return BackwardEuler
 
 
+@cache
+def _thread_pools() -> ThreadpoolController:
+    """The libraries with threads that are loaded as the first march begins: to find them takes milliseconds."""
+    return ThreadpoolController()
+
+
 class Marcher:
     """Steps the equations of motion with the contact of a `cycle` through time; `plain`: every step by itself, in Python."""
 
@@ -146,7 +152,7 @@ class Marcher:
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
-        with threadpool_limits(limits=1):
+        with _thread_pools().limit(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
             return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved: None), judged)
 
@@ -158,7 +164,7 @@ class Marcher:
             if self._may_lock:
                 march.locked += [int(record.step) for record in solved.records if record.step > 0 and self._locks(record)]
             if self.friction and solved.numbers[-1] > steps - judged:
-                self._judge(march, [record for record in solved.records if record.step > steps - judged])
+                self._judge(march, solved.between(int(np.searchsorted(solved.numbers, steps - judged, side="right")), len(solved)))
             observe(solved)
 
         try:
@@ -339,11 +345,11 @@ class Marcher:
         motion[wheel] = np.sign(self.load(record.step)[wheel])
         return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
 
-    def _judge(self, march: March, records: list[Record]) -> None:
+    def _judge(self, march: March, steps: Steps) -> None:
         from fenics_gears.contact.uniqueness import uncertified
 
-        solved = ((record.position.operator, record.solution.status, record.solution.forces) for record in records)
-        march.judged, march.uncertified = march.judged + len(records), march.uncertified + uncertified(march.stiffness, march.friction, solved)
+        found = uncertified(march.stiffness, march.friction, steps.solved)
+        march.judged, march.uncertified = march.judged + len(steps), march.uncertified + found
 
     def _static_start(self, step: int) -> Record:
         position = self.cycle.position(step)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import io
 import os
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -35,7 +36,7 @@ def save(result: xr.Dataset, path: str | Path) -> None:
         aside.unlink(missing_ok=True)
 
 
-def netcdf(dataset: xr.Dataset) -> memoryview:
+def netcdf(dataset: xr.Dataset) -> bytes:
     """A dataset as the bytes of a NetCDF-4 file, what has several dimensions compressed.
 
     Made in memory, since HDF5 itself does not come back cleanly from a full disk. Written by h5py, as the NetCDF-4 format specification
@@ -44,9 +45,8 @@ def netcdf(dataset: xr.Dataset) -> memoryview:
     import h5py
 
     variables, attributes = cf_encoder(*encode_dataset_coordinates(dataset))
-    content = io.BytesIO()
-    with h5py.File(content, "w", track_order=True) as file:
-        file.attrs.update(attributes)
+    with h5py.File("in memory", "w", driver="core", backing_store=False, track_order=True) as file:
+        _write_attributes(file, attributes)
         written = {name: _write_variable(file, name, variable) for name, variable in variables.items()}
         scales = {name: written.get(name) or file.create_dataset(name, (size,), ">f4") for name, size in dataset.sizes.items()}
         for number, (name, scale) in enumerate(scales.items()):
@@ -55,8 +55,9 @@ def netcdf(dataset: xr.Dataset) -> memoryview:
         for name, values in written.items():
             for axis, dimension in enumerate(variables[name].dims):
                 if name not in scales:
-                    values.dims[axis].attach_scale(scales[dimension])
-    return content.getbuffer()
+                    h5py.h5ds.attach_scale(values.id, scales[dimension].id, axis)
+        file.flush()
+        return file.id.get_file_image()
 
 
 def _write_variable(file, name: str, variable: xr.Variable):
@@ -68,8 +69,21 @@ def _write_variable(file, name: str, variable: xr.Variable):
         values = values.astype(h5py.string_dtype())
     compressed = {"compression": "gzip", "compression_opts": 1, "shuffle": True} if values.ndim > 1 and values.size else {}
     written = file.create_dataset(name, data=values, fillvalue=variable.attrs.get("_FillValue"), track_order=True, **compressed)
-    written.attrs.update(variable.attrs)
+    _write_attributes(written, variable.attrs)
     return written
+
+
+def _write_attributes(place, attributes: Mapping[str, Any]) -> None:
+    """As `place.attrs.update(attributes)`, single values, of which there are hundreds, by HDF5's own call: a third of the time."""
+    import h5py
+
+    string, scalar = h5py.string_dtype(), h5py.h5s.create(h5py.h5s.SCALAR)
+    for name, value in attributes.items():
+        array = np.array(value, dtype=string if isinstance(value, str) else None)
+        if array.ndim or array.dtype.kind not in "Oif":
+            place.attrs[name] = value
+        else:
+            h5py.h5a.create(place.id, name.encode(), h5py.h5t.py_create(array.dtype, logical=True), scalar).write(array)
 
 
 def load(path: str | Path) -> xr.Dataset:

@@ -20,7 +20,7 @@ from fenics_gears.model.storage import allocated, sizes, stored_arrays
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
-from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
+from fenics_gears.results.side_by_side import SideBySide, known_layouts
 
 if TYPE_CHECKING:
     from fenics_gears.results.root_stress_variables import RootStress
@@ -47,7 +47,7 @@ class Recorder:
         self._waiting: list[Steps] = []
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
-        self._layouts = KnownLayouts(cycle)
+        self._layouts = known_layouts(cycle)
 
     def take(self, solved: Steps) -> None:
         """The next steps."""
@@ -77,7 +77,7 @@ class Recorder:
 
     def _evaluate_block(self, block: Steps) -> None:
         scene, cycle = self.model.scene, self.cycle
-        nodes = SideBySide(self._layouts, block, self.slots, self.first_number)
+        nodes = SideBySide(self._layouts, cycle, block, self.slots, self.first_number)
         numbers = block.numbers
         times = np.array([self.model.clock.time(step) for step in numbers])
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import ceil, exp, inf, isfinite, log, pi, sqrt
 from typing import TYPE_CHECKING
 
+import numpy as np
 import xarray as xr
 
 from fenics_gears.effects import common_period
@@ -48,10 +49,16 @@ def settled(model: Model, steps: int) -> Settled:
     return Settled(steps - whole * int(period) * a_cycle if whole else first, warning)
 
 
+def settled_steps(result: xr.Dataset) -> slice:
+    """Which steps of a result are settled."""
+    begin = result.attrs.get("settled_from")
+    return slice(None) if begin is None else slice(int(np.searchsorted(result["time"].values, begin)), None)
+
+
 def of_settled(result: xr.Dataset) -> xr.Dataset:
     """A result with its settled steps only; contact fields stay as they are."""
-    begin = result.attrs.get("settled_from")
-    return result if begin is None else result.isel(time=result["time"].values >= begin)
+    steps = settled_steps(result)
+    return result if not steps.start else result.isel(time=steps)
 
 
 def _slowest(model: Model) -> tuple[float, Vibration | None]:
