@@ -94,7 +94,8 @@ def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Prog
     if not dynamic_factor.wanted(recorder.model.scene):
         return result
     progress.stage("quasi-static run")
-    return result.assign_attrs(dynamic_factor.dynamic_factors(recorder, result))
+    result.attrs.update(dynamic_factor.dynamic_factors(recorder, result))
+    return result
 
 
 def assist(scene: Scene, comm) -> None:
@@ -109,7 +110,7 @@ def _result(recorder: Recorder, march: March, gears, compiled: float, complete: 
     result, model, cycle = dataset(recorder, march), recorder.model, recorder.cycle
     resolution = model.resolution
     stopped = {} if complete else {"stopped": "interrupted" if march.interrupted else "failed"}
-    return result.assign_attrs(
+    result.attrs.update(
         stopped,
         complete=int(complete),
         warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
@@ -125,3 +126,4 @@ def _result(recorder: Recorder, march: March, gears, compiled: float, complete: 
         time_condense=sum(gear.timings["time_condense"] for gear in gears),
         time_compile=compiled + sum(gear.timings["time_compile"] for gear in gears),
     )
+    return result
