@@ -10,6 +10,7 @@ from tests.coarse import coarse_scene
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation import dynamic_factor
+from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import GearStore
 
@@ -38,11 +39,9 @@ def test_runs_that_share_a_cycle_are_those_that_do_not(paper_scene, monkeypatch)
 
 def test_what_is_known_of_a_cycle_goes_with_it(paper_scene):
     """Layouts and peaks hold no contact operators: a study frees the memory of a cycle before it makes the next."""
-    store, scene = GearStore(), variants(paper_scene)[0]
     kept = []
-    simulate(scene, preparation=lambda *given: kept.append(store.prepared(*given)) or kept[-1])
+    simulate(variants(paper_scene)[0], preparation=lambda *given: kept.append(prepared(*given)) or kept[0])
     cycle = weakref.ref(kept[0][1])
-    del store
     kept.clear()
     gc.collect()
     assert cycle() is None
