@@ -13,6 +13,7 @@ serves where inertia makes K regular but little: its part of D M is then b b^T/l
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 import numpy as np
 
@@ -24,8 +25,7 @@ SINGULAR = 1e-14
 
 def flexibility(stiffness: np.ndarray, compliance: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
     """W = C + G K^+ G^T (m, m), mm/N; motions that the stiffness does not hold are left out."""
-    values, vectors = np.linalg.eigh(stiffness)
-    held = values > SINGULAR * max(values[-1], 0.0)
+    values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
     moved = jacobian @ vectors[:, held]
     return compliance + (moved / values[held]) @ moved.T
 
@@ -39,8 +39,7 @@ def is_only_solution(
         return True
     n = len(closed)
     share = friction * sigma[nodes]
-    values, vectors = np.linalg.eigh(stiffness)
-    held = values > SINGULAR * max(values[-1], 0.0)
+    values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
     normal, tangential = jacobian[nodes] @ vectors, jacobian[n + nodes] @ vectors
     matrix = compliance[np.ix_(nodes, nodes)] + compliance[np.ix_(nodes, n + nodes)] * share
     sliding = normal + share[:, None] * tangential
@@ -76,6 +75,13 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
             known[key] = is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, status != OPEN, sigma)
         count += not known[key]
     return count
+
+
+@lru_cache(maxsize=4)
+def _motions(stiffness: bytes, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Eigenvalues, eigenvectors as columns, and which of them a stiffness holds; a march asks for those of one stiffness hundreds of times."""
+    values, vectors = np.linalg.eigh(np.frombuffer(stiffness).reshape(size, size))
+    return values, vectors, values > SINGULAR * max(values[-1], 0.0)
 
 
 def _across(direction: np.ndarray) -> np.ndarray:

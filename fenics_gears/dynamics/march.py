@@ -6,11 +6,11 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from math import ceil
 
 import numpy as np
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.existence import locked_nodes, working
@@ -72,6 +72,12 @@ class March:
         return [record for steps in self._last for record in steps.records][-self.kept :]
 
 
+@cache
+def _thread_pools() -> ThreadpoolController:
+    """The libraries with threads that are loaded as the first march begins: to find them takes milliseconds."""
+    return ThreadpoolController()
+
+
 class Marcher(Stepper):
     """Steps the equations of motion with the contact of a `cycle` through time; `plain`: every step by itself, in Python."""
 
@@ -100,7 +106,7 @@ class Marcher(Stepper):
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
-        with threadpool_limits(limits=1):
+        with _thread_pools().limit(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
             return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged)
 
@@ -112,7 +118,7 @@ class Marcher(Stepper):
             if self._may_lock:
                 march.locked += [int(record.step) for record in solved.records if record.step > 0 and self._locks(record)]
             if self.friction and solved.numbers[-1] > steps - judged:
-                self._judge(march, [record for record in solved.records if record.step > steps - judged])
+                self._judge(march, solved.between(int(np.searchsorted(solved.numbers, steps - judged, side="right")), len(solved)))
             observe(solved, march)
 
         try:
@@ -190,15 +196,15 @@ class Marcher(Stepper):
             report(step)
             self._reported = now
 
-    def _judge(self, march: March, records: list[Record]) -> None:
-        from fenics_gears.contact.uniqueness import uncertified
-
-        solved = ((record.position.operator, record.solution.status, record.solution.forces) for record in records)
-        march.judged, march.uncertified = march.judged + len(records), march.uncertified + uncertified(march.stiffness, march.friction, solved)
-
     def _locks(self, record: Record) -> bool:
         """Whether friction at a closed node cancels more of the load than its normal force holds."""
         motion = np.zeros(len(self.drivetrain.coordinates))
         wheel = self.drivetrain.coordinates.index("rotation_2")
         motion[wheel] = np.sign(self.load(record.step)[wheel])
         return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
+
+    def _judge(self, march: March, steps: Steps) -> None:
+        from fenics_gears.contact.uniqueness import uncertified
+
+        found = uncertified(march.stiffness, march.friction, steps.solved)
+        march.judged, march.uncertified = march.judged + len(steps), march.uncertified + found

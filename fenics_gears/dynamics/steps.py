@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -12,6 +12,7 @@ from numba import njit
 from fenics_gears.contact.addresses import GAP, NODES, ON_DRIVE_FLANKS, flags_at, vector_at
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import StepSolution
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.dynamics.average_acceleration import State
@@ -126,6 +127,13 @@ class Steps:
     def records(self) -> list[Record]:
         """The steps one by one."""
         return [self.record(place) for place in range(len(self))]
+
+    @property
+    def solved(self) -> Iterator[tuple[ContactOperator, np.ndarray, np.ndarray]]:
+        """Contact operator, status (n,) and forces (n,) or (2 n,), N, of each step."""
+        starts, kinds = self.starts.tolist(), self.kinds
+        for position, first, end in zip(self.positions, starts, starts[1:]):
+            yield position.operator, self.status[first:end], self.forces[kinds * first : kinds * end]
 
     @property
     def kinds(self) -> int:

@@ -52,9 +52,9 @@ def _summed(rows, forces, starts):
     return sums
 
 
-def largest_normal_force(result: xr.Dataset) -> float:
-    """The largest contact force (N) of a mesh, on its drive or its coast flanks."""
-    forces = [result[name].values.max(initial=0.0) for name in ("normal_force", "coast_normal_force") if name in result]
+def largest_normal_force(result: xr.Dataset, steps: slice = slice(None)) -> float:
+    """The largest contact force (N) of a mesh, on its drive or its coast flanks, in all steps or some."""
+    forces = [result[name].values[steps].max(initial=0.0) for name in ("normal_force", "coast_normal_force") if name in result]
     return float(max(forces))
 
 

@@ -40,15 +40,18 @@ def dataset(recorder: Recorder, march: March) -> xr.Dataset:
         coords=_coordinates(recorder, arrays),
     )
     counted = settled(model, max(recorder.steps - 1, 0))
-    attributes = _attributes(recorder, march, result, counted.first)
-    result = result.assign_attrs(attributes).assign(_contact_points(model, result.assign_attrs(attributes)))
-    attributes = _numbers(recorder, march, result)
+    # In place: a copy of so many variables takes a millisecond.
+    result.attrs.update(_attributes(recorder, march, result, counted.first))
+    counted_steps = of_settled(result)
+    result = result.assign(_contact_points(model, counted_steps))
+    attributes = _numbers(recorder, march, result, counted_steps)
     found = [counted.warning] if counted.warning else []
     found += warnings_of(recorder, march, result)
     found += [*warnings_of_energy(model.scene, shown(result), recorder.cycle.steps), *_undetermined_shares(result)]
     for sentences in from_effects(model.scene, "findings", recorder.watched):
         found += sentences
-    return result.assign_attrs(attributes, warnings="\n".join(found))
+    result.attrs.update(attributes, warnings="\n".join(found))
+    return result
 
 
 def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
@@ -100,12 +103,12 @@ def _time_name(scene: Scene) -> str:
     return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
 
 
-def _contact_points(model: Model, result: xr.Dataset) -> dict[str, tuple]:
-    """Variables over the points of the path of contact."""
+def _contact_points(model: Model, counted: xr.Dataset) -> dict[str, tuple]:
+    """Variables over the points of the path of contact, of the settled steps."""
     described = {variable.name: variable for variable in result_variables(model.scene)}
     return {
         name: (described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name})
-        for name, values in path_point_values(of_settled(result), model.scene, model.pair).items() if name in described
+        for name, values in path_point_values(counted, model.scene, model.pair).items() if name in described
     }
 
 
@@ -141,11 +144,10 @@ def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int
     return attributes
 
 
-def _numbers(recorder: Recorder, march: March, result: xr.Dataset) -> dict[str, float]:
-    """The numbers of a run, of all settled steps."""
+def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.Dataset) -> dict[str, float]:
+    """The numbers of a run, of its settled steps `counted`."""
     if not recorder.steps:
         return {"contact_loss_count": 0}
-    counted = of_settled(result)
     first = recorder.steps - counted.sizes["time"]
     error = counted["transmission_error"].values
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Mapping
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -85,7 +86,7 @@ def write_netcdf(dataset: xr.Dataset, content) -> None:
 
     variables, attributes = cf_encoder(*encode_dataset_coordinates(dataset))
     with h5py.File(content, "w", track_order=True) as file:
-        file.attrs.update(attributes)
+        _write_attributes(file, attributes)
         written = {name: _write_variable(file, name, variable) for name, variable in variables.items()}
         scales = {name: written.get(name) or file.create_dataset(name, (size,), ">f4") for name, size in dataset.sizes.items()}
         for number, (name, scale) in enumerate(scales.items()):
@@ -94,7 +95,7 @@ def write_netcdf(dataset: xr.Dataset, content) -> None:
         for name, values in written.items():
             for axis, dimension in enumerate(variables[name].dims):
                 if name not in scales:
-                    values.dims[axis].attach_scale(scales[dimension])
+                    h5py.h5ds.attach_scale(values.id, scales[dimension].id, axis)
 
 
 def _write_variable(file, name: str, variable: xr.Variable):
@@ -106,8 +107,21 @@ def _write_variable(file, name: str, variable: xr.Variable):
         values = values.astype(h5py.string_dtype())
     compressed = {"compression": "gzip", "compression_opts": 1, "shuffle": True} if values.ndim > 1 and values.size else {}
     written = file.create_dataset(name, data=values, fillvalue=variable.attrs.get("_FillValue"), track_order=True, **compressed)
-    written.attrs.update(variable.attrs)
+    _write_attributes(written, variable.attrs)
     return written
+
+
+def _write_attributes(place, attributes: Mapping[str, Any]) -> None:
+    """As `place.attrs.update(attributes)`, single values, of which there are hundreds, by HDF5's own call: a third of the time."""
+    import h5py
+
+    string, scalar = h5py.string_dtype(), h5py.h5s.create(h5py.h5s.SCALAR)
+    for name, value in attributes.items():
+        array = np.array(value, dtype=string if isinstance(value, str) else None)
+        if array.ndim or array.dtype.kind not in "Oif":
+            place.attrs[name] = value
+        else:
+            h5py.h5a.create(place.id, name.encode(), h5py.h5t.py_create(array.dtype, logical=True), scalar).write(array)
 
 
 def load(path: str | Path) -> xr.Dataset:

@@ -82,14 +82,17 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
         found["peak_edge_pressure"] = edge
     if pressure[place] <= NO_FORCE / pair.face_width**2:
         return {"peak_contact_pressure": 0.0}
-    at = settled.isel(time=place)
-    on_coast = "coast_normal_force" in at and float(at["coast_normal_force"]) > float(at["normal_force"])
+
+    def at(name: str) -> float:
+        return float(settled[name].values[place])
+
+    on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
     return found | {
-        "peak_contact_pressure_time": float(at["time"]),
-        "peak_contact_pressure_mesh_phase": float(at["mesh_phase"]),
-        "peak_contact_pressure_pair": int(at["largest_contact_pressure_pair"]),
+        "peak_contact_pressure_time": at("time"),
+        "peak_contact_pressure_mesh_phase": at("mesh_phase"),
+        "peak_contact_pressure_pair": int(at("largest_contact_pressure_pair")),
         "peak_contact_pressure_flank": "coast" if on_coast else "drive",
-        "peak_contact_pressure_diameter": 2.0 * float(pair.pinion.radius(float(at["largest_contact_pressure_roll_angle"]))),
+        "peak_contact_pressure_diameter": 2.0 * float(pair.pinion.radius(at("largest_contact_pressure_roll_angle"))),
     }
 
 

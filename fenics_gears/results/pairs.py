@@ -20,12 +20,18 @@ class Life:
     steps: slice
 
 
-def shown(result: xr.Dataset) -> xr.Dataset:
-    """The last cycles of a result, which pictures show: as many as its attribute `shown_cycles` says, all of a ramp."""
+def shown_steps(result: xr.Dataset) -> slice:
+    """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says, all of a ramp."""
     cycles, phase = result.attrs.get("shown_cycles"), result["mesh_phase"].values
     if cycles is None or not len(phase) or phase[-1] - phase[0] <= cycles * (1.0 + 1e-9):
-        return result
-    return result.isel(time=slice(int(np.searchsorted(phase, phase[-1] - cycles - 1e-9)), None))
+        return slice(None)
+    return slice(int(np.searchsorted(phase, phase[-1] - cycles - 1e-9)), None)
+
+
+def shown(result: xr.Dataset) -> xr.Dataset:
+    """A result with the steps only that pictures show."""
+    steps = shown_steps(result)
+    return result if steps.start is None else result.isel(time=steps)
 
 
 def contact_times(result: xr.Dataset) -> xr.Dataset:

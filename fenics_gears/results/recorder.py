@@ -22,7 +22,7 @@ from fenics_gears.results.contact_variables import mesh_variables, node_variable
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.kept import InMemory, Kept
 from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
-from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
+from fenics_gears.results.side_by_side import SideBySide, known_layouts
 
 if TYPE_CHECKING:
     from fenics_gears.results.journal import Place, Recorded
@@ -60,7 +60,7 @@ class Recorder:
         self._waiting: list[Steps] = []
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
-        self._layouts = KnownLayouts(cycle)
+        self._layouts = known_layouts(cycle)
 
     def _room_for(self, journal: Place | None) -> InMemory:
         room = self.stored, self.model.steps + 1, self.model.contact_steps
@@ -96,7 +96,7 @@ class Recorder:
 
     def _evaluate_block(self, block: Steps, march: March | None) -> None:
         scene, cycle = self.model.scene, self.cycle
-        nodes = SideBySide(self._layouts, block, self.slots, self.first_number)
+        nodes = SideBySide(self._layouts, cycle, block, self.slots, self.first_number)
         numbers = block.numbers
         times = np.array([self.model.clock.time(step) for step in numbers])
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}

@@ -49,11 +49,16 @@ def settled(model: Model, steps: int) -> Settled:
     return Settled(steps - whole * int(period) * a_cycle if whole else first, warning)
 
 
+def settled_steps(result: xr.Dataset) -> slice:
+    """Which steps of a result are settled."""
+    begin = result.attrs.get("settled_from")
+    return slice(None) if begin is None else slice(int(np.searchsorted(result["time"].values, begin)), None)
+
+
 def of_settled(result: xr.Dataset) -> xr.Dataset:
     """A result with its settled steps only; contact fields stay as they are."""
-    begin = result.attrs.get("settled_from")
-    # A slice: parts of the arrays, no copies.
-    return result if begin is None else result.isel(time=slice(int(np.searchsorted(result["time"].values, begin)), None))
+    steps = settled_steps(result)
+    return result if not steps.start else result.isel(time=steps)
 
 
 def _slowest(model: Model) -> tuple[float, Vibration | None]:

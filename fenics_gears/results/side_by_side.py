@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -77,26 +78,42 @@ class Layouts:
 
 
 class KnownLayouts:
-    """Layouts of the positions of a `cycle`, made when they are first met."""
+    """Layouts of the positions of a cycle, made when they are first met."""
 
-    def __init__(self, cycle: Cycle):
-        self.cycle = cycle
+    def __init__(self):
         self._layouts: dict[int, Layout] = {}
         self._joined: dict[tuple[int, ...], Layouts] = {}
 
-    def joined(self, steps: Steps) -> Layouts:
-        """The layouts of some steps."""
+    def joined(self, cycle: Cycle, steps: Steps) -> Layouts:
+        """The layouts of some steps of that cycle."""
         operators = [position.operator for position in steps.positions]
         key = tuple(id(operator.pairs) for operator in operators)
         if key not in self._joined:
-            self._joined[key] = Layouts([self._layout(operator, steps.kinds) for operator in operators], steps.kinds)
+            self._joined[key] = Layouts([self._layout(cycle, operator, steps.kinds) for operator in operators], steps.kinds)
         return self._joined[key]
 
-    def _layout(self, operator: ContactOperator, kinds: int) -> Layout:
+    def _layout(self, cycle: Cycle, operator: ContactOperator, kinds: int) -> Layout:
         found = self._layouts.get(id(operator.pairs))
         if found is None:
-            found = self._layouts[id(operator.pairs)] = Layout(operator, self.cycle, kinds == 2)
+            found = self._layouts[id(operator.pairs)] = Layout(operator, cycle, kinds == 2)
         return found
+
+    def forget_beyond(self, positions: int) -> None:
+        """Forget all where more are known than so many, as where steps were divided at positions of their own."""
+        if len(self._layouts) > positions or sum(map(len, self._joined)) > MOST_TIMES_JOINED * positions:
+            self.__init__()
+
+
+# Runs of one cycle, such as those of a study, have its layouts in common. They do not hold the cycle, and go with it.
+_OF_CYCLES: WeakKeyDictionary[Cycle, KnownLayouts] = WeakKeyDictionary()
+MOST_TIMES_JOINED = 8
+
+
+def known_layouts(cycle: Cycle) -> KnownLayouts:
+    """What the runs of a cycle so far know of its layouts."""
+    known = _OF_CYCLES.setdefault(cycle, KnownLayouts())
+    known.forget_beyond(cycle.steps)
+    return known
 
 
 class SideBySide:
@@ -106,9 +123,9 @@ class SideBySide:
     pair of index 0 in cycle 0; `normal` and `tangential`: its forces, N, the latter None without friction.
     """
 
-    def __init__(self, known: KnownLayouts, steps: Steps, slots: int, first_number: int):
-        self.cycle, self.steps, self.slots, self.first_number = known.cycle, steps, slots, first_number
-        self.layouts = known.joined(steps)
+    def __init__(self, known: KnownLayouts, cycle: Cycle, steps: Steps, slots: int, first_number: int):
+        self.cycle, self.steps, self.slots, self.first_number = cycle, steps, slots, first_number
+        self.layouts = known.joined(cycle, steps)
         self.step, self.of = self.layouts.step, self.layouts.of
         self.cycles = (steps.numbers // self.cycle.steps).astype(int)
         self.normal = steps.forces[self.layouts.normal]

@@ -7,19 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
-from fenics_gears.model.model import model_of
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.results.settled import of_settled
+from fenics_gears.results.settled import settled_steps
 from fenics_gears.scene.data import Scene
 
+Peaks = tuple[float, float]
 LARGEST_STRESS, LARGEST_FORCE = ("root_stress_maximum", "root_stress_at_30_degrees"), ("pair_normal_force", "pair_coast_normal_force")
 DIFFERENT_CYCLES = "mesh cycles differ: [output] root_stress = true runs the scene without inertia beside"
 
@@ -52,17 +55,12 @@ def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float |
     period = min(common_period(scene), model.scene.motion.mesh_cycles)
     motion = replace(scene.motion, mesh_cycles=period, recorded_cycles=1)
     still = model_of(replace(scene, motion=motion, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=cycle.steps)))
-    reference = Recorder(still, cycle, stress=recorder.stress)
-    try:
-        march = Marcher(cycle, still.equations_of_motion).run(still.steps, 1, observe=reference.take)
-    except ContactNotConverged as failure:
-        return {"dynamic_factor_unknown": f"the quasi-static run has no solution: {str(failure).splitlines()[0]}"}
-    if march.interrupted:
-        return {"dynamic_factor_unknown": "the quasi-static run was interrupted"}
-    reference.finish()
-    counted = of_settled(result)
-    moving = {name: counted[name].values for name in LARGEST_FORCE + LARGEST_STRESS if name in counted}
-    (stress_moving, force_moving), (stress_still, force_still) = _peaks(moving), _peaks(reference.arrays)
+    peaks_still = _peaks_still(still, recorder)
+    if isinstance(peaks_still, str):
+        return {"dynamic_factor_unknown": peaks_still}
+    counted = settled_steps(result)
+    moving = {name: result[name].values[counted] for name in LARGEST_FORCE + LARGEST_STRESS if name in result}
+    (stress_moving, force_moving), (stress_still, force_still) = _peaks(moving), peaks_still
     if not force_still:
         return {"dynamic_factor_unknown": "without inertia nothing touches"}
     factors = {"quasi_static_pair_normal_force": force_still, "dynamic_factor_by_force": force_moving / force_still}
@@ -71,7 +69,34 @@ def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float |
     return factors
 
 
-def _peaks(curves: Mapping[str, np.ndarray]) -> tuple[float, float]:
+# Peaks of quasi-static marches, which runs on the same cycle, such as those of a study, have in common.
+_PEAKS_OF_CYCLES: WeakKeyDictionary[Cycle, dict[tuple, Peaks]] = WeakKeyDictionary()
+
+
+def _peaks_still(still: Model, recorder: Recorder) -> Peaks | str:
+    """The peaks of the quasi-static model, or why there are none."""
+    cycle, drivetrain, equations = recorder.cycle, still.drivetrain, still.equations_of_motion
+    # Without mass and loads that vary nothing depends on time, nor on the mesh frequency.
+    key = drivetrain.coordinates, drivetrain.radii.tobytes(), drivetrain.stiffness.tobytes(), drivetrain.load.tobytes(), equations.friction, still.steps
+    known = _PEAKS_OF_CYCLES.setdefault(cycle, {})
+    shared = not still.loads and recorder.stress is None
+    if shared and key in known:
+        return known[key]
+    reference = Recorder(still, cycle, stress=recorder.stress)
+    try:
+        march = Marcher(cycle, equations).run(still.steps, 1, observe=reference.take)
+    except ContactNotConverged as failure:
+        return f"the quasi-static run has no solution: {str(failure).splitlines()[0]}"
+    if march.interrupted:
+        return "the quasi-static run was interrupted"
+    reference.finish()
+    peaks = _peaks(reference.arrays)
+    if shared:
+        known[key] = peaks
+    return peaks
+
+
+def _peaks(curves: Mapping[str, np.ndarray]) -> Peaks:
     """Largest root stress (MPa) and largest normal force (N) of a tooth pair; 0 where there are none."""
     return tuple(
         max((float(np.nanmax(curves[name], initial=0.0)) for name in names if name in curves), default=0.0) for names in (LARGEST_STRESS, LARGEST_FORCE)

@@ -100,7 +100,8 @@ def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Prog
     if not dynamic_factor.wanted(recorder.model.scene):
         return result
     progress.stage("quasi-static run")
-    return result.assign_attrs(dynamic_factor.dynamic_factors(recorder, result))
+    result.attrs.update(dynamic_factor.dynamic_factors(recorder, result))
+    return result
 
 
 def assist(scene: Scene, comm) -> None:
@@ -115,7 +116,7 @@ def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped:
     """The dataset of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
     result, model, cycle = dataset(recorder, march), recorder.model, recorder.cycle
     resolution = model.resolution
-    return result.assign_attrs(
+    result.attrs.update(
         {"stopped": stopped} if stopped else {},
         complete=int(not stopped),
         warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
@@ -131,3 +132,4 @@ def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped:
         time_condense=sum(gear.timings["time_condense"] for gear in gears),
         time_compile=compiled + sum(gear.timings["time_compile"] for gear in gears),
     )
+    return result

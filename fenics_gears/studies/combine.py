@@ -16,8 +16,8 @@ from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
-from fenics_gears.results.pairs import shown
-from fenics_gears.results.settled import of_settled
+from fenics_gears.results.pairs import shown_steps
+from fenics_gears.results.settled import settled_steps
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
@@ -61,15 +61,15 @@ def record_of(run: xr.Dataset) -> CaseRecord:
     numbers = {
         "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
         "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
-        "max_normal_force": largest_normal_force(of_settled(run)),
+        "max_normal_force": largest_normal_force(run, settled_steps(run)),
         "newton_iterations": float(run.attrs["newton_iterations_total"]),
         "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
         "wall_time": float(run.attrs["wall_time"]),
     }
     numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
-    last = shown(run)
-    phase = last["mesh_phase"].values
-    curves = {name: last[name].values for name in CURVES if name in run}
+    last = shown_steps(run)
+    phase = run["mesh_phase"].values[last]
+    curves = {name: run[name].values[last] for name in CURVES if name in run}
     labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
     return CaseRecord(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))
 

@@ -73,7 +73,8 @@ def run_case(directory: Path, case: Case, tick: Tick | None = None) -> CaseRecor
         run = simulate(case.scene, progress=Ticking(tick), preparation=own_gear_store().prepared)
         if not run.attrs["complete"]:
             raise KeyboardInterrupt
-        return save_case(run.assign_attrs(wall_time=time.perf_counter() - begun), case, directory)
+        run.attrs["wall_time"] = time.perf_counter() - begun
+        return save_case(run, case, directory)
     except Exception as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
