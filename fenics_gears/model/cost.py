@@ -22,11 +22,13 @@ Number = float | np.ndarray
 # Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the paper's pair.
 SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "Q1 incompatible": (6500, 31.0), "Q2": (3000, 35.0)}
 # Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for each block of compliance.
-GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.06, 1.7e-5, 2e-10, 4.5e-8
+GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 1.4e-10, 4.5e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
 # Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and each of its contact rows.
-PAIR, NODES_SQUARE, STEP, ROW = 5e-4, 1.2e-7, 1.5e-5, 4e-7
+PAIR, NODES_SQUARE, STEP, ROW = 5e-4, 1e-7, 8e-6, 2.5e-7
+# A step of rigid flanks, which have a solver of their own.
+RIGID_STEP = 1.4e-4
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of unequal length.
 STEP_OF_EFFECT = {"flank_errors": 4e-5, "eccentricity": 2e-5, "torque_ripple": 1e-5, "coast_flanks": 5e-6, "speed_ramp": 1e-5}
 # Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in mesh (measured).
@@ -140,7 +142,7 @@ def _marching(model: Model, rows: float) -> float:
     """Seconds of marching with so many contact rows a position."""
     pairs = loaded_pairs(model)
     nodes = rows / (2 if model.scene.friction is not None else 1)
-    step = STEP + sum(STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene))
+    step = (STEP if model.scene.tooth_elasticity is not None else RIGID_STEP) + sum(STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene))
     return _positions(model) * (PAIR * pairs + NODES_SQUARE * nodes**2) + model.steps * (step + ROW * rows)
 
 
