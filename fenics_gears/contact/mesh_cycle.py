@@ -110,8 +110,8 @@ class CycleTraits:
     own_solver: bool = False
 
 
-# Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps.
-SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.25
+# Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the one before it beside.
+SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.12
 
 
 @dataclass
