@@ -21,6 +21,7 @@ from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
 ROUND_OFF = 1e-12
+MOST_ITERATIONS = 40
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
 SMALL_SYSTEM = 40
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the first

@@ -12,6 +12,7 @@ from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
 from fenics_gears.contact.newton import (
     ALL_AT_ONCE,
     CONVERGED,
+    MOST_ITERATIONS,
     ONE_AT_A_TIME,
     OUTCOMES,
     RESIDUAL_NAMES,
@@ -85,7 +86,7 @@ def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
     return status
 
 
-def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = 40, before: tuple = ()) -> StepSolution:
+def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = MOST_ITERATIONS, before: tuple = ()) -> StepSolution:
     """Solve one step from the sets `status` (n,) int8; `before`: attempts of other methods that failed.
 
     Raises ContactNotConverged, of the kind that says why, with the history of every method when none converges.

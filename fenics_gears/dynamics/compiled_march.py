@@ -12,14 +12,13 @@ from numba import njit
 
 from fenics_gears.contact.addresses import CARRIED, COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP, integers_at, matrix_at, vector_at
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, newton
+from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, newton
 from fenics_gears.dynamics.average_acceleration import with_history
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 POSITION, VELOCITY, ACCELERATION = range(3)
-MAX_ITERATIONS = 40
 
 
 @dataclass(frozen=True)
@@ -87,7 +86,7 @@ def _solve_steps(
                 vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k),
                 matrix_at(table[s, PREVIOUS_COMPLIANCE], n, len(before)), states[s - 1, POSITION], before,
             )  # fmt: skip
-        residuals, sets = np.empty((MAX_ITERATIONS, 5)), np.empty((MAX_ITERATIONS, n), dtype=np.int8)
+        residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
         outcome, count, found, coordinates, moved = newton(
             effective, load, matrix_at(table[s, COMPLIANCE], kinds * n, kinds * n), matrix_at(table[s, JACOBIAN], kinds * n, k),
             vector_at(table[s, GAP], n), slip_before, friction, nodes, _turned(free_motion, loads[s]),

@@ -50,7 +50,7 @@ def account(drivetrain: Drivetrain, clock: Clock, steps: Steps, energy: np.ndarr
     moved = np.diff(passed.states[:, 0], axis=0)
     damping = np.zeros(len(moved))
     if drivetrain.damping is not None:
-        damping = _quadratic(moved, drivetrain.damping) / np.array([clock.duration(*ends) for ends in zip(passed.numbers[:-1], passed.numbers[1:])])
+        damping = quadratic(moved, drivetrain.damping) / np.array([clock.duration(*ends) for ends in zip(passed.numbers[:-1], passed.numbers[1:])])
     parts = {
         "rotation": _summed(contact.rotation),
         "load": _summed(np.sum(moved * mean_load(drivetrain, loads, passed.numbers), axis=1)),
@@ -63,7 +63,8 @@ def account(drivetrain: Drivetrain, clock: Clock, steps: Steps, energy: np.ndarr
     return Account(**parts, defect=energy - energy[:1] - gained if len(energy) else energy)
 
 
-def _quadratic(vectors: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+def quadratic(vectors: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """v M v (n,) of vectors (n, k) with a matrix (k, k)."""
     return np.sum(vectors @ matrix * vectors, axis=1)
 
 

@@ -147,7 +147,7 @@ class Steps:
 
     @cached_property
     def table(self) -> np.ndarray:
-        """What compiled code needs of each step's contact operator (s, 10), by the names of `contact.mesh_cycle`: sizes and addresses."""
+        """What compiled code needs of each step's contact operator (s, 10), by the names of `contact.addresses`: sizes and addresses."""
         return np.array([position.in_memory[0] for position in self.positions], dtype=np.int64).reshape(len(self), -1)
 
     def _slices(self, place: int) -> tuple[slice, slice]:

@@ -14,7 +14,7 @@ from fenics_gears.contact.addresses import COMPLIANCE, matrix_at
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
-from fenics_gears.dynamics.energy_account import account, mean_load
+from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.scene.data import Scene
@@ -28,11 +28,11 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict
     translations = np.array([name in TRANSLATIONS for name in drivetrain.coordinates])
     positions, velocities = steps.states[:, 0], steps.states[:, 1]
     if scene.bearings is not None:
-        parts["energy_bearings"] = _quadratic(positions * translations, drivetrain.stiffness)
+        parts["energy_bearings"] = 0.5 * quadratic(positions * translations, drivetrain.stiffness)
     if scene.shafts is not None:
-        parts["energy_shafts"] = _quadratic(positions * ~translations, drivetrain.stiffness)
+        parts["energy_shafts"] = 0.5 * quadratic(positions * ~translations, drivetrain.stiffness)
     if scene.inertia is not None:
-        parts["energy_kinetic"] = _quadratic(velocities, drivetrain.mass)
+        parts["energy_kinetic"] = 0.5 * quadratic(velocities, drivetrain.mass)
     parts["energy"] = sum(parts.values(), np.zeros(len(steps)))
     return parts
 
@@ -53,10 +53,6 @@ def _energy_of_teeth(table, starts, kinds, forces):
             for j in loaded:
                 energies[s] += 0.5 * loads[i] * compliance[i, j] * loads[j]
     return energies
-
-
-def _quadratic(states: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    return 0.5 * np.sum(states @ matrix * states, axis=1)
 
 
 def work_variables(
