@@ -219,7 +219,7 @@ def operator_on_lines(
     """
     radii = (gears.pinion.base_radius, gears.wheel.base_radius)
     arms, frictional = line_lever_arms(pairs, radii), previous_compliance is not None
-    slip = slip_of_rigid_flanks(pairs, gears.rotation_ratio, advance) if frictional else None
+    slip = slip_of_rigid_flanks(pairs, radii, turned(gears, advance)) if frictional else None
     earlier = earlier_tangential_jacobian(pairs, radii, turned(gears, advance))[:, coordinates] if frictional else None
     return ContactOperator(
         pairs=pairs,
@@ -239,13 +239,16 @@ def turned(gears: GearPair, advance: float) -> tuple[float, float]:
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
 
 
-def slip_of_rigid_flanks(pairs: tuple[PairNodes, ...], rotation_ratio: float, advance: float) -> np.ndarray:
-    """Slip (n,), mm, of rigid gears while the pinion turns by `advance` (rad).
+def slip_of_rigid_flanks(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
+    """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding speed [12].
 
-    v_rigid = omega1 (x - (z1/z2) (L - x)) of [12], zero at the pitch point.
+    The sliding speed times the step would be of first order only: the speed grows in proportion to the distance from the pitch point.
     """
+    offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_lever_arm", "wheel_lever_arm"))
+    line_1, line_2 = line_lever_arms(pairs, base_radii)
     turn = per_node(pairs, np.array([pair.place.turn for pair in pairs]))
-    return advance * turn * (over_nodes(pairs, "pinion_lever_arm") - rotation_ratio * over_nodes(pairs, "wheel_lever_arm"))
+    straight = turn * (arm_1 * np.sin(turned[0]) + arm_2 * np.sin(turned[1]))
+    return straight - (line_1 - offsets) * (1.0 - np.cos(turned[0])) - (line_2 + offsets) * (1.0 - np.cos(turned[1]))
 
 
 def earlier_tangential_jacobian(pairs, radii, turned) -> np.ndarray:
