@@ -60,14 +60,19 @@ def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
 
 
 def _pair_force(settled: xr.Dataset) -> dict[str, float]:
-    """The largest normal force of a tooth pair, N, on drive or coast flanks; nothing where shares of rigid pairs are not
+    """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of rigid pairs are not
     determined, or nothing presses."""
-    names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in settled]
-    over_time = np.max([settled[name].values.max(axis=1, initial=0.0) for name in names], axis=0)
+    over_time = largest_force_over_time(settled)
     if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
         return {}
     place = first_largest(over_time)
     return {"largest_pair_force": float(over_time[place]), "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place])}
+
+
+def largest_force_over_time(settled: xr.Dataset) -> np.ndarray:
+    """The largest normal force (time,), N, of a tooth pair, on drive or coast flanks."""
+    names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in settled]
+    return np.max([settled[name].values.max(axis=1, initial=0.0) for name in names], axis=0)
 
 
 def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:

@@ -1,0 +1,173 @@
+"""Extrema of a run's curves, located between its steps.
+
+Of a quasi-static run positions between the steps are solved where the largest value can lie: between two steps the curve is taken to stay below
+the straight lines through the steps on either side, as smooth crests and the corners do that pairs leave as they come and go. Each solved
+position replaces two of these lines, until no crossing lies above the largest value found. With inertia curves are smooth: the extremum is that
+of the cubic through four steps, which is of fourth order. The march's own velocities give no more: between two steps average acceleration
+means a parabola.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.steps import Record
+from fenics_gears.effects import common_period
+from fenics_gears.model.model import Model
+from fenics_gears.results.attributes import CUBICS, SOLVED, STEPS
+
+# Positions solved for an extremum at most, and up to which part of the curve's span it is sought.
+MOST_SOLVED, SOUGHT = 20, 1e-4
+# Values are near the largest that lie below it by up to so many times what is sought. In steps: a curve that falls within less jumps.
+NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
+# A curve falls off a crest, and does not jump, where the next step's fall is at least this part of the first; and a smooth crest looks as high
+# from either side, but for this part.
+LIKE = 0.5
+# A position is sought no nearer to a step than this part of the distance to the next.
+NEAREST = 0.02
+
+
+@dataclass(frozen=True)
+class Extremum:
+    """A largest value, where it is in mesh cycles since the start, and how it was found."""
+
+    value: float
+    mesh_phase: float
+    found_by: str
+
+
+class Extrema:
+    """Locates the largest values of curves over the settled steps of a run.
+
+    `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again is that of the march.
+    """
+
+    def __init__(self, model: Model, cycle: Cycle, mesh_phase: np.ndarray, transmission_error: np.ndarray):
+        self._model, self._cycle = model, cycle
+        self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
+        self._error, span = transmission_error, float(np.ptp(transmission_error))
+        self.found_by = CUBICS
+        if model.drivetrain.mass is None:
+            self.found_by = SOLVED if cycle.traits.divisible else STEPS
+            marched = lambda record: abs(self.transmission_error(record) - self._error[int(record.step) - self._steps[0]]) <= 0.1 * SOUGHT * span
+            self._between = BetweenSteps(cycle, model.equations_of_motion, marched)
+
+    def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
+        """The largest value of a curve (s,); `of`: its value at a position."""
+        place = int(np.argmax(curve))
+        step, value = float(self._steps[place]), float(curve[place])
+        if self.found_by == SOLVED:
+            found = highest(*self._last_period(curve), lambda step: self._at(step, of), SOUGHT * float(np.ptp(curve)))
+        else:
+            found = largest_of_cubics(self._steps, curve) if self.found_by == CUBICS else (step, value)
+        # Values that differ by round-off are those of the steps.
+        step, value = found if found[1] > value else (step, value)
+        return Extremum(value, step / self._cycle.steps, self.found_by)
+
+    def transmission_error(self, record: Record) -> float:
+        """The transmission error, rad, at a position."""
+        drivetrain, gears = self._model.drivetrain, self._model.scene.gears
+        first, second = (drivetrain.value(record.state.position, name) for name in ("rotation_1", "rotation_2"))
+        return float(second + gears.pinion.teeth / gears.wheel.teeth * first)
+
+    def _at(self, step: float, of: Callable[[Record], float]) -> float:
+        try:
+            record = self._between.at(step)
+        except ContactNotConverged:
+            record = None
+        return np.nan if record is None else of(record)
+
+    def _last_period(self, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Steps and values of the last common period, with the steps before and after it as periodicity has them; of all steps where there is none."""
+        period = common_period(self._model.scene) * self._cycle.steps
+        if not isfinite(period) or len(curve) <= period:
+            return self._steps.astype(float), curve
+        last, values = self._steps[-period - 1 :], curve[-period - 1 :]
+        return np.concatenate(([last[0] - 1.0], last, [last[-1] + 1.0])), np.concatenate((values[-2:-1], values, values[1:2]))
+
+
+def largest_force_of_a_pair(record: Record) -> float:
+    """Largest normal force, N, of a pair of flanks at a position."""
+    operator = record.position.operator
+    return float(np.bincount(operator.node_pair, record.solution.forces[: operator.nodes], minlength=1).max())
+
+
+def highest(steps: np.ndarray, values: np.ndarray, value: Callable[[float], float], sought: float) -> tuple[float, float]:
+    """Place and largest value of a curve given at `steps` (s,) by `values` (s,), and anywhere between them by `value`, which may be not a number.
+
+    Between the first two and the last two steps nothing is sought. Ends where no crossing of lines is higher by `sought` and both neighbours of
+    the largest value are NEAR it, so that lines are those beside the crest; or after MOST_SOLVED.
+    """
+    for _ in range(MOST_SOLVED):
+        bounds, places = _bounds(steps, values)
+        interval = int(bounds.argmax()) + 1 if len(bounds) else 0
+        if not len(bounds) or bounds[interval - 1] <= values.max() + sought:
+            interval = _steep_neighbour(steps, values, NEAR * sought)
+            if not interval:
+                break
+            place = 0.5 * (steps[interval] + steps[interval + 1])
+        else:
+            place = places[interval - 1]
+        found = value(place)
+        if np.isnan(found):
+            break
+        steps, values = np.insert(steps, interval + 1, place), np.insert(values, interval + 1, found)
+    return float(steps[values.argmax()]), float(values.max())
+
+
+def _steep_neighbour(steps: np.ndarray, values: np.ndarray, near: float) -> int:
+    """Interval beside the largest value in which the curve falls most; 0 where that is by less than `near`, or within a jump's width, or at an end."""
+    top = int(values.argmax())
+    beside = [each for each in (top - 1, top) if 0 < each < len(values) - 2 and steps[each + 1] - steps[each] > WIDTH_OF_JUMP]
+    interval = max(beside, key=lambda each: abs(values[each + 1] - values[each]), default=0)
+    return interval if interval and abs(values[interval + 1] - values[interval]) > near else 0
+
+
+def _bounds(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """How high a curve may be (s - 3,) between points x, y (s,), each interval but the outer ones; and the place that is to be solved there.
+
+    That is the crossing of the lines from either side. Where one rises into the interval and the other lies far below its end, the curve may
+    have jumped down anywhere: then half-way.
+    """
+    slope, h = np.diff(y) / np.diff(x), np.diff(x)[1:-1]
+    left, right, a, b = slope[:-2], slope[2:], y[1:-2], y[2:-1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossing = np.clip((b - right * h - a) / (left - right) / h, NEAREST, 1.0 - NEAREST)
+    meets = (left > right) & (b - right * h > a) & (a + left * h > b)
+    height = np.where(meets, a + left * crossing * h, np.maximum(a, b))
+    fell = (a >= b) & (left > 0.0) & (b - right * h < a - LIKE * (a - b))
+    rose = (b > a) & (right < 0.0) & (a + left * h < b - LIKE * (b - a))
+    height = np.where(fell, a + left * h, np.where(rose, b - right * h, height))
+    return height, x[1:-2] + np.where(fell | rose, 0.5, np.where(meets, crossing, 0.5)) * h
+
+
+def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """Place and largest value of the cubics through each four consecutive `values` (s,) at equal distances, between the middle two.
+
+    Only where the parabolas through three of them, either way, have crests alike: where the curve has a corner it is not a cubic.
+    """
+    if len(values) < 4:
+        return float(steps[values.argmax()]), float(values.max())
+    y0, y1, y2, y3 = values[:-3], values[1:-2], values[2:-1], values[3:]
+    top = np.maximum(y1, y2)
+    first, second, third = 0.5 * (y2 - y0), y0 - 2.0 * y1 + y2, y3 - 3.0 * (y2 - y1) - y0
+    other = second + third
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Crests of both parabolas above the middle two values; their curvatures are `second` and `other`.
+        crests = [y1 - first**2 / (2.0 * second), y2 - (0.5 * (y3 - y1)) ** 2 / (2.0 * other)]
+        slope = first - third / 6.0
+        # Stationary point of y1 + slope t + second t^2/2 + third t^3/6, in the form without cancellation.
+        t = -2.0 * slope / (second - np.sqrt(second**2 - 2.0 * slope * third))
+    low, high = np.minimum(*crests) - top, np.maximum(*crests) - top
+    smooth = (second < 0.0) & (other < 0.0) & (t > 0.0) & (t < 1.0) & (low >= LIKE * high)
+    cubic = np.where(smooth, y1 + t * (slope + t * (0.5 * second + t * third / 6.0)), top)
+    place = int(cubic.argmax())
+    at = float(t[place]) if smooth[place] else float(y2[place] > y1[place])
+    return float(steps[1 + place]) + at, float(cubic[place])
