@@ -25,6 +25,8 @@ from fenics_gears.results.attributes import CUBICS, SOLVED, STEPS
 
 # Positions solved for an extremum at most, and up to which part of the curve's span it is sought.
 MOST_SOLVED, SOUGHT = 20, 1e-4
+# A position solved again is that of the march if it is as near as this part of what is sought.
+SAME_POSITION = 0.1
 # Values are near the largest that lie below it by up to so many times what is sought. In steps: a curve that falls within less jumps.
 NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
 # A curve falls off a crest, and does not jump, where the next step's fall is at least this part of the first; and a smooth crest looks as high
@@ -52,12 +54,11 @@ class Extrema:
     def __init__(self, model: Model, cycle: Cycle, mesh_phase: np.ndarray, transmission_error: np.ndarray):
         self._model, self._cycle = model, cycle
         self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
-        self._error, span = transmission_error, float(np.ptp(transmission_error))
+        self._error, self._same = transmission_error, SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
         self.found_by = CUBICS
         if model.drivetrain.mass is None:
             self.found_by = SOLVED if cycle.traits.divisible else STEPS
-            marched = lambda record: abs(self.transmission_error(record) - self._error[int(record.step) - self._steps[0]]) <= 0.1 * SOUGHT * span
-            self._between = BetweenSteps(cycle, model.equations_of_motion, marched)
+            self._between = BetweenSteps(cycle, model.equations_of_motion, self._marched)
 
     def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
         """The largest value of a curve (s,); `of`: its value at a position."""
@@ -76,6 +77,9 @@ class Extrema:
         drivetrain, gears = self._model.drivetrain, self._model.scene.gears
         first, second = (drivetrain.value(record.state.position, name) for name in ("rotation_1", "rotation_2"))
         return float(second + gears.pinion.teeth / gears.wheel.teeth * first)
+
+    def _marched(self, record: Record) -> bool:
+        return abs(self.transmission_error(record) - self._error[int(record.step) - self._steps[0]]) <= self._same
 
     def _at(self, step: float, of: Callable[[Record], float]) -> float:
         try:
@@ -165,9 +169,10 @@ def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, flo
         slope = first - third / 6.0
         # Stationary point of y1 + slope t + second t^2/2 + third t^3/6, in the form without cancellation.
         t = -2.0 * slope / (second - np.sqrt(second**2 - 2.0 * slope * third))
+        cubic = y1 + t * (slope + t * (0.5 * second + t * third / 6.0))
     low, high = np.minimum(*crests) - top, np.maximum(*crests) - top
     smooth = (second < 0.0) & (other < 0.0) & (t > 0.0) & (t < 1.0) & (low >= LIKE * high)
-    cubic = np.where(smooth, y1 + t * (slope + t * (0.5 * second + t * third / 6.0)), top)
+    cubic = np.where(smooth, cubic, top)
     place = int(cubic.argmax())
     at = float(t[place]) if smooth[place] else float(y2[place] > y1[place])
     return float(steps[1 + place]) + at, float(cubic[place])
