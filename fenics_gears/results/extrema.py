@@ -22,6 +22,7 @@ from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
 from fenics_gears.results.attributes import CUBICS, SOLVED, STEPS
+from fenics_gears.results.numbers import SAME
 
 # Positions solved for an extremum at most, and up to which part of the curve's span it is sought.
 MOST_SOLVED, SOUGHT = 20, 1e-4
@@ -54,6 +55,10 @@ class Extrema:
     def __init__(self, model: Model, cycle: Cycle, mesh_phase: np.ndarray, transmission_error: np.ndarray):
         self._model, self._cycle = model, cycle
         self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
+        self._period = common_period(model.scene) * cycle.steps
+        whole = isfinite(self._period) and len(self._steps) > self._period
+        # Solved in the first period, so that the same cycles give the same bits however many are run.
+        self._first, self._whole = int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0, whole
         self._error, self._same = transmission_error, SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
         self.found_by = CUBICS
         if model.drivetrain.mass is None:
@@ -62,14 +67,15 @@ class Extrema:
 
     def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
         """The largest value of a curve (s,); `of`: its value at a position."""
-        place = int(np.argmax(curve))
-        step, value = float(self._steps[place]), float(curve[place])
+        value, round_off = float(curve.max()), SAME * float(np.abs(curve).max())
+        # The first of all that differ by round-off: cycles repeat.
+        step = float(self._steps[np.argmax(curve >= value - round_off)])
         if self.found_by == SOLVED:
-            found = highest(*self._last_period(curve), lambda step: self._at(step, of), SOUGHT * float(np.ptp(curve)))
+            step_in_period, highest_value = highest(*self._last_period(curve), lambda step: self._at(step, of), SOUGHT * float(np.ptp(curve)))
+            found = self._first + step_in_period, highest_value
         else:
             found = largest_of_cubics(self._steps, curve) if self.found_by == CUBICS else (step, value)
-        # Values that differ by round-off are those of the steps.
-        step, value = found if found[1] > value else (step, value)
+        step, value = found if found[1] > value + round_off else (step, value)
         return Extremum(value, step / self._cycle.steps, self.found_by)
 
     def transmission_error(self, record: Record) -> float:
@@ -79,7 +85,7 @@ class Extrema:
         return float(second + gears.pinion.teeth / gears.wheel.teeth * first)
 
     def _marched(self, record: Record) -> bool:
-        return abs(self.transmission_error(record) - self._error[int(record.step) - self._steps[0]]) <= self._same
+        return abs(self.transmission_error(record) - self._error[int(record.step) + self._first - self._steps[0]]) <= self._same
 
     def _at(self, step: float, of: Callable[[Record], float]) -> float:
         try:
@@ -89,12 +95,11 @@ class Extrema:
         return np.nan if record is None else of(record)
 
     def _last_period(self, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Steps and values of the last common period, with the steps before and after it as periodicity has them; of all steps where there is none."""
-        period = common_period(self._model.scene) * self._cycle.steps
-        if not isfinite(period) or len(curve) <= period:
+        """Steps from the first of a period and values of the last one, with a step before and after it as it repeats; of all steps where none is whole."""
+        if not self._whole:
             return self._steps.astype(float), curve
-        last, values = self._steps[-period - 1 :], curve[-period - 1 :]
-        return np.concatenate(([last[0] - 1.0], last, [last[-1] + 1.0])), np.concatenate((values[-2:-1], values, values[1:2]))
+        steps, values = self._steps[-self._period - 1 :] - self._first, curve[-self._period - 1 :]
+        return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate((values[-2:-1], values, values[1:2]))
 
 
 def largest_force_of_a_pair(record: Record) -> float:
