@@ -1,4 +1,4 @@
-"""Static positions between the steps of a quasi-static march, each solved by itself: where extrema are looked for."""
+"""Static positions between the steps of a march, each solved by itself: where extrema are looked for."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FIRST_REACH = 0.1
 
 
 class BetweenSteps(Stepper):
-    """Solves a quasi-static motion between two of its steps without the march; the `cycle` is divisible.
+    """Solves the static motion between two steps without the march; the `cycle` is divisible.
 
     `marched`: whether a record is that of the march at its step. With friction the step before is solved on the way from a start some steps
     earlier: from further back, at most a mesh cycle, until it is what was marched.
@@ -25,15 +25,20 @@ class BetweenSteps(Stepper):
         super().__init__(cycle, equations)
         self._marched = marched
         self._before: dict[int, Record | None] = {}
+        self._solved: dict[float, Record | None] = {}
 
     def at(self, step: float) -> Record | None:
         """The motion at a place after step 0, counted in steps; None where the step before it is not found again. Raises ContactNotConverged."""
-        before = ceil(step) - 1
-        with thread_pools().limit(limits=1):
-            if before not in self._before:
-                self._before[before] = self._step_before(before)
-            last = self._before[before]
-            return None if last is None else self._part(self.static, last, step, self.cycle.between(step, before))
+        if step not in self._solved:
+            with thread_pools().limit(limits=1):
+                self._solved[step] = self._after(ceil(step) - 1, step)
+        return self._solved[step]
+
+    def _after(self, before: int, step: float) -> Record | None:
+        if before not in self._before:
+            self._before[before] = self._step_before(before)
+        last = self._before[before]
+        return None if last is None else self._part(self.static, last, step, self.cycle.between(step, before))
 
     def _step_before(self, step: int) -> Record | None:
         if not self.friction:

@@ -4,14 +4,14 @@ Of a quasi-static run positions between the steps are solved where the largest v
 the straight lines through the steps on either side, as smooth crests and the corners do that pairs leave as they come and go. Each solved
 position replaces two of these lines, until no crossing lies above the largest value found. With inertia curves are smooth: the extremum is that
 of the cubic through four steps, which is of fourth order. The march's own velocities give no more: between two steps average acceleration
-means a parabola.
+means a parabola. Where steps are too long for any vibration, the motion follows the static one: positions are solved as without inertia.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import isfinite
+from math import ceil, isfinite
 
 import numpy as np
 
@@ -60,9 +60,10 @@ class Extrema:
         # Solved in the first period, so that the same cycles give the same bits however many are run.
         self._first, self._whole = int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0, whole
         self._error, self._same = transmission_error, SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
-        self.found_by = CUBICS
-        if model.drivetrain.mass is None:
-            self.found_by = SOLVED if cycle.traits.divisible else STEPS
+        self._quasi_static = model.drivetrain.mass is None
+        follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
+        self.found_by = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
+        if self.found_by == SOLVED:
             self._between = BetweenSteps(cycle, model.equations_of_motion, self._marched)
 
     def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
@@ -70,11 +71,12 @@ class Extrema:
         value, round_off = float(curve.max()), SAME * float(np.abs(curve).max())
         # The first of all that differ by round-off: cycles repeat.
         step = float(self._steps[np.argmax(curve >= value - round_off)])
+        found = step, value
         if self.found_by == SOLVED:
-            step_in_period, highest_value = highest(*self._last_period(curve), lambda step: self._at(step, of), SOUGHT * float(np.ptp(curve)))
+            step_in_period, highest_value = highest(*self._last_period(curve), lambda step: self._at(step, curve, of), SOUGHT * float(np.ptp(curve)))
             found = self._first + step_in_period, highest_value
-        else:
-            found = largest_of_cubics(self._steps, curve) if self.found_by == CUBICS else (step, value)
+        elif self.found_by == CUBICS:
+            found = largest_of_cubics(self._steps, curve)
         step, value = found if found[1] > value + round_off else (step, value)
         return Extremum(value, step / self._cycle.steps, self.found_by)
 
@@ -85,14 +87,27 @@ class Extrema:
         return float(second + gears.pinion.teeth / gears.wheel.teeth * first)
 
     def _marched(self, record: Record) -> bool:
-        return abs(self.transmission_error(record) - self._error[int(record.step) + self._first - self._steps[0]]) <= self._same
+        return not self._quasi_static or abs(self.transmission_error(record) - self._error[self._place(record.step)]) <= self._same
 
-    def _at(self, step: float, of: Callable[[Record], float]) -> float:
+    def _place(self, step: float) -> int:
+        """Place of a step of the period among all steps."""
+        return int(step) + self._first - int(self._steps[0])
+
+    def _at(self, step: float, curve: np.ndarray, of: Callable[[Record], float]) -> float:
+        """Value of a curve (s,) at a place between two steps; not a number where it cannot be solved.
+
+        With inertia it is the static value and, straight between the steps, by what the curve differs from static values there.
+        """
+        ends = (ceil(step) - 1, ceil(step))
         try:
-            record = self._between.at(step)
+            records = [self._between.at(each) for each in (step, *(() if self._quasi_static else ends))]
         except ContactNotConverged:
-            record = None
-        return np.nan if record is None else of(record)
+            records = [None]
+        if None in records:
+            self.found_by = STEPS
+            return np.nan
+        value, *static = map(of, records)
+        return value + float(np.interp(step, ends, [curve[self._place(end)] - each for end, each in zip(ends, static)])) if static else value
 
     def _last_period(self, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Steps from the first of a period and values of the last one, with a step before and after it as it repeats; of all steps where none is whole."""

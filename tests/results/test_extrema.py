@@ -95,6 +95,17 @@ def test_peak_to_peak_does_not_depend_on_the_steps(paper_scene, stand_in_flanks,
         assert many.attrs[f"{name}_transmission_error_mesh_phase"] == pytest.approx(place / 320, abs=1.0 / 320)
 
 
+def test_at_a_crawl_extremes_are_those_of_the_quasi_static_run(paper_scene, stand_in_flanks):
+    """Limit: with inertia, at steps too long for any vibration, T_EPP of 20 steps is that without inertia, also where corners lie between steps; what is left falls with the speed."""
+    moving = replace(coarse_scene(paper_scene, cycles=3), motion=Motion(0.005, 3, 1))
+    for scene in (moving, frictionless(moving)):
+        slow, still = (on_stand_ins(each, stand_in_flanks, 20) for each in (scene, quasi_static(scene)))
+        assert not model_of(replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=20))).time_scales.averages_acceleration
+        for name in ("peak_to_peak_transmission_error", "largest_pair_force"):
+            assert slow.attrs[name] == pytest.approx(still.attrs[name], rel=1e-4)
+        assert slow.attrs["peak_to_peak_transmission_error"] > 1.003 * np.ptp(slow.transmission_error.values)
+
+
 def test_springs_in_closed_form(paper_scene):
     """Exact: one pair of stiffness k (1 + 0.3 cos) on rigid shafts deflects by F/k, so that T_EPP is F/k (1/0.7 - 1/1.3) at phases 0.637 and 0.137."""
     scene = teeth_alone(frictionless(coarse_scene(paper_scene, cycles=2)))
