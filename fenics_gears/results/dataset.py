@@ -21,8 +21,8 @@ from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
-from fenics_gears.results.extrema import Extrema, largest_force_of_a_pair
-from fenics_gears.results.key_numbers import key_numbers, largest_force_over_time, path_point_coordinate, path_point_values
+from fenics_gears.results.extrema import Extrema, largest_pair_force, peak_to_peak
+from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate, path_point_values
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled, settled
@@ -154,31 +154,13 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, recorder.model.clock)
     extrema = Extrema(recorder.model, recorder.cycle, counted["mesh_phase"].values, error)
-    numbers |= _peak_to_peak(extrema, error)
+    numbers |= peak_to_peak(extrema, error)
     # The last step begins the next cycle.
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
     if len(error) > 1 and recorder.model.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
         numbers |= _friction_loss(counted)
     numbers |= key_numbers(counted.assign_attrs(numbers), recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
-    return numbers | (_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
-
-
-def _peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:
-    """T_EPP, rad, where its extremes are, and how they were found."""
-    largest = extrema.largest(error, extrema.transmission_error)
-    least = extrema.largest(-error, lambda record: -extrema.transmission_error(record))
-    return {
-        "peak_to_peak_transmission_error": largest.value + least.value,
-        "peak_to_peak_transmission_error_from": largest.found_by,
-        "largest_transmission_error_mesh_phase": largest.mesh_phase,
-        "least_transmission_error_mesh_phase": least.mesh_phase,
-    }
-
-
-def _pair_force(extrema: Extrema, counted: xr.Dataset) -> dict[str, float | str]:
-    """The largest normal force of a tooth pair, N, where it is, and how it was found."""
-    found = extrema.largest(largest_force_over_time(counted), largest_force_of_a_pair)
-    return {"largest_pair_force": found.value, "largest_pair_force_mesh_phase": found.mesh_phase, "largest_pair_force_from": found.found_by}
+    return numbers | (largest_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
 
 
 def _friction_loss(counted: xr.Dataset) -> dict[str, float]:

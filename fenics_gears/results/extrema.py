@@ -9,11 +9,12 @@ means a parabola. Where steps are too long for any vibration, the motion follows
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import ceil, isfinite
 
 import numpy as np
+import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -22,6 +23,7 @@ from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
 from fenics_gears.results.attributes import CUBICS, SOLVED, STEPS
+from fenics_gears.results.key_numbers import largest_force_over_time
 from fenics_gears.results.numbers import SAME
 
 # Positions solved for an extremum at most, and up to which part of the curve's span it is sought.
@@ -39,17 +41,17 @@ NEAREST = 0.02
 
 @dataclass(frozen=True)
 class Extremum:
-    """A largest value, where it is in mesh cycles since the start, and how it was found."""
+    """A largest value, and where it is in mesh cycles since the start."""
 
     value: float
     mesh_phase: float
-    found_by: str
 
 
 class Extrema:
     """Locates the largest values of curves over the settled steps of a run.
 
     `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again is that of the march.
+    `found_by`: how the last one was located.
     """
 
     def __init__(self, model: Model, cycle: Cycle, mesh_phase: np.ndarray, transmission_error: np.ndarray):
@@ -78,7 +80,7 @@ class Extrema:
         elif self.found_by == CUBICS:
             found = largest_of_cubics(self._steps, curve)
         step, value = found if found[1] > value + round_off else (step, value)
-        return Extremum(value, step / self._cycle.steps, self.found_by)
+        return Extremum(value, step / self._cycle.steps)
 
     def transmission_error(self, record: Record) -> float:
         """The transmission error, rad, at a position."""
@@ -117,7 +119,25 @@ class Extrema:
         return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate((values[-2:-1], values, values[1:2]))
 
 
-def largest_force_of_a_pair(record: Record) -> float:
+def peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:
+    """T_EPP, rad, of the transmission error (s,), rad, where its extremes are, and how they were found."""
+    largest = extrema.largest(error, extrema.transmission_error)
+    least = extrema.largest(-error, lambda record: -extrema.transmission_error(record))
+    return {
+        "peak_to_peak_transmission_error": largest.value + least.value,
+        "peak_to_peak_transmission_error_from": extrema.found_by,
+        "largest_transmission_error_mesh_phase": largest.mesh_phase,
+        "least_transmission_error_mesh_phase": least.mesh_phase,
+    }
+
+
+def largest_pair_force(extrema: Extrema, curves: xr.Dataset | Mapping[str, np.ndarray]) -> dict[str, float | str]:
+    """The largest normal force of a tooth pair, N, by its curves over the steps, where it is, and how it was found."""
+    found = extrema.largest(largest_force_over_time(curves), _largest_force_of_a_pair)
+    return {"largest_pair_force": found.value, "largest_pair_force_mesh_phase": found.mesh_phase, "largest_pair_force_from": extrema.found_by}
+
+
+def _largest_force_of_a_pair(record: Record) -> float:
     """Largest normal force, N, of a pair of flanks at a position."""
     operator = record.position.operator
     return float(np.bincount(operator.node_pair, record.solution.forces[: operator.nodes], minlength=1).max())
