@@ -75,7 +75,8 @@ class Extrema:
         step = float(self._steps[np.argmax(curve >= value - round_off)])
         found = step, value
         if self.found_by == SOLVED:
-            step_in_period, highest_value = highest(*self._last_period(curve), lambda step: self._at(step, curve, of), SOUGHT * float(np.ptp(curve)))
+            sought = SOUGHT * float(np.ptp(curve)) + round_off
+            step_in_period, highest_value = highest(*self._last_period(curve), lambda step: self._at(step, curve, of), sought)
             found = self._first + step_in_period, highest_value
         elif self.found_by == CUBICS:
             found = largest_of_cubics(self._steps, curve)
