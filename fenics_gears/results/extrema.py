@@ -1,8 +1,8 @@
 """Extrema of a run's curves, located between its steps.
 
 Of a quasi-static run positions between the steps are solved where the largest value can lie: between two steps the curve is taken to stay below
-the straight lines through the steps on either side, as smooth crests and the corners do that pairs leave as they come and go. Each solved
-position replaces two of these lines, until no crossing lies above the largest value found. With inertia curves are smooth: the extremum is that
+the straight lines through the steps on either side, as it does at smooth crests and at corners where a tooth pair enters or leaves contact. Lines
+through solved positions replace these, until no crossing lies above the largest value found. With inertia curves are smooth: the extremum is that
 of the cubic through four steps, which is of fourth order. The march's own velocities give no more: between two steps average acceleration
 means a parabola. Where steps are too long for any vibration, the motion follows the static one: positions are solved as without inertia.
 """
@@ -30,10 +30,11 @@ from fenics_gears.results.numbers import SAME
 MOST_SOLVED, SOUGHT = 20, 1e-4
 # A position solved again is that of the march if it is as near as this part of what is sought.
 SAME_POSITION = 0.1
-# Values are near the largest that lie below it by up to so many times what is sought. In steps: a curve that falls within less jumps.
+# Lines are those beside the crest where both neighbours lie lower by up to so many times what is sought. A fall within less than this part of a
+# step is a jump, whose neighbours are never near.
 NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
-# A curve falls off a crest, and does not jump, where the next step's fall is at least this part of the first; and a smooth crest looks as high
-# from either side, but for this part.
+# A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth where the lower of the
+# parabolas from either side is above the steps by at least this part of the higher one.
 LIKE = 0.5
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
