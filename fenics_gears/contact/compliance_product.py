@@ -16,40 +16,58 @@ def directions(contact_roll: float, tangential: bool) -> np.ndarray:
 
 
 @njit(cache=True)
-def compliance_product(block, near_a, first_a, last_a, directions_a, near_b, first_b, last_b, directions_b, result):
-    """Add `N_a A N_b^T` to `result` (directions_a, n_a, directions_b, n_b), mm per N/mm.
+def compliance_product(block, responding, now, compliance, before, previous_compliance):
+    """Add `N_a A N_b^T` of the contact nodes a of a flank and those b of another to compliances between all contact nodes, mm per N/mm.
 
-    `block` (2n, 2n): displacement of the flank of tooth a due to forces on the flank of tooth b; `near_*`,
-    `first_*`, `last_*`: a FlankInterpolation; `directions_*` (d, 2): the directions in either tooth's frame.
+    `block` (2n, 2n): displacement of the flank of a due to forces on the flank of b. `responding`: place of the first node of a among all,
+    `near` and `first` of its FlankInterpolation, directions (d, 2) in the tooth's frame. `now`: the same of b; `before`: of b as it stood a step
+    before. `compliance` (d, n, d, n): first d of the directions of a; `previous_compliance` (1, n, 2, n before): the one that follows.
     """
-    n_a, n_b = len(first_a), len(first_b)
-    if n_a == 0 or n_b == 0:
-        return
-    start, end = 2 * first_b.min(), 2 * last_b.max()
-    width = end - start
-    along_x, along_y = np.zeros((n_a, width)), np.zeros((n_a, width))
-    for i in range(n_a):
-        to_x, to_y = along_x[i], along_y[i]
-        for node in range(first_a[i], last_a[i]):
-            _add_rows(to_x, to_y, near_a[i, node - first_a[i]], block[2 * node, start:end], block[2 * node + 1, start:end])
-    # Turned over, so that the inner loops run over neighbours in memory once more.
-    along, total_x, total_y = np.empty((width, n_a)), np.empty(n_a), np.empty(n_a)
-    for d in range(len(directions_a)):
-        for i in range(n_a):
-            for column in range(width):
-                along[column, i] = directions_a[d, 0] * along_x[i, column] + directions_a[d, 1] * along_y[i, column]
-        for j in range(n_b):
-            total_x[:] = 0.0
-            total_y[:] = 0.0
-            for node in range(first_b[j], last_b[j]):
-                _add_rows(total_x, total_y, near_b[j, node - first_b[j]], along[2 * node - start], along[2 * node + 1 - start])
-            for e in range(len(directions_b)):
-                for i in range(n_a):
-                    result[d, i, e, j] += directions_b[e, 0] * total_x[i] + directions_b[e, 1] * total_y[i]
+    row, near, first, directions_a = responding
+    (_, _, first_now, _), (_, _, first_before, _) = now, before
+    width_now, width_before = now[1].shape[1], before[1].shape[1]
+    start, end = len(block) // 2, 0
+    if len(first_now):
+        start, end = first_now.min(), first_now.max() + width_now
+    if len(first_before):
+        start, end = min(start, first_before.min()), max(end, first_before.max() + width_before)
+    kinds, along = len(compliance), np.empty((len(directions_a), 2 * (end - start)))
+    for i in range(len(near)):
+        _response(block, near[i], first[i], directions_a, start, along)
+        _at_nodes(along[:kinds], start, now, compliance, row + i)
+        _at_nodes(along[kinds:], start, before, previous_compliance, row + i)
 
 
 @njit(cache=True)
-def _add_rows(to_x, to_y, weight, row_x, row_y):
-    for i in range(len(to_x)):
-        to_x[i] += weight * row_x[i]
-        to_y[i] += weight * row_y[i]
+def _response(block, near, first, directions, start, along):
+    """Displacement `along` directions (d, 2) of one contact node by forces on the other flank's nodes from `start` on (d, 2 k), x and y in turn."""
+    # Unsigned numbers: compiled code does not look for a negative index.
+    zero, one, two, first = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(first)
+    for column in range(zero, np.uint64(along.shape[1]), two):
+        at = two * np.uint64(start) + column
+        x_by_x, x_by_y, y_by_x, y_by_y = 0.0, 0.0, 0.0, 0.0
+        for node in range(np.uint64(len(near))):
+            weight, dof = near[node], two * (first + node)
+            x_by_x += weight * block[dof, at]
+            x_by_y += weight * block[dof, at + one]
+            y_by_x += weight * block[dof + one, at]
+            y_by_y += weight * block[dof + one, at + one]
+        for d in range(np.uint64(len(directions))):
+            along[d, column] = directions[d, zero] * x_by_x + directions[d, one] * y_by_x
+            along[d, column + one] = directions[d, zero] * x_by_y + directions[d, one] * y_by_y
+
+
+@njit(cache=True)
+def _at_nodes(along, start, loaded, result, row):
+    """Add the displacements by forces of contact nodes to a row of `result` (d, n, e, m)."""
+    zero, one, two, column = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(loaded[0])
+    _, near, first, directions = loaded
+    for node in range(np.uint64(len(near))):
+        at = two * np.uint64(first[node] - start)
+        for d in range(np.uint64(len(along))):
+            by_x, by_y = 0.0, 0.0
+            for k in range(np.uint64(near.shape[1])):
+                by_x += near[node, k] * along[d, at + two * k]
+                by_y += near[node, k] * along[d, at + two * k + one]
+            for e in range(np.uint64(len(directions))):
+                result[d, row, e, column + node] += directions[e, zero] * by_x + directions[e, one] * by_y

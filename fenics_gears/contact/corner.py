@@ -14,9 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.contact.interpolation import INTERPOLATIONS
+from fenics_gears.contact.roll_at_height import roll_angle_at_height
 from fenics_gears.contact.tooth_pair import SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
 from fenics_gears.contact.window import ContactGrid, offsets_between
-from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
+from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tip_edge import TipEdge, tip_edge
 

@@ -14,11 +14,11 @@ import numpy as np
 from fenics_gears.contact.interpolation import hat_average, quadrature_offsets
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import node_slices
+from fenics_gears.contact.roll_at_height import roll_angle_at_height
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.flank_error_data import FlankErrors
-from fenics_gears.geometry.involute import roll_angle_at_height
 from fenics_gears.geometry.pair import GearPair
 
 # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the pinion's.

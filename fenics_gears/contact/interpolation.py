@@ -19,31 +19,22 @@ GAUSS_WEIGHTS = 0.5 * GAUSS_WEIGHTS
 
 @dataclass(frozen=True)
 class FlankInterpolation:
-    """Row `j` of `near` takes flank dof nodes `first[j]:last[j]` to the average over hat `j`, from its first column on; `flank_nodes` of the flank."""
+    """Row `j` of `near` (n, w) takes the flank's dof nodes `first[j]` to `first[j] + w - 1` to the average over hat `j`; `flank_nodes` of the flank."""
 
+    # A node sees a few flank nodes: whole rows would take several times what the compliance between contact nodes does.
     near: np.ndarray
     first: np.ndarray
-    last: np.ndarray
     flank_nodes: int
-
-    @classmethod
-    def of(cls, weights: np.ndarray, first: np.ndarray, last: np.ndarray) -> FlankInterpolation:
-        """From weights (n, nodes of flank) that are zero but for the nodes `first[j]:last[j]` of each row."""
-        # A node sees a few flank nodes: whole rows would take several times what the compliance between contact nodes does.
-        columns = np.arange(max(np.max(last - first, initial=0), 1))
-        inside = columns < (last - first)[:, None]
-        near = np.where(inside, np.take_along_axis(weights, np.where(inside, first[:, None] + columns, 0), axis=1), 0.0)
-        return cls(near, first, last, weights.shape[1])
 
     @property
     def weights(self) -> np.ndarray:
         """Weights of all of the flank's nodes (n, nodes of flank)."""
         whole = np.zeros((len(self.near), self.flank_nodes))
-        for row, near, first, last in zip(whole, self.near, self.first, self.last):
-            row[first:last] = near[: last - first]
+        np.put_along_axis(whole, self.first[:, None] + np.arange(self.near.shape[1]), self.near, axis=1)
         return whole
 
 
+@njit(cache=True)
 def hat_integrals(offsets: np.ndarray) -> np.ndarray:
     """Integral of each hat function (n,), mm: the length of flank that a contact node stands for.
 
@@ -57,67 +48,78 @@ def hat_integrals(offsets: np.ndarray) -> np.ndarray:
     return integrals
 
 
+@njit(cache=True)
 def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
     """Gauss points (n - 1, points), mm, of the cells between contact nodes."""
-    return offsets[:-1, None] + np.diff(offsets)[:, None] * GAUSS_POINTS
+    return offsets[:-1].reshape(-1, 1) + np.diff(offsets).reshape(-1, 1) * GAUSS_POINTS
 
 
+@njit(cache=True)
 def hat_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Average over each hat function (n,) of `values` given at `quadrature_offsets(offsets)`."""
-    scaled = values * GAUSS_WEIGHTS * np.diff(offsets)[:, None]
     sums = np.zeros(len(offsets))
-    sums[:-1] += scaled @ (1.0 - GAUSS_POINTS)
-    sums[1:] += scaled @ GAUSS_POINTS
+    for cell in range(len(offsets) - 1):
+        for point in range(len(GAUSS_POINTS)):
+            scaled = values[cell, point] * GAUSS_WEIGHTS[point] * (offsets[cell + 1] - offsets[cell])
+            sums[cell] += scaled * (1.0 - GAUSS_POINTS[point])
+            sums[cell + 1] += scaled * GAUSS_POINTS[point]
     return sums / hat_integrals(offsets)
 
 
 @njit(cache=True)
-def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, vertex_arc, order, points, gauss):
+def _element(vertex_arc, arc, side):
+    """The element at an arc length; at a vertex the one before it by "left", the one behind it by "right"."""
+    return min(max(np.searchsorted(vertex_arc, arc, side) - 1, 0), len(vertex_arc) - 2)
+
+
+@njit(cache=True)
+def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_rolls, order):
     """Exact averages of the element's shape functions: Gauss on every piece between contact nodes and element vertices.
 
     `rolls`: roll angle of each contact node; `sense`: -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb.
     """
+    vertex_arc = 0.5 * base_radius * flank_rolls[::order] ** 2
     n, elements = len(offsets), len(vertex_arc) - 1
-    weights = np.zeros((n, order * elements + 1))
-    first = np.full(n, order * elements + 1)
-    last = np.zeros(n, dtype=np.int64)
+    arcs = 0.5 * base_radius * rolls**2
+    lowest, highest = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+    for node in range(n):
+        beside = arcs[max(node - 1, 0) : node + 2]
+        lowest[node], highest[node] = _element(vertex_arc, beside.min(), "right"), _element(vertex_arc, beside.max(), "left")
+    width = order * (highest - lowest + 1).max() + 1
+    near, first = np.zeros((n, width)), np.minimum(order * lowest, len(flank_rolls) - width)
     for cell in range(n - 1):
-        width = offsets[cell + 1] - offsets[cell]
-        arc_a = 0.5 * base_radius * rolls[cell] ** 2
-        arc_b = 0.5 * base_radius * rolls[cell + 1] ** 2
-        low, high = min(arc_a, arc_b), max(arc_a, arc_b)
-        element = min(max(np.searchsorted(vertex_arc, low, side="right") - 1, 0), elements - 1)
+        size_of_cell = offsets[cell + 1] - offsets[cell]
+        low, high = min(arcs[cell], arcs[cell + 1]), max(arcs[cell], arcs[cell + 1])
+        element = _element(vertex_arc, low, "right")
         start = low
         while start < high:
             end = high if element == elements - 1 else min(high, vertex_arc[element + 1])
             size = vertex_arc[element + 1] - vertex_arc[element]
-            for point, share in zip(points, gauss):
+            for point, share in zip(GAUSS_POINTS, GAUSS_WEIGHTS):
                 arc = start + point * (end - start)
                 turn = contact_roll - math.sqrt(2.0 * arc / base_radius)
                 roll = contact_roll - turn
                 # Height above the line of action: rb cos(v_c - v) - rb v sin(v_c - v) - rb, without cancelling.
                 rise = -base_radius * (2.0 * math.sin(0.5 * turn) ** 2 + roll * math.sin(turn))
-                right = (sense * rise - offsets[cell]) / width
+                right = (sense * rise - offsets[cell]) / size_of_cell
                 measure = share * (end - start) * math.cos(turn)  # dy = cos(v_c - v) ds on an involute
                 local = (arc - vertex_arc[element]) / size
                 for side in range(2):
                     node = cell + side
                     hat = measure * (right if side == 1 else 1.0 - right)
-                    base = order * element
+                    base = order * element - first[node]
                     if order == 1:
-                        weights[node, base] += hat * (1.0 - local)
-                        weights[node, base + 1] += hat * local
+                        near[node, base] += hat * (1.0 - local)
+                        near[node, base + 1] += hat * local
                     else:
-                        weights[node, base] += hat * (1.0 - local) * (1.0 - 2.0 * local)
-                        weights[node, base + 1] += hat * 4.0 * local * (1.0 - local)
-                        weights[node, base + 2] += hat * local * (2.0 * local - 1.0)
-                    first[node] = min(first[node], base)
-                    last[node] = max(last[node], base + order + 1)
+                        near[node, base] += hat * (1.0 - local) * (1.0 - 2.0 * local)
+                        near[node, base + 1] += hat * 4.0 * local * (1.0 - local)
+                        near[node, base + 2] += hat * local * (2.0 * local - 1.0)
             start = end
             element = min(element + 1, elements - 1)
     for node in range(n):
-        weights[node] /= weights[node].sum()  # constants are averaged exactly
-    return weights, first, last
+        near[node] /= near[node].sum()  # constants are averaged exactly
+    return near, first
 
 
 def flank_interpolation(
@@ -130,12 +132,8 @@ def flank_interpolation(
     element_order: int,
 ) -> FlankInterpolation:
     """Hat-averaged trace of the flank's elements for contact nodes at `offsets` (n,), mm, roll angles `rolls` (n,), rad."""
-    vertex_arc = 0.5 * base_radius * flank_rolls[::element_order] ** 2
-    return FlankInterpolation.of(
-        *_averaging_weights(
-            offsets, rolls, base_radius, contact_roll, sense, vertex_arc, element_order, GAUSS_POINTS, GAUSS_WEIGHTS
-        )
-    )
+    near, first = _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_rolls, element_order)
+    return FlankInterpolation(near, first, len(flank_rolls))
 
 
 class Averages:
@@ -168,11 +166,7 @@ class Points:
             shapes = (1.0 - local, local)
         else:
             shapes = ((1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0))
-        first = element_order * element
-        weights = np.zeros((len(rolls), len(flank_rolls)))
-        for ahead, shape in enumerate(shapes):
-            weights[np.arange(len(rolls)), first + ahead] = shape
-        return FlankInterpolation.of(weights, first, first + element_order + 1)
+        return FlankInterpolation(np.stack(shapes, axis=1), element_order * element, len(flank_rolls))
 
 
 # By their names in a scene.

@@ -7,14 +7,15 @@ of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
+from math import cos, sin
 
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product, directions
 from fenics_gears.contact.rank import of_full_rank
-from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, ToothPair
+from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, Place, ToothPair
 from fenics_gears.geometry.pair import GearPair
 
 # The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
@@ -81,26 +82,32 @@ def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:
     return np.repeat(values, [len(pair.offsets) for pair in pairs], axis=0)
 
 
+@dataclass(frozen=True)
+class Lines:
+    """Line of action of each contact node: its direction `normal` (n, 2) in space, from pinion to wheel, `tangent` (n, 2) across it, sign (n,)
+    of rotations there, and `lever_arms` (n,), mm, of normal forces about the centres of pinion and wheel.
+
+    Lever arms are the base radii, and at a tip's edge those of the mate's normal. An involute turned by phi moves by rb phi along its own
+    normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
+    """
+
+    normal: np.ndarray
+    tangent: np.ndarray
+    turn: np.ndarray
+    lever_arms: tuple[np.ndarray, np.ndarray]
+
+
+def lines_of(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> Lines:
+    """The lines of action of the pairs' nodes."""
+    places = [pair.place for pair in pairs]
+    of_pairs = [(*place.axes[0], *place.axes[1], place.turn, *(base_radii if place.line is None else place.line.lever_arms)) for place in places]
+    values = per_node(pairs, np.array(of_pairs).reshape(len(pairs), 7))
+    return Lines(values[:, :2], values[:, 2:4], values[:, 4], (values[:, 5].copy(), values[:, 6].copy()))
+
+
 def normals(pairs: Sequence[PairNodes]) -> np.ndarray:
     """Direction (n, 2) in space of each node's line of action, from pinion to wheel."""
-    return _axes(pairs)[0]
-
-
-def _axes(pairs: Sequence[PairNodes]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Normal (n, 2) and tangential (n, 2) direction of each node in space, and the sign (n,) of rotations there."""
-    axes = per_node(pairs, np.array([pair.place.axes for pair in pairs]).reshape(len(pairs), 2, 2))
-    return axes[:, 0], axes[:, 1], per_node(pairs, np.array([pair.place.turn for pair in pairs]))
-
-
-def line_lever_arms(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Lever arms (n,), mm, of normal forces: the base radii, and at a tip's edge those of the mate's normal.
-
-    An involute turned by phi moves by rb phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds
-    exactly without friction.
-    """
-    lines = [base_radii if pair.place.line is None else pair.place.line.lever_arms for pair in pairs]
-    arms = per_node(pairs, np.array(lines).reshape(len(pairs), 2))
-    return arms[:, 0].copy(), arms[:, 1].copy()
+    return lines_of(pairs, (0.0, 0.0)).normal
 
 
 def displacement_jacobian(
@@ -108,11 +115,15 @@ def displacement_jacobian(
     base_radii: tuple[float, float],
     normal_lever_arms: tuple[np.ndarray, np.ndarray],
     tangential: bool,
+    lines: Lines | None = None,
 ) -> np.ndarray:
-    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm."""
-    nodes = sum(len(pair.offsets) for pair in pairs)
+    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm.
+
+    `lines`: of the nodes, where they are known.
+    """
+    nodes, lines = len(normal_lever_arms[0]), lines or lines_of(pairs, base_radii)
+    normal, tangent, turn = lines.normal, lines.tangent, lines.turn
     rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
-    normal, tangent, turn = _axes(pairs)
     rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_lever_arms[0] / base_radii[0]
     rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_lever_arms[1] / base_radii[1]
     if tangential:
@@ -121,67 +132,78 @@ def displacement_jacobian(
     return rows
 
 
+# Contact nodes as `compliance_product` takes them; none.
+_Nodes = tuple[int, np.ndarray, np.ndarray, np.ndarray]
+NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
+
+
 class CompliancePairing:
-    """Compliance between the contact nodes of two sets of tooth pairs, from the flank compliances of both gears."""
+    """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
 
     def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None):
         """`kept`: where blocks of either gear, over the face width, are kept; pairings of the same bodies may share it."""
         self._widths, self._gears = flanks.pair.face_widths, flanks.compliance
         self._blocks = ({}, {}) if kept is None else kept
 
-    def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
+    def _block(self, gear: int, responding: Place, loaded: Place) -> np.ndarray:
         body, blocks = self._gears[gear], self._blocks[gear]
-        teeth = responding.place.ahead(gear), loaded.place.ahead(gear)
-        sides = responding.place.flank, loaded.place.flank
+        teeth, sides = (responding.ahead(gear), loaded.ahead(gear)), (responding.flank, loaded.flank)
         key = body.key(*teeth), *sides
         if key not in blocks:
             blocks[key] = np.ascontiguousarray(body.between(*teeth, sides)) / self._widths[gear]
         return blocks[key]
 
-    def product(
-        self,
-        responding: tuple[ToothPair, ...],
-        loaded: tuple[ToothPair, ...],
-        response_directions,
-        load_directions,
-        symmetric: bool = False,
-    ) -> np.ndarray:
-        """Sum over both gears of `N A N^T`: (d_r n_r, d_l n_l), mm/N, directions outermost.
+    def compliance(
+        self, pairs: Sequence[ToothPair], previous: Sequence[ToothPair] | None = None, turned: tuple[float, float] = (0.0, 0.0)
+    ) -> tuple[np.ndarray, np.ndarray | None]:
+        """Sum over both gears of `N A N^T`, mm/N: C (m, m) between the nodes of `pairs`, and E (n, m before) by forces on those of `previous`.
 
-        `response_directions(gear, pair)` and `load_directions(gear, pair)` give unit vectors (d, 2) in tooth frames.
+        With `previous`, the pairs a step before, there are tangential rows, and E is the displacement along the tangent that the material
+        points had while the gears stood `turned` (rad, of either one) before. E is None without.
         """
-        if not responding or not loaded:
-            return np.zeros((0, 0))
-        rows, columns = node_slices(responding), node_slices(loaded)
-        kinds = len(response_directions(0, responding[0])), len(load_directions(0, loaded[0]))
-        result = np.zeros((kinds[0], rows[-1].stop, kinds[1], columns[-1].stop))
-        for a, pair_a in enumerate(responding):
-            for b, pair_b in enumerate(loaded):
-                if symmetric and b > a:
-                    continue
-                part = np.zeros((kinds[0], len(pair_a.offsets), kinds[1], len(pair_b.offsets)))
-                for gear in range(2):
-                    n_a, n_b = pair_a.interpolation[gear], pair_b.interpolation[gear]
-                    compliance_product(
-                        self._block(gear, pair_a, pair_b),
-                        n_a.near, n_a.first, n_a.last, response_directions(gear, pair_a),
-                        n_b.near, n_b.first, n_b.last, load_directions(gear, pair_b),
-                        part,
-                    )  # fmt: skip
-                result[:, rows[a], :, columns[b]] = part
-                if symmetric and b < a:
-                    result[:, rows[b], :, columns[a]] = part.transpose(2, 3, 0, 1)
-        return result.reshape(kinds[0] * rows[-1].stop, -1)
+        tangential = previous is not None
+        kinds, nodes, nodes_before = 2 if tangential else 1, _count(pairs), _count(previous or ())
+        compliance, earlier = np.zeros((kinds, nodes, kinds, nodes)), np.zeros((1, nodes, 2, nodes_before))
+        flanks = list(dict.fromkeys(_flank(pair) for pair in (*pairs, *(previous or ()))))
+        for gear in range(2):
+            now, before = (_nodes_by_flank(each, gear, tangential) for each in (pairs, previous or ()))
+            for pair in pairs:
+                row, near, first, axes = own = now[_flank(pair)]
+                if tangential:
+                    own = row, near, first, np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
+                for flank in flanks:
+                    loaded, loaded_before = now.get(flank, NO_NODES), before.get(flank, NO_NODES)
+                    # The other half follows by symmetry.
+                    loaded = loaded if loaded[0] <= row else NO_NODES
+                    if len(loaded[2]) or len(loaded_before[2]):
+                        block = self._block(gear, pair.place, Place(*flank, pair.place.contact_rolls))
+                        compliance_product(block, own, loaded, compliance, loaded_before, earlier)
+        for nodes_of_pair in node_slices(pairs)[1:]:
+            compliance[:, : nodes_of_pair.start, :, nodes_of_pair] = compliance[:, nodes_of_pair, :, : nodes_of_pair.start].transpose(2, 3, 0, 1)
+        return compliance.reshape(kinds * nodes, -1), earlier.reshape(nodes, -1) if tangential else None
 
 
-def own_directions(tangential: bool):
-    """Directions at a pair's own position: e_x, and e_y where friction asks for it."""
-    return lambda gear, pair: directions(pair.place.contact_rolls[gear], tangential)
+def _count(pairs: Sequence[PairNodes]) -> int:
+    return sum(len(pair.offsets) for pair in pairs)
 
 
-def earlier_tangent(advance: tuple[float, float]):
-    """e_y at the material point as it stood `advance` (rad, of either gear) before: that tooth's frame then."""
-    return lambda gear, pair: directions(pair.place.contact_rolls[gear] - pair.place.turn * advance[gear], True)[1:]
+def _flank(pair: ToothPair) -> tuple[int, int]:
+    return pair.place.index, pair.place.flank
+
+
+def _nodes_by_flank(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> dict[tuple[int, int], _Nodes]:
+    """The contact nodes of each pair and the directions of forces on them: e_x, and e_y where friction asks for it."""
+    found, start = {}, 0
+    for pair in pairs:
+        view = pair.interpolation[gear]
+        found[_flank(pair)] = start, view.near, view.first, directions(pair.place.contact_rolls[gear], tangential)
+        start += len(pair.offsets)
+    return found
+
+
+def _earlier_tangent(place: Place, gear: int, turned: tuple[float, float]) -> np.ndarray:
+    """e_y (1, 2) at the material point as it stood `turned` (rad, of either gear) before: that tooth's frame then."""
+    return directions(place.contact_rolls[gear] - place.turn * turned[gear], True)[1:]
 
 
 def contact_operator(
@@ -197,12 +219,9 @@ def contact_operator(
 
     `coordinates`: which of CENTRE_COORDINATES are unknowns; `advance`: rotation of the pinion (rad) during the step.
     """
-    own = own_directions(previous is not None)
-    compliance, dependent = of_full_rank(pairing.product(pairs, pairs, own, own, symmetric=True))
-    before = None
-    if previous is not None:
-        before = pairing.product(pairs, previous, earlier_tangent(turned(flanks.pair, advance)), own)
-    return replace(operator_on_lines(flanks.pair, pairs, coordinates, compliance, before, advance), dependent_rows=dependent)
+    compliance, before = pairing.compliance(pairs, previous, turned(flanks.pair, advance))
+    compliance, dependent = of_full_rank(compliance)
+    return operator_on_lines(flanks.pair, pairs, coordinates, compliance, before, advance, dependent)
 
 
 def operator_on_lines(
@@ -212,25 +231,25 @@ def operator_on_lines(
     compliance: np.ndarray,
     previous_compliance: np.ndarray | None,
     advance: float,
+    dependent_rows: int = 0,
 ) -> ContactOperator:
     """The contact equations of nodes whose normal forces act along their pair's line; `previous_compliance` None without friction.
 
     Arguments as of `contact_operator`, arrays as of ContactOperator.
     """
-    radii = (gears.pinion.base_radius, gears.wheel.base_radius)
-    arms, frictional = line_lever_arms(pairs, radii), previous_compliance is not None
-    slip = slip_of_rigid_flanks(pairs, gears.rotation_ratio, advance) if frictional else None
-    earlier = earlier_tangential_jacobian(pairs, radii, turned(gears, advance))[:, coordinates] if frictional else None
+    radii, frictional = (gears.pinion.base_radius, gears.wheel.base_radius), previous_compliance is not None
+    lines = lines_of(pairs, radii)
     return ContactOperator(
         pairs=pairs,
         base_radii=radii,
-        normal_lever_arms=arms,
+        normal_lever_arms=lines.lever_arms,
         compliance=compliance,
-        jacobian=np.ascontiguousarray(displacement_jacobian(pairs, radii, arms, frictional)[:, coordinates]),
+        jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines).take(coordinates, axis=1),
         gap=over_nodes(pairs, "gap"),
-        rigid_slip=slip,
+        rigid_slip=slip_of_rigid_flanks(pairs, lines, gears.rotation_ratio, advance) if frictional else None,
         previous_compliance=previous_compliance,
-        previous_jacobian=None if earlier is None else np.ascontiguousarray(earlier),
+        previous_jacobian=earlier_tangential_jacobian(pairs, lines, radii, turned(gears, advance)).take(coordinates, axis=1) if frictional else None,
+        dependent_rows=dependent_rows,
     )
 
 
@@ -239,23 +258,21 @@ def turned(gears: GearPair, advance: float) -> tuple[float, float]:
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
 
 
-def slip_of_rigid_flanks(pairs: tuple[PairNodes, ...], rotation_ratio: float, advance: float) -> np.ndarray:
+def slip_of_rigid_flanks(pairs: Sequence[PairNodes], lines: Lines, rotation_ratio: float, advance: float) -> np.ndarray:
     """Slip (n,), mm, of rigid gears while the pinion turns by `advance` (rad).
 
     v_rigid = omega1 (x - (z1/z2) (L - x)) of [12], zero at the pitch point.
     """
-    turn = per_node(pairs, np.array([pair.place.turn for pair in pairs]))
-    return advance * turn * (over_nodes(pairs, "pinion_lever_arm") - rotation_ratio * over_nodes(pairs, "wheel_lever_arm"))
+    return advance * lines.turn * (over_nodes(pairs, "pinion_lever_arm") - rotation_ratio * over_nodes(pairs, "wheel_lever_arm"))
 
 
-def earlier_tangential_jacobian(pairs, radii, turned) -> np.ndarray:
+def earlier_tangential_jacobian(pairs: Sequence[PairNodes], lines: Lines, radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
-    rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
     offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_lever_arm", "wheel_lever_arm"))
-    line_1, line_2 = line_lever_arms(pairs, radii)
-    height_1, height_2 = line_1 - offsets, line_2 + offsets
-    _, tangent, turn = _axes(pairs)
+    height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
+    tangent, turn = lines.tangent, lines.turn
+    rows = np.zeros((len(offsets), len(CENTRE_COORDINATES)))
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
-    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * np.cos(turned[0]) - turn * height_1 * np.sin(turned[0])) / radii[0]
-    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * np.cos(turned[1]) - turn * height_2 * np.sin(turned[1])) / radii[1]
+    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cos(turned[0]) - turn * height_1 * sin(turned[0])) / radii[0]
+    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cos(turned[1]) - turn * height_2 * sin(turned[1])) / radii[1]
     return rows

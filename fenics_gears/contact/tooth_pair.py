@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.interpolation import INTERPOLATIONS, FlankInterpolation, hat_integrals
+from fenics_gears.contact.roll_at_height import roll_angle_at_height
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, node_offsets
 from fenics_gears.elasticity.compliance import FlankCompliance
-from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
+from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 
 Removal = Callable[[np.ndarray], np.ndarray]
