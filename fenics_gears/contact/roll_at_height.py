@@ -4,32 +4,40 @@ from __future__ import annotations
 
 import math
 
-from numba import vectorize
+import numpy as np
+from numba import njit
 
 NEWTON_STEPS = 60
 # The step just taken squares what is left.
 CLOSE = 1e-10
 
 
-@vectorize(cache=True)
-def roll_angle_at_height(base_radius, contact_roll_angle, height):
-    """Roll angle (rad) of the flank point at a height ``h`` (mm) above the gear's centre; arrays broadcast.
+def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) -> np.ndarray:
+    """Roll angle (rad) of the flank point at a height ``h`` (mm, any shape) above the gear's centre.
 
     ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
-    above the height at which it turns away. Newton in ``s = v^2/2`` (arc length over base radius), in which
-    ``dh/ds = rb cos(vc - v)``: h is convex in s below the contact point and concave above it, so steps
-    from the contact point never pass the root.
+    above the height at which it turns away.
     """
-    target = height / base_radius
-    if not math.cos(contact_roll_angle) <= target < contact_roll_angle + 0.5 * math.pi:
-        return math.nan
-    half_square = 0.5 * contact_roll_angle**2
-    for _ in range(NEWTON_STEPS):
-        roll = math.sqrt(2.0 * half_square)
-        turned = contact_roll_angle - roll
-        slope = math.cos(turned)
-        residual = target - slope + roll * math.sin(turned)
-        half_square = max(half_square + residual / slope, 0.0)
-        if abs(residual) <= CLOSE:
-            break
-    return math.sqrt(2.0 * half_square)
+    heights = np.asarray(height, dtype=float)
+    return _roll_angles(base_radius, contact_roll_angle, heights.reshape(-1)).reshape(heights.shape)
+
+
+@njit(cache=True)
+def _roll_angles(base_radius, contact, heights):
+    """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s below the
+    contact point and concave above it, so steps from the contact point never pass the root."""
+    lowest, turning, rolls = math.cos(contact), contact + 0.5 * math.pi, np.full(len(heights), np.nan)
+    for point in range(len(heights)):
+        target = heights[point] / base_radius
+        if not lowest <= target < turning:
+            continue
+        half_square = 0.5 * contact**2
+        for _ in range(NEWTON_STEPS):
+            roll = math.sqrt(2.0 * half_square)
+            slope = math.cos(contact - roll)
+            residual = target - slope + roll * math.sin(contact - roll)
+            half_square = max(half_square + residual / slope, 0.0)
+            if abs(residual) <= CLOSE:
+                break
+        rolls[point] = math.sqrt(2.0 * half_square)
+    return rolls
