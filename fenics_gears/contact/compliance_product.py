@@ -21,53 +21,56 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
 
     `block` (2n, 2n): displacement of the flank of a due to forces on the flank of b. `responding`: place of the first node of a among all,
     `near` and `first` of its FlankInterpolation, directions (d, 2) in the tooth's frame. `now`: the same of b; `before`: of b as it stood a step
-    before. `compliance` (d, n, d, n): first d of the directions of a; `previous_compliance` (1, n, 2, n before): the one that follows.
+    before. `compliance` (d, n, d, n): first d of the directions of a, nodes of b that come after those of a left out; `previous_compliance` (1, n, 2,
+    n before): the direction that follows.
     """
-    row, near, first, directions_a = responding
-    (_, _, first_now, _), (_, _, first_before, _) = now, before
-    width_now, width_before = now[1].shape[1], before[1].shape[1]
-    start, end = len(block) // 2, 0
-    if len(first_now):
-        start, end = first_now.min(), first_now.max() + width_now
-    if len(first_before):
-        start, end = min(start, first_before.min()), max(end, first_before.max() + width_before)
-    kinds, along = len(compliance), np.empty((len(directions_a), 2 * (end - start)))
+    row, near, first, directions = responding
+    start, end = block.shape[1] // 2, 0
+    for loaded in (now, before):
+        for begin in loaded[2]:
+            start, end = min(start, begin), max(end, begin + loaded[1].shape[1])
+    kinds, forces = len(compliance), 2 * (end - start)
+    x, y, along = np.empty(forces), np.empty(forces), np.empty((len(directions), forces))
     for i in range(len(near)):
-        _response(block, near[i], first[i], directions_a, start, along)
-        _at_nodes(along[:kinds], start, now, compliance, row + i)
-        _at_nodes(along[kinds:], start, before, previous_compliance, row + i)
+        x[:], y[:] = 0.0, 0.0
+        for node in range(near.shape[1]):
+            dof = 2 * (first[i] + node)
+            _add(x, near[i, node], block[dof, 2 * start : 2 * end])
+            _add(y, near[i, node], block[dof + 1, 2 * start : 2 * end])
+        for d in range(len(directions)):
+            along[d] = 0.0
+            _add(along[d], directions[d, 0], x)
+            _add(along[d], directions[d, 1], y)
+        _at_nodes(along[:kinds], start, now, compliance, row + i, True)
+        _at_nodes(along[kinds:], start, before, previous_compliance, row + i, False)
 
 
 @njit(cache=True)
-def _response(block, near, first, directions, start, along):
-    """Displacement `along` directions (d, 2) of one contact node by forces on the other flank's nodes from `start` on (d, 2 k), x and y in turn."""
+def _add(total, weight, values):
+    # A function of its own: this loop is then compiled for several numbers at a time.
+    for i in range(len(total)):
+        total[i] += weight * values[i]
+
+
+@njit(cache=True)
+def _at_nodes(along, start, loaded, result, row, symmetric):
+    """Add displacements `along` directions (d, 2 k), by x and y of each flank node from `start` on, to a row of `result` (d, n, e, m).
+
+    Where it is symmetric, only nodes up to the row's own, and what follows from them.
+    """
     # Unsigned numbers: compiled code does not look for a negative index.
-    zero, one, two, first = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(first)
-    for column in range(zero, np.uint64(along.shape[1]), two):
-        at = two * np.uint64(start) + column
-        x_by_x, x_by_y, y_by_x, y_by_y = 0.0, 0.0, 0.0, 0.0
-        for node in range(np.uint64(len(near))):
-            weight, dof = near[node], two * (first + node)
-            x_by_x += weight * block[dof, at]
-            x_by_y += weight * block[dof, at + one]
-            y_by_x += weight * block[dof + one, at]
-            y_by_y += weight * block[dof + one, at + one]
-        for d in range(np.uint64(len(directions))):
-            along[d, column] = directions[d, zero] * x_by_x + directions[d, one] * y_by_x
-            along[d, column + one] = directions[d, zero] * x_by_y + directions[d, one] * y_by_y
-
-
-@njit(cache=True)
-def _at_nodes(along, start, loaded, result, row):
-    """Add the displacements by forces of contact nodes to a row of `result` (d, n, e, m)."""
-    zero, one, two, column = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(loaded[0])
+    zero, one, two, row, column = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(row), np.uint64(loaded[0])
     _, near, first, directions = loaded
-    for node in range(np.uint64(len(near))):
-        at = two * np.uint64(first[node] - start)
+    nodes = min(np.uint64(len(near)), row + one - column) if symmetric else np.uint64(len(near))
+    for node in range(nodes):
+        at, place = two * np.uint64(first[node] - start), column + node
         for d in range(np.uint64(len(along))):
             by_x, by_y = 0.0, 0.0
             for k in range(np.uint64(near.shape[1])):
                 by_x += near[node, k] * along[d, at + two * k]
                 by_y += near[node, k] * along[d, at + two * k + one]
             for e in range(np.uint64(len(directions))):
-                result[d, row, e, column + node] += directions[e, zero] * by_x + directions[e, one] * by_y
+                value = directions[e, zero] * by_x + directions[e, one] * by_y
+                result[d, row, e, place] += value
+                if symmetric and place != row:
+                    result[e, place, d, row] += value

@@ -34,36 +34,37 @@ class FlankInterpolation:
         return whole
 
 
-@njit(cache=True)
 def hat_integrals(offsets: np.ndarray) -> np.ndarray:
     """Integral of each hat function (n,), mm: the length of flank that a contact node stands for.
 
     >>> hat_integrals(np.array([0.0, 1.0, 3.0])).tolist()
     [0.5, 1.5, 1.0]
     """
-    cells = np.diff(offsets)
+    cells = offsets[1:] - offsets[:-1]
     integrals = np.zeros(len(offsets))
     integrals[:-1] += 0.5 * cells
     integrals[1:] += 0.5 * cells
     return integrals
 
 
-@njit(cache=True)
 def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
     """Gauss points (n - 1, points), mm, of the cells between contact nodes."""
-    return offsets[:-1].reshape(-1, 1) + np.diff(offsets).reshape(-1, 1) * GAUSS_POINTS
+    return offsets[:-1, None] + (offsets[1:] - offsets[:-1])[:, None] * GAUSS_POINTS
 
 
 @njit(cache=True)
 def hat_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Average over each hat function (n,) of `values` given at `quadrature_offsets(offsets)`."""
-    sums = np.zeros(len(offsets))
+    sums, integrals = np.zeros(len(offsets)), np.zeros(len(offsets))
     for cell in range(len(offsets) - 1):
+        width = offsets[cell + 1] - offsets[cell]
+        integrals[cell] += 0.5 * width
+        integrals[cell + 1] += 0.5 * width
         for point in range(len(GAUSS_POINTS)):
-            scaled = values[cell, point] * GAUSS_WEIGHTS[point] * (offsets[cell + 1] - offsets[cell])
+            scaled = values[cell, point] * GAUSS_WEIGHTS[point] * width
             sums[cell] += scaled * (1.0 - GAUSS_POINTS[point])
             sums[cell + 1] += scaled * GAUSS_POINTS[point]
-    return sums / hat_integrals(offsets)
+    return sums / integrals
 
 
 @njit(cache=True)

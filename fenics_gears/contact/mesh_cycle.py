@@ -272,8 +272,8 @@ def carried_nodes(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...],
     for nodes, pair in zip(node_slices(pairs), pairs):
         if _key(pair) in earlier:
             first, offsets = earlier[_key(pair)]
-            distance = np.abs(pair.offsets[:, None] - offsets[None, :])
-            carried[nodes] = np.where(distance.min(axis=1) <= 0.75 * spacing, first + distance.argmin(axis=1), -1)
+            nearest = np.abs(pair.offsets[:, None] - offsets).argmin(axis=1)
+            carried[nodes] = np.where(np.abs(pair.offsets - offsets[nearest]) <= 0.75 * spacing, first + nearest, -1)
     return carried
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from math import cos, sin
 
 import numpy as np
@@ -68,7 +69,7 @@ class ContactOperator:
 
 def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
     """Where each pair's contact nodes stand among those of all pairs, one pair after the other."""
-    ends = np.cumsum([0] + [len(pair.offsets) for pair in pairs])
+    ends = list(accumulate((len(pair.offsets) for pair in pairs), initial=0))
     return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
 
 
@@ -91,10 +92,16 @@ class Lines:
     normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
     """
 
+    pairs: Sequence[PairNodes]
     normal: np.ndarray
     tangent: np.ndarray
     turn: np.ndarray
     lever_arms: tuple[np.ndarray, np.ndarray]
+
+    @cached_property
+    def friction_arms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lever arms (n,), mm, of friction about the centres of pinion and wheel."""
+        return over_nodes(self.pairs, "pinion_lever_arm"), over_nodes(self.pairs, "wheel_lever_arm")
 
 
 def lines_of(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> Lines:
@@ -102,7 +109,7 @@ def lines_of(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> Lin
     places = [pair.place for pair in pairs]
     of_pairs = [(*place.axes[0], *place.axes[1], place.turn, *(base_radii if place.line is None else place.line.lever_arms)) for place in places]
     values = per_node(pairs, np.array(of_pairs).reshape(len(pairs), 7))
-    return Lines(values[:, :2], values[:, 2:4], values[:, 4], (values[:, 5].copy(), values[:, 6].copy()))
+    return Lines(pairs, values[:, :2], values[:, 2:4], values[:, 4], (values[:, 5].copy(), values[:, 6].copy()))
 
 
 def normals(pairs: Sequence[PairNodes]) -> np.ndarray:
@@ -127,12 +134,13 @@ def displacement_jacobian(
     rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_lever_arms[0] / base_radii[0]
     rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_lever_arms[1] / base_radii[1]
     if tangential:
-        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * over_nodes(pairs, "pinion_lever_arm") / base_radii[0]
-        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * over_nodes(pairs, "wheel_lever_arm") / base_radii[1]
+        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * lines.friction_arms[0] / base_radii[0]
+        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * lines.friction_arms[1] / base_radii[1]
     return rows
 
 
-# Contact nodes as `compliance_product` takes them; none.
+# A flank of a gear, by its tooth's place and its side; contact nodes as `compliance_product` takes them, and none of them.
+_Flank = tuple[int, int]
 _Nodes = tuple[int, np.ndarray, np.ndarray, np.ndarray]
 NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
 
@@ -141,16 +149,15 @@ class CompliancePairing:
     """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
 
     def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None):
-        """`kept`: where blocks of either gear, over the face width, are kept; pairings of the same bodies may share it."""
+        """`kept`: where blocks of either gear are kept; pairings of the same bodies may share it."""
         self._widths, self._gears = flanks.pair.face_widths, flanks.compliance
         self._blocks = ({}, {}) if kept is None else kept
 
-    def _block(self, gear: int, responding: Place, loaded: Place) -> np.ndarray:
-        body, blocks = self._gears[gear], self._blocks[gear]
-        teeth, sides = (responding.ahead(gear), loaded.ahead(gear)), (responding.flank, loaded.flank)
-        key = body.key(*teeth), *sides
+    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> np.ndarray:
+        body, blocks, teeth, sides = self._gears[gear], self._blocks[gear], (responding[0], loaded[0]), (responding[1], loaded[1])
+        key = body.key(*teeth), sides
         if key not in blocks:
-            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides)) / self._widths[gear]
+            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides))
         return blocks[key]
 
     def compliance(
@@ -164,22 +171,19 @@ class CompliancePairing:
         tangential = previous is not None
         kinds, nodes, nodes_before = 2 if tangential else 1, _count(pairs), _count(previous or ())
         compliance, earlier = np.zeros((kinds, nodes, kinds, nodes)), np.zeros((1, nodes, 2, nodes_before))
-        flanks = list(dict.fromkeys(_flank(pair) for pair in (*pairs, *(previous or ()))))
         for gear in range(2):
             now, before = (_nodes_by_flank(each, gear, tangential) for each in (pairs, previous or ()))
-            for pair in pairs:
-                row, near, first, axes = own = now[_flank(pair)]
+            for pair, (flank, own) in zip(pairs, now.items()):
+                row, near, first, axes = own
                 if tangential:
-                    own = row, near, first, np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
-                for flank in flanks:
-                    loaded, loaded_before = now.get(flank, NO_NODES), before.get(flank, NO_NODES)
+                    axes = np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
+                own = row, near, first, axes / self._widths[gear]
+                for other in now | before:
+                    loaded, loaded_before = now.get(other, NO_NODES), before.get(other, NO_NODES)
                     # The other half follows by symmetry.
                     loaded = loaded if loaded[0] <= row else NO_NODES
                     if len(loaded[2]) or len(loaded_before[2]):
-                        block = self._block(gear, pair.place, Place(*flank, pair.place.contact_rolls))
-                        compliance_product(block, own, loaded, compliance, loaded_before, earlier)
-        for nodes_of_pair in node_slices(pairs)[1:]:
-            compliance[:, : nodes_of_pair.start, :, nodes_of_pair] = compliance[:, nodes_of_pair, :, : nodes_of_pair.start].transpose(2, 3, 0, 1)
+                        compliance_product(self._block(gear, flank, other), own, loaded, compliance, loaded_before, earlier)
         return compliance.reshape(kinds * nodes, -1), earlier.reshape(nodes, -1) if tangential else None
 
 
@@ -187,17 +191,13 @@ def _count(pairs: Sequence[PairNodes]) -> int:
     return sum(len(pair.offsets) for pair in pairs)
 
 
-def _flank(pair: ToothPair) -> tuple[int, int]:
-    return pair.place.index, pair.place.flank
-
-
-def _nodes_by_flank(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> dict[tuple[int, int], _Nodes]:
+def _nodes_by_flank(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> dict[_Flank, _Nodes]:
     """The contact nodes of each pair and the directions of forces on them: e_x, and e_y where friction asks for it."""
     found, start = {}, 0
     for pair in pairs:
-        view = pair.interpolation[gear]
-        found[_flank(pair)] = start, view.near, view.first, directions(pair.place.contact_rolls[gear], tangential)
-        start += len(pair.offsets)
+        view, place = pair.interpolation[gear], pair.place
+        found[place.ahead(gear), place.flank] = start, view.near, view.first, directions(place.contact_rolls[gear], tangential)
+        start += len(view.near)
     return found
 
 
@@ -246,9 +246,9 @@ def operator_on_lines(
         compliance=compliance,
         jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines).take(coordinates, axis=1),
         gap=over_nodes(pairs, "gap"),
-        rigid_slip=slip_of_rigid_flanks(pairs, lines, gears.rotation_ratio, advance) if frictional else None,
+        rigid_slip=slip_of_rigid_flanks(lines, gears.rotation_ratio, advance) if frictional else None,
         previous_compliance=previous_compliance,
-        previous_jacobian=earlier_tangential_jacobian(pairs, lines, radii, turned(gears, advance)).take(coordinates, axis=1) if frictional else None,
+        previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance)).take(coordinates, axis=1) if frictional else None,
         dependent_rows=dependent_rows,
     )
 
@@ -258,17 +258,17 @@ def turned(gears: GearPair, advance: float) -> tuple[float, float]:
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
 
 
-def slip_of_rigid_flanks(pairs: Sequence[PairNodes], lines: Lines, rotation_ratio: float, advance: float) -> np.ndarray:
+def slip_of_rigid_flanks(lines: Lines, rotation_ratio: float, advance: float) -> np.ndarray:
     """Slip (n,), mm, of rigid gears while the pinion turns by `advance` (rad).
 
     v_rigid = omega1 (x - (z1/z2) (L - x)) of [12], zero at the pitch point.
     """
-    return advance * lines.turn * (over_nodes(pairs, "pinion_lever_arm") - rotation_ratio * over_nodes(pairs, "wheel_lever_arm"))
+    return advance * lines.turn * (lines.friction_arms[0] - rotation_ratio * lines.friction_arms[1])
 
 
-def earlier_tangential_jacobian(pairs: Sequence[PairNodes], lines: Lines, radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
+def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
-    offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_lever_arm", "wheel_lever_arm"))
+    offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms
     height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
     tangent, turn = lines.tangent, lines.turn
     rows = np.zeros((len(offsets), len(CENTRE_COORDINATES)))
