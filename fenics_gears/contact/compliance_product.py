@@ -29,27 +29,29 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
     for loaded in (now, before):
         for begin in loaded[2]:
             start, end = min(start, begin), max(end, begin + loaded[1].shape[1])
-    kinds, forces = len(compliance), 2 * (end - start)
+    kinds, forces, numbers = len(compliance), 2 * (end - start), block.reshape(-1)
     x, y, along = np.empty(forces), np.empty(forces), np.empty((len(directions), forces))
     for i in range(len(near)):
         x[:], y[:] = 0.0, 0.0
         for node in range(near.shape[1]):
-            dof = 2 * (first[i] + node)
-            _add(x, near[i, node], block[dof, 2 * start : 2 * end])
-            _add(y, near[i, node], block[dof + 1, 2 * start : 2 * end])
+            at = 2 * (first[i] + node) * block.shape[1] + 2 * start
+            _add(x, near[i, node], numbers, at)
+            _add(y, near[i, node], numbers, at + block.shape[1])
         for d in range(len(directions)):
             along[d] = 0.0
-            _add(along[d], directions[d, 0], x)
-            _add(along[d], directions[d, 1], y)
+            _add(along[d], directions[d, 0], x, 0)
+            _add(along[d], directions[d, 1], y, 0)
         _at_nodes(along[:kinds], start, now, compliance, row + i, True)
         _at_nodes(along[kinds:], start, before, previous_compliance, row + i, False)
 
 
 @njit(cache=True)
-def _add(total, weight, values):
-    # A function of its own: this loop is then compiled for several numbers at a time.
+def _add(total, weight, values, first):
+    """Add weight times the values from `first` on."""
+    # A function of its own, and unsigned places (no look for a negative index): so the loop is compiled for several numbers at a time.
+    first = np.uint64(first)
     for i in range(len(total)):
-        total[i] += weight * values[i]
+        total[i] += weight * values[first + np.uint64(i)]
 
 
 @njit(cache=True)
@@ -58,7 +60,6 @@ def _at_nodes(along, start, loaded, result, row, symmetric):
 
     Where it is symmetric, only nodes up to the row's own, and what follows from them.
     """
-    # Unsigned numbers: compiled code does not look for a negative index.
     zero, one, two, row, column = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(row), np.uint64(loaded[0])
     _, near, first, directions = loaded
     nodes = min(np.uint64(len(near)), row + one - column) if symmetric else np.uint64(len(near))
