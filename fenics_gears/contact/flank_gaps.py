@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.interpolation import hat_average, quadrature_offsets
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import node_slices
-from fenics_gears.contact.roll_at_height import roll_angle_at_height
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations

@@ -6,7 +6,6 @@ phase `i / steps`. All teeth being alike, the equations at a phase are the same 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import inf
@@ -83,15 +82,6 @@ def pair_places(
     sides = (drive_place, coast_place) if coast_flanks else (drive_place,)
     places = (side(pair, k, pair.path_start + (phase + k) * pair.base_pitch) for side in sides for k in candidates)
     return tuple(place for place in places if can_touch(place))
-
-
-def pairs_at_once(positions: Iterable[Iterable[Place]]) -> int:
-    """Largest number of consecutive tooth pairs that can touch at one of some positions; drive and coast flank of a pair count once."""
-    spans = [0]
-    for places in positions:
-        indices = [place.index for place in places]
-        spans += [max(indices) - min(indices) + 1] if indices else []
-    return max(spans)
 
 
 @dataclass(frozen=True)

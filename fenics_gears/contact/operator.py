@@ -64,7 +64,7 @@ class ContactOperator:
     @cached_property
     def on_drive_flanks(self) -> np.ndarray:
         """Whether a node (n,) is on the drive flanks, not the coast flanks."""
-        return per_node(self.pairs, np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool))
+        return np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool)[self.node_pair]
 
 
 def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:

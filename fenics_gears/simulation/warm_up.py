@@ -11,11 +11,11 @@ import time
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.interpolation import flank_interpolation, hat_average, quadrature_offsets
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
-from fenics_gears.contact.roll_at_height import roll_angle_at_height
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place
 from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Motion, solve_steps

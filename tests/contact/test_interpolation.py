@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.interpolation import (
     flank_interpolation,
     hat_average,
@@ -10,7 +11,6 @@ from fenics_gears.contact.interpolation import (
     quadrature_offsets,
 )
 from fenics_gears.contact.window import ContactGrid, contact_roll_angles, node_offsets
-from fenics_gears.geometry.involute import roll_angle_at_height
 
 
 def interpolation_at(pair, xi, order, grid=ContactGrid(2.0, 21), elements=50):
@@ -30,7 +30,7 @@ def test_polynomials_of_the_arc_length_are_averaged_exactly(paper_pair, order):
     radius = paper_pair.pinion.base_radius
     for power in range(order + 1):
         nodal = (0.5 * radius * flank_rolls**2) ** power
-        averaged = np.array([w[f:l] @ nodal[f:l] for w, f, l in zip(result.weights, result.first, result.last)])
+        averaged = result.weights @ nodal
         local, weight = np.polynomial.legendre.leggauss(400)
         y = offsets[:-1, None] + np.diff(offsets)[:, None] * 0.5 * (local + 1.0)
         arc = 0.5 * radius * roll_angle_at_height(radius, contact_roll, radius - y) ** 2

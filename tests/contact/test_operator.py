@@ -7,7 +7,7 @@ import pytest
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.corner import corner_contact
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, pairs_at_once
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places
 from fenics_gears.contact.operator import over_nodes
 from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
@@ -148,7 +148,9 @@ def test_reach_holds_between_steps_too(paper_pair, coast, corner):
                         found.setdefault((one.flank, other.flank), set()).add(one.ahead(gear) - other.ahead(gear))
     ways = touching(paper_pair, GRID, steps, coast, corner)
     reach = ways.reach
-    assert ways.slots == pairs_at_once(places[i] for i in range(0, steps * parts, parts))
+    at_steps = [[place.index for place in places[i]] for i in range(0, steps * parts, parts)]
+    assert ways.slots == max(max(indices) - min(indices) + 1 for indices in at_steps)
+    assert ways.latest == max(map(max, at_steps))
     assert reach.same == max(max(found[sides]) for sides in found if sides[0] == sides[1])
     across = found.get((0, 1), set()) | {-ahead for ahead in found.get((1, 0), set())}
     assert reach.across == ((min(across), max(across)) if coast else None)

@@ -10,23 +10,32 @@ from numba import njit
 NEWTON_STEPS = 60
 # The step just taken squares what is left.
 CLOSE = 1e-10
+# A height may lie below the start of the involute by round-off.
+ROUND_OFF = 4e-16
 
 
-def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) -> np.ndarray:
-    """Roll angle (rad) of the flank point at a height ``h`` (mm, any shape) above the gear's centre.
+def flank_at_height(base_radius: float, contact_roll_angle: float, height) -> tuple[np.ndarray, np.ndarray]:
+    """Roll angle (rad) and ``x`` (mm, as of `geometry.involute.flank_point`) of the flank point at a height ``h`` (mm, any shape).
 
     ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
     above the height at which it turns away.
     """
     heights = np.asarray(height, dtype=float)
-    return _roll_angles(base_radius, contact_roll_angle, heights.reshape(-1)).reshape(heights.shape)
+    rolls, x = _points(base_radius, contact_roll_angle, heights.reshape(-1))
+    return rolls.reshape(heights.shape), x.reshape(heights.shape)
+
+
+def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) -> np.ndarray:
+    """The roll angle (rad) alone."""
+    return flank_at_height(base_radius, contact_roll_angle, height)[0]
 
 
 @njit(cache=True)
-def _roll_angles(base_radius, contact, heights):
+def _points(base_radius, contact, heights):
     """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s below the
     contact point and concave above it, so steps from the contact point never pass the root."""
-    lowest, turning, rolls = math.cos(contact), contact + 0.5 * math.pi, np.full(len(heights), np.nan)
+    lowest, turning = math.cos(contact) - ROUND_OFF, contact + 0.5 * math.pi
+    rolls, x = np.full(len(heights), np.nan), np.full(len(heights), np.nan)
     for point in range(len(heights)):
         target = heights[point] / base_radius
         if not lowest <= target < turning:
@@ -39,5 +48,6 @@ def _roll_angles(base_radius, contact, heights):
             half_square = max(half_square + residual / slope, 0.0)
             if abs(residual) <= CLOSE:
                 break
-        rolls[point] = math.sqrt(2.0 * half_square)
-    return rolls
+        roll = math.sqrt(2.0 * half_square)
+        rolls[point], x[point] = roll, base_radius * (math.sin(contact - roll) + roll * math.cos(contact - roll))
+    return rolls, x
