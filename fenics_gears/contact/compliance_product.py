@@ -30,7 +30,7 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
         for begin in loaded[2]:
             start, end = min(start, begin), max(end, begin + loaded[1].shape[1])
     kinds, forces, numbers = len(compliance), 2 * (end - start), block.reshape(-1)
-    x, y, along = np.empty(forces), np.empty(forces), np.empty((len(directions), forces))
+    x, y, along = np.empty(forces), np.empty(forces), np.zeros((len(directions), len(near), forces))
     for i in range(len(near)):
         x[:], y[:] = 0.0, 0.0
         for node in range(near.shape[1]):
@@ -38,11 +38,10 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
             _add(x, near[i, node], numbers, at)
             _add(y, near[i, node], numbers, at + block.shape[1])
         for d in range(len(directions)):
-            along[d] = 0.0
-            _add(along[d], directions[d, 0], x, 0)
-            _add(along[d], directions[d, 1], y, 0)
-        _at_nodes(along[:kinds], start, now, compliance, row + i, True)
-        _at_nodes(along[kinds:], start, before, previous_compliance, row + i, False)
+            _add(along[d, i], directions[d, 0], x, 0)
+            _add(along[d, i], directions[d, 1], y, 0)
+    _at_nodes(along[:kinds], start, row, now, compliance, True)
+    _at_nodes(along[kinds:], start, row, before, previous_compliance, False)
 
 
 @njit(cache=True)
@@ -55,23 +54,25 @@ def _add(total, weight, values, first):
 
 
 @njit(cache=True)
-def _at_nodes(along, start, loaded, result, row, symmetric):
-    """Add displacements `along` directions (d, 2 k), by x and y of each flank node from `start` on, to a row of `result` (d, n, e, m).
+def _at_nodes(along, start, row, loaded, result, symmetric):
+    """Add displacements `along` directions (d, n, 2 k), by x and y of each flank node from `start` on, to rows of `result` (d, n, e, m) from `row` on.
 
     Where it is symmetric, only nodes up to the row's own, and what follows from them.
     """
     zero, one, two, row, column = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(row), np.uint64(loaded[0])
     _, near, first, directions = loaded
-    nodes = min(np.uint64(len(near)), row + one - column) if symmetric else np.uint64(len(near))
-    for node in range(nodes):
-        at, place = two * np.uint64(first[node] - start), column + node
-        for d in range(np.uint64(len(along))):
-            by_x, by_y = 0.0, 0.0
-            for k in range(np.uint64(near.shape[1])):
-                by_x += near[node, k] * along[d, at + two * k]
-                by_y += near[node, k] * along[d, at + two * k + one]
-            for e in range(np.uint64(len(directions))):
-                value = directions[e, zero] * by_x + directions[e, one] * by_y
-                result[d, row, e, place] += value
-                if symmetric and place != row:
-                    result[e, place, d, row] += value
+    for i in range(np.uint64(along.shape[1])):
+        place = row + i
+        nodes = min(np.uint64(len(near)), place + one - column) if symmetric else np.uint64(len(near))
+        for node in range(nodes):
+            at, other = two * np.uint64(first[node] - start), column + node
+            for d in range(np.uint64(len(along))):
+                by_x, by_y = 0.0, 0.0
+                for k in range(np.uint64(near.shape[1])):
+                    by_x += near[node, k] * along[d, i, at + two * k]
+                    by_y += near[node, k] * along[d, i, at + two * k + one]
+                for e in range(np.uint64(len(directions))):
+                    value = directions[e, zero] * by_x + directions[e, one] * by_y
+                    result[d, place, e, other] += value
+                    if symmetric and other != place:
+                        result[e, other, d, place] += value
