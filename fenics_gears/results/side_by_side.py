@@ -86,10 +86,9 @@ class KnownLayouts:
 
     def joined(self, cycle: Cycle, steps: Steps) -> Layouts:
         """The layouts of some steps of that cycle."""
-        operators = [position.operator for position in steps.positions]
-        key = tuple(id(operator.pairs) for operator in operators)
+        key = tuple([id(position.operator.pairs) for position in steps.positions])
         if key not in self._joined:
-            self._joined[key] = Layouts([self._layout(cycle, operator, steps.kinds) for operator in operators], steps.kinds)
+            self._joined[key] = Layouts([self._layout(cycle, position.operator, steps.kinds) for position in steps.positions], steps.kinds)
         return self._joined[key]
 
     def _layout(self, cycle: Cycle, operator: ContactOperator, kinds: int) -> Layout:
