@@ -53,4 +53,4 @@ def flags_at(address, size):
 def addresses(arrays: Sequence[np.ndarray | None]) -> tuple[np.ndarray, list[np.ndarray]]:
     """Address of each array, 0 for None; and the arrays, which lie in one piece there and have to be held as long as the addresses are used."""
     held = [np.empty(0) if array is None else np.ascontiguousarray(array) for array in arrays]
-    return np.array([0 if array is None else kept.__array_interface__["data"][0] for array, kept in zip(arrays, held)], dtype=np.int64), held
+    return np.array([0 if array is None else kept.ctypes.data for array, kept in zip(arrays, held)], dtype=np.int64), held
