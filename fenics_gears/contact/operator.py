@@ -172,14 +172,14 @@ class CompliancePairing:
         kinds, nodes, nodes_before = 2 if tangential else 1, _count(pairs), _count(previous or ())
         compliance, earlier = np.zeros((kinds, nodes, kinds, nodes)), np.zeros((1, nodes, 2, nodes_before))
         for gear in range(2):
-            now, before = (_nodes_by_flank(each, gear, tangential) for each in (pairs, previous or ()))
-            for pair, (flank, own) in zip(pairs, now.items()):
+            now, before = (_nodes_of(each, gear, tangential) for each in (pairs, previous or ()))
+            loads = _matched(now, before)
+            for pair, (flank, own) in zip(pairs, now):
                 row, near, first, axes = own
                 if tangential:
                     axes = np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
                 own = row, near, first, axes / self._widths[gear]
-                for other in now | before:
-                    loaded, loaded_before = now.get(other, NO_NODES), before.get(other, NO_NODES)
+                for other, loaded, loaded_before in loads:
                     # The other half follows by symmetry.
                     loaded = loaded if loaded[0] <= row else NO_NODES
                     if len(loaded[2]) or len(loaded_before[2]):
@@ -191,14 +191,24 @@ def _count(pairs: Sequence[PairNodes]) -> int:
     return sum(len(pair.offsets) for pair in pairs)
 
 
-def _nodes_by_flank(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> dict[_Flank, _Nodes]:
-    """The contact nodes of each pair and the directions of forces on them: e_x, and e_y where friction asks for it."""
-    found, start = {}, 0
+def _nodes_of(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> list[tuple[_Flank, _Nodes]]:
+    """The flank of each pair, its contact nodes, and the directions of forces on them: e_x, and e_y where friction asks for it."""
+    found, start = [], 0
     for pair in pairs:
         view, place = pair.interpolation[gear], pair.place
-        found[place.ahead(gear), place.flank] = start, view.near, view.first, directions(place.contact_rolls[gear], tangential)
+        axes = directions(place.contact_rolls[gear], tangential)
+        found.append(((place.ahead(gear), place.flank), (start, view.near, view.first, axes)))
         start += len(view.near)
     return found
+
+
+def _matched(now: list[tuple[_Flank, _Nodes]], before: list[tuple[_Flank, _Nodes]]) -> list[tuple[_Flank, _Nodes, _Nodes]]:
+    """Contact nodes now and a step before that are on the same flank, and those that have none beside them."""
+    left, found = list(before), []
+    for flank, nodes in now:
+        same = next((place for place, (other, _) in enumerate(left) if other == flank), None)
+        found.append((flank, nodes, NO_NODES if same is None else left.pop(same)[1]))
+    return found + [(flank, NO_NODES, nodes) for flank, nodes in left]
 
 
 def _earlier_tangent(place: Place, gear: int, turned: tuple[float, float]) -> np.ndarray:
