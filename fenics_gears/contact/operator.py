@@ -184,7 +184,8 @@ class CompliancePairing:
                     loaded = loaded if loaded[0] <= row else NO_NODES
                     if len(loaded[2]) or len(loaded_before[2]):
                         compliance_product(self._block(gear, flank, other), own, loaded, compliance, loaded_before, earlier)
-        return compliance.reshape(kinds * nodes, -1), earlier.reshape(nodes, -1) if tangential else None
+        rows = kinds * nodes
+        return compliance.reshape(rows, rows), earlier.reshape(nodes, 2 * nodes_before) if tangential else None
 
 
 def _count(pairs: Sequence[PairNodes]) -> int:
