@@ -26,5 +26,5 @@ def plot(options: argparse.Namespace) -> int:
     dataset = loaded_run(file)
     from fenics_gears.show.plots import draw_run
 
-    print_files(draw_run(dataset, directory), options.quiet)
+    print_files(draw_run(dataset, directory, shared=True), options.quiet)
     return 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -47,6 +48,8 @@ def run(options: argparse.Namespace) -> int:
     from fenics_gears.results.journal import Place
     from fenics_gears.studies.simulate import simulate
 
+    # The quarter of a million objects that imports have made stay: the search for garbage need not look at them.
+    gc.freeze()
     journal = Place(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
         try:
@@ -66,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
                 interruption.stage("draw pictures")
                 from fenics_gears.show.plots import draw_run
 
-                files += draw_run(dataset, directory)
+                files += draw_run(dataset, directory, shared=True)
             except KeyboardInterrupt:
                 last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
     if not options.quiet:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import struct
 import textwrap
 import zlib
@@ -25,6 +26,7 @@ from fenics_gears.show.orders import OF_ERROR, order_spectrum
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
 from fenics_gears.show.pressure import pressure_maps
 from fenics_gears.show.run import Run, conditions
+from fenics_gears.system.copied_process import do_all
 from fenics_gears.system.output import written_aside
 
 
@@ -55,22 +57,33 @@ SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
 PICTURES = dict(zip(PICTURE_FILES, SUBJECTS))
 
 
-def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
+def draw_run(dataset: xr.Dataset, directory: str | Path, shared: bool = False) -> list[Path]:
     """Draw all pictures for which the result has data, as PNG, and return the files.
 
-    They appear in ``directory`` together, when all are drawn. Raises ComputationError where fewer than two steps are stored, a variable's
-    units do not fit it, or the directory cannot be written.
+    They appear in ``directory`` together, when all are drawn. `shared`: with a copy of this process, see `system.copied_process`. Raises ComputationError where fewer than two steps are stored, a variable's units do not fit it, or the directory cannot be written.
     """
-    return save_figures(run_figures(dataset), Path(directory))
+    run, written = _drawable(dataset), []
+    with written_aside(Path(directory), written) as aside:
+        do_all([functools.partial(_draw, run, name, aside) for name in PICTURES], shared)
+    return written
+
+
+def _draw(run: Run, name: str, directory: Path) -> None:
+    for figure in _figures(run, name):
+        save_figure(figure, directory / name)
 
 
 def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
-    run = Run(dataset)
-    _check_steps(run)
-    drawn = {name: (subject, list(charts(run))) for name, (subject, charts) in PICTURES.items()}
-    colour = DARK if run.complete else WARNING
-    return {name: picture(_heading(run, subject), charts, colour) for name, (subject, charts) in drawn.items() if charts}
+    run = _drawable(dataset)
+    return {name: figure for name in PICTURES for figure in _figures(run, name)}
+
+
+def _figures(run: Run, name: str) -> list[Figure]:
+    """The picture of that name, none where the result has no data for it."""
+    subject, charts_of = PICTURES[name]
+    charts = list(charts_of(run))
+    return [picture(_heading(run, subject), charts, DARK if run.complete else WARNING)] if charts else []
 
 
 def _heading(run: Run, subject: str) -> str:
@@ -88,9 +101,10 @@ def heading(subject: str, title: str, *more: str) -> str:
     return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])
 
 
-def _check_steps(run: Run) -> None:
+def _drawable(dataset: xr.Dataset) -> Run:
+    run = Run(dataset)
     if run.has_curves:
-        return
+        return run
     stored = "no step is stored" if run.steps == 0 else "only one step is stored"
     remedy = "Run the scene again."
     if not run.complete:
