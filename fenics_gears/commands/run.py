@@ -17,6 +17,7 @@ from fenics_gears.commands.shared import (
     add_output_argument,
     add_scene_argument,
     checked_scene_and_directory,
+    plots,
     shown_progress,
 )
 from fenics_gears.errors import ComputationError
@@ -67,9 +68,7 @@ def run(options: argparse.Namespace) -> int:
             try:
                 interruption.heed()
                 interruption.stage("draw pictures")
-                from fenics_gears.show.plots import draw_run
-
-                files += draw_run(dataset, directory, shared=True)
+                files += plots().draw_run(dataset, directory, shared=True)
             except KeyboardInterrupt:
                 last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
     if not options.quiet:
