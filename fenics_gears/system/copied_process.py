@@ -33,8 +33,9 @@ def do_all(tasks: Sequence[Task], shared: bool) -> None:
 
 
 def _may_copy() -> bool:
-    """Whether a copy has a processor to itself, and MPI, which allows none, is not loaded."""
-    return hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1 and not {"mpi4py.MPI", "petsc4py.PETSc"} & set(sys.modules)
+    """Whether a processor is idle, without which a copy takes longer than it saves, and MPI, which allows none, is not loaded."""
+    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
+    return processors > 1 and os.getloadavg()[0] < processors - 0.5 and not {"mpi4py.MPI", "petsc4py.PETSc"} & set(sys.modules)
 
 
 def _copy_doing(tasks: Sequence[Task]) -> int | None:
