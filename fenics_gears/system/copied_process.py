@@ -12,15 +12,15 @@ Task = Callable[[], object]
 
 
 def do_all(tasks: Sequence[Task], shared: bool) -> None:
-    """Do tasks that write files, one after the other; if `shared`, every second one in a copy of this process where there may be one.
+    """Do tasks that write files, one after the other; if `shared`, the first, third and so on in a copy of this process where there may be one.
 
     What the copy does not finish is done here, and fails here if it fails. Shared only where all threads of the process are this program's own:
     others might hold what the copy then waits for.
     """
-    copied = tasks[1::2] if shared and _may_copy() else ()
+    copied = tasks[::2] if shared and len(tasks) > 1 and _may_copy() else ()
     copy = _copy_doing(copied) if copied else None
     try:
-        for task in tasks[::2] if copied else tasks:
+        for task in tasks[1::2] if copied else tasks:
             task()
         failed = copy is None or os.waitpid(copy, 0)[1]
     except BaseException:

@@ -43,8 +43,8 @@ def no_process_is_left():
 def test_each_task_is_done_once_by_two_processes_or_one(tmp_path):
     """Authority: counting; without `shared` there is no copy."""
     do_all([partial(note, tmp_path, number) for number in range(5)], shared=True)
-    own, copies = done(tmp_path)[::2], done(tmp_path)[1::2]
-    assert own == [[str(HERE)]] * 3 and len(copies[0]) == 1 and copies == [copies[0]] * 2 and copies[0] != own[0]
+    copies, own = done(tmp_path)[::2], done(tmp_path)[1::2]
+    assert own == [[str(HERE)]] * 2 and len(copies[0]) == 1 and copies == [copies[0]] * 3 and copies[0] != own[0]
     do_all([partial(note, tmp_path, number) for number in range(5, 9)], shared=False)
     assert done(tmp_path)[5:] == [[str(HERE)]] * 4
     no_process_is_left()
@@ -53,7 +53,7 @@ def test_each_task_is_done_once_by_two_processes_or_one(tmp_path):
 @pytest.mark.parametrize("end", [lambda: 1 / 0, lambda: os.kill(os.getpid(), signal.SIGKILL), lambda: os.kill(os.getpid(), signal.SIGINT)])
 def test_what_the_copy_leaves_is_done_here(tmp_path, end):
     """Authority: hard_cases.md: no failure of a part that only saves time reaches the user; the copy fails, is killed, is interrupted."""
-    do_all([partial(note, tmp_path, 0), lambda: (elsewhere(end), note(tmp_path, 1))], shared=True)
+    do_all([lambda: (elsewhere(end), note(tmp_path, 0)), partial(note, tmp_path, 1)], shared=True)
     assert done(tmp_path) == [[str(HERE)]] * 2
     no_process_is_left()
 
@@ -61,7 +61,7 @@ def test_what_the_copy_leaves_is_done_here(tmp_path, end):
 def test_a_task_that_fails_in_both_processes_fails_here():
     """Authority: the same call without a copy raises this."""
     with pytest.raises(ZeroDivisionError):
-        do_all([lambda: None, lambda: 1 / 0], shared=True)
+        do_all([lambda: 1 / 0, lambda: None], shared=True)
     no_process_is_left()
 
 
@@ -72,7 +72,7 @@ def test_a_failure_or_ctrl_c_here_ends_the_copy():
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        do_all([interrupted, lambda: elsewhere(partial(signal.sigtimedwait, [signal.SIGUSR1], 60))], shared=True)
+        do_all([lambda: elsewhere(partial(signal.sigtimedwait, [signal.SIGUSR1], 60)), interrupted], shared=True)
     no_process_is_left()
 
 
