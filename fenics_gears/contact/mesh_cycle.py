@@ -162,6 +162,10 @@ class Cycle:
                 self._positions[index] = found
         return found
 
+    def keeps(self, index: int) -> bool:
+        """Whether position `index` (0 to steps - 1) has been built and is kept."""
+        return index in self._positions
+
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not kept.
 
