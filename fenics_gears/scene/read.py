@@ -85,7 +85,7 @@ def scene_from_text(
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
         raise SceneError(_message(problems, line_numbers(text), source, with_lines))
-    return _scene(checked, text, name, directory)
+    return checked_scene(checked, text, name, directory)
 
 
 def _why_no_toml(error: Exception) -> str:
@@ -106,8 +106,8 @@ def _nearest_file(path: Path) -> str:
     return "." + did_you_mean(path.name, neighbours)
 
 
-def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
-    """The dataclasses of a validated scene."""
+def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
+    """The dataclasses of a scene whose tree has neither problems of its schema, `checked` being what that gave, nor broken rules."""
     return data.Scene(
         title=checked.title or name,
         gears=_gears(checked.gears),
