@@ -151,6 +151,11 @@ class Cycle:
         """Flank compliance of pinion and wheel; empty where they have none."""
         return ()
 
+    @property
+    def base(self) -> Cycle:
+        """The cycle whose contact nodes this one has: itself, unless it is made on another one."""
+        return self
+
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
         index = step % self.steps
