@@ -19,7 +19,7 @@ import xarray as xr
 from xarray.conventions import cf_encoder, encode_dataset_coordinates
 
 # Smaller arrays take longer to compress than the disk takes to hold them.
-LEAST_COMPRESSED = 32_768  # bytes
+LEAST_COMPRESSED = 131_072  # bytes
 # As many as HDF5 keeps unpacked of an array while it is read.
 LARGEST_CHUNK = 1_048_576  # bytes
 # Up to here a file is made in memory, which HDF5 does in a third of the time.
