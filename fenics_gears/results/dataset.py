@@ -16,7 +16,6 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
-from fenics_gears.model.model import Model
 from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
