@@ -8,7 +8,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from fenics_gears.contact.deviating_cycle import DeviatingCycle
-from fenics_gears.contact.interpolation import INTERPOLATIONS
+from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
 from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, Position
 from fenics_gears.contact.tooth_pair import PairNodes, Removal, facing_points
 
@@ -27,6 +27,7 @@ class RelievedCycle(DeviatingCycle):
     def __init__(self, cycle: MeshCycle, removal: tuple[Removal | None, Removal | None]):
         super().__init__(cycle, ())
         self._flanks, self._facing = replace(cycle.flanks, removal=removal), _FACING.setdefault(cycle, {})
+        self._view: Averages | Points = INTERPOLATIONS[self.grid.interpolation]
 
     def position(self, step: int) -> Position:
         """The contact equations at `step`; every mesh cycle has the same gaps."""
@@ -46,10 +47,9 @@ class RelievedCycle(DeviatingCycle):
     def _facing_points(self, step: float, position: Position) -> list[Facing]:
         if step in self._facing:
             return self._facing[step]
-        places = INTERPOLATIONS[self.grid.interpolation].places
         found = []
         for pair in position.operator.pairs:
-            rolls, _, gap = facing_points(self.pair, (None, None), pair.place, places(pair.offsets))
+            rolls, _, gap = facing_points(self.pair, (None, None), pair.place, self._view.places(pair.offsets))
             found.append((pair, rolls, gap))
         if step == int(step) and self.cycle.keeps(int(step)):
             self._facing[int(step)] = found
@@ -59,4 +59,4 @@ class RelievedCycle(DeviatingCycle):
         for removed, roll in zip(self._flanks.removal_at(pair.place), rolls):
             if removed is not None:
                 gap = gap + removed(roll)
-        return INTERPOLATIONS[self.grid.interpolation].seen(pair.offsets, gap)
+        return self._view.seen(pair.offsets, gap)
