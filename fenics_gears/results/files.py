@@ -85,8 +85,10 @@ def load(path: str | Path) -> xr.Dataset:
 
 def read(path: str | Path) -> xr.Dataset:
     """Read a saved dataset, whatever it holds, into memory. Raises ComputationError when it is damaged or not written by `save`."""
+    from fenics_gears.results.netcdf import read_netcdf
+
     try:
-        with unsealed(Path(path)) as content, xr.open_dataset(content, engine="h5netcdf") as opened:
-            return opened.load()
+        with unsealed(Path(path)) as content:
+            return read_netcdf(content)
     except (OSError, ValueError) as failure:
         raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure

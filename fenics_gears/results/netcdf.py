@@ -1,4 +1,4 @@
-"""A dataset as NetCDF-4, written by h5py as the format's specification has dimensions and attributes in HDF5 (appendix "NetCDF-4 format" of the
+"""A dataset as NetCDF-4, written and read by h5py as the format's specification has dimensions and attributes in HDF5 (appendix "NetCDF-4 format" of the
 NetCDF user's guide).
 
 Half a hundred variables with their attributes take HDF5 longer to make than to fill. Datasets alike in all but values, such as the runs of a
@@ -98,3 +98,34 @@ def _write_attributes(place, attributes: Mapping[str, Any]) -> None:
             place.attrs[name] = value
         else:
             h5py.h5a.create(place.id, name.encode(), h5py.h5t.py_create(array.dtype, logical=True), scalar).write(array)
+
+
+# What the format keeps in attributes of its own.
+OF_THE_FORMAT = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties", "_nc3_strict"}
+NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable"
+
+
+def read_netcdf(content) -> xr.Dataset:
+    """The dataset in an open NetCDF-4 file, in memory: as `xarray.open_dataset` by h5netcdf, in a third of the time for so many variables."""
+    variables = {}
+    with h5py.File(content) as file:
+        # As a group the root has its names in the order in which they were written.
+        root = file["/"]
+        for name, held in root.items():
+            attributes = dict(held.attrs)
+            if _text(attributes.get("NAME", "")).startswith(NO_VARIABLE):
+                continue
+            dims = (name,)[: held.ndim] if "CLASS" in attributes else ()
+            if "DIMENSION_LIST" in attributes:
+                dims = tuple(h5py.h5r.get_name(each[0], file.id)[1:].decode() for each in attributes["DIMENSION_LIST"])
+            values = held.asstr()[()] if held.dtype.kind == "O" else held[()]
+            variables[name] = (dims, values, _labels(attributes))
+        return xr.decode_cf(xr.Dataset(variables, attrs=_labels(dict(root.attrs))))
+
+
+def _labels(attributes: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value[0] if np.shape(value) == (1,) else value for name, value in attributes.items() if name not in OF_THE_FORMAT}
+
+
+def _text(value: Any) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.results import netcdf
-from fenics_gears.results.netcdf import write_netcdf
+from fenics_gears.results.netcdf import read_netcdf, write_netcdf
 
 
 def several_kinds(steps: int) -> xr.Dataset:
@@ -37,6 +37,21 @@ def test_a_file_is_read_as_if_another_program_had_written_it():
         with xr.open_dataset(content, engine="h5netcdf") as read, xr.open_dataset(theirs, engine="h5netcdf") as expected:
             assert read.load().identical(expected.load())
             assert read.identical(ours)
+
+
+def test_files_are_read_as_another_program_reads_them():
+    """Authority: another program; what xarray reads by h5netcdf, of files that it or this program has written: values, types, attributes and order."""
+    for steps in (0, 5):
+        ours = io.BytesIO()
+        write_netcdf(several_kinds(steps), ours)
+        for content in (ours, _by_h5netcdf(several_kinds(steps))):
+            found = read_netcdf(content)
+            with xr.open_dataset(content, engine="h5netcdf") as opened:
+                expected = opened.load()
+            assert found.identical(expected) and list(found.variables) == list(expected.variables) and list(found.attrs) == list(expected.attrs)
+            for name, each in found.variables.items():
+                assert each.dtype == expected[name].dtype
+                assert {key: type(value) for key, value in each.attrs.items()} == {key: type(value) for key, value in expected[name].attrs.items()}
 
 
 def test_a_file_made_on_disk_is_the_one_made_in_memory(monkeypatch):
