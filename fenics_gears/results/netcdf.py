@@ -120,7 +120,7 @@ def read_netcdf(content) -> xr.Dataset:
                 dims = tuple(h5py.h5r.get_name(each[0], file.id)[1:].decode() for each in attributes["DIMENSION_LIST"])
             values = held.asstr()[()] if held.dtype.kind == "O" else held[()]
             variables[name] = (dims, values, _labels(attributes))
-        return xr.decode_cf(xr.Dataset(variables, attrs=_labels(dict(root.attrs))))
+        return xr.decode_cf(xr.Dataset(variables, attrs=_labels(dict(root.attrs)))).load()
 
 
 def _labels(attributes: Mapping[str, Any]) -> dict[str, Any]:
