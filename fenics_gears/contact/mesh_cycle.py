@@ -141,6 +141,11 @@ class Cycle:
         """Flank compliance of pinion and wheel; empty where they have none."""
         return ()
 
+    @property
+    def base(self) -> Cycle:
+        """The cycle whose contact nodes this one has: itself, unless it is made on another one."""
+        return self
+
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
         index = step % self.steps
@@ -151,6 +156,10 @@ class Cycle:
             if self.kept.takes(found.bytes):
                 self._positions[index] = found
         return found
+
+    def keeps(self, index: int) -> bool:
+        """Whether position `index` (0 to steps - 1) has been built and is kept."""
+        return index in self._positions
 
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not kept.

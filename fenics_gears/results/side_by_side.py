@@ -110,7 +110,7 @@ MOST_TIMES_JOINED = 8
 
 def known_layouts(cycle: Cycle) -> KnownLayouts:
     """What the runs of a cycle so far know of its layouts."""
-    known = _OF_CYCLES.setdefault(cycle, KnownLayouts())
+    known = _OF_CYCLES.setdefault(cycle.base, KnownLayouts())
     known.forget_beyond(cycle.steps)
     return known
 
