@@ -1,7 +1,12 @@
-"""How contact nodes see the flanks: displacements, gaps and positions averaged over their hat functions, or taken at their points.
+"""How contact nodes see the flanks: displacements, gaps and positions averaged over functions of their own, or taken at their points.
 
 Contact force and gap use the same averages, so that energy and symmetry are kept: a nodal force acts as the line load
-`p_j hat_j / integral(hat_j)`, and a nodal displacement or gap is `integral(hat_j u) / integral(hat_j)` (model.md section 2).
+`p_j psi_j / integral(psi_j)`, and a nodal displacement or gap is `integral(psi_j u) / integral(psi_j)` (model.md section 2).
+
+`psi_j` is the node's hat function, but for the first and the last node. Of their hats one half is left, whose average is that of a point a third of
+the cell away: where a tip's edge touches, the gap there opens in proportion to the distance, and the error would be of first order. Their `psi` is the
+dual (biorthogonal) function `2 hat_j - hat_neighbour` of the cell, which takes linear functions at the node itself; B. I. Wohlmuth,
+A mortar finite element method using dual spaces for the Lagrange multiplier, SIAM J. Numer. Anal. 38 (2000).
 """
 
 from __future__ import annotations
@@ -57,17 +62,25 @@ def hat_integrals(offsets: np.ndarray) -> np.ndarray:
     return integrals
 
 
+@njit(cache=True)
+def dual(hat):
+    """Twice the hat function less that of the cell's other node: the dual function of a cell's end node."""
+    return 3.0 * hat - 1.0
+
+
 def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
     """Gauss points (n - 1, points), mm, of the cells between contact nodes."""
     return offsets[:-1, None] + np.diff(offsets)[:, None] * GAUSS_POINTS
 
 
 def hat_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Average over each hat function (n,) of `values` given at `quadrature_offsets(offsets)`."""
+    """Average over each node's function (n,) of `values` given at `quadrature_offsets(offsets)`."""
     scaled = values * GAUSS_WEIGHTS * np.diff(offsets)[:, None]
     sums = np.zeros(len(offsets))
     sums[:-1] += scaled @ (1.0 - GAUSS_POINTS)
     sums[1:] += scaled @ GAUSS_POINTS
+    sums[0] = scaled[0] @ dual(1.0 - GAUSS_POINTS)
+    sums[-1] = scaled[-1] @ dual(GAUSS_POINTS)
     return sums / hat_integrals(offsets)
 
 
@@ -102,7 +115,10 @@ def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, vertex_
                 local = (arc - vertex_arc[element]) / size
                 for side in range(2):
                     node = cell + side
-                    hat = measure * (right if side == 1 else 1.0 - right)
+                    hat = right if side == 1 else 1.0 - right
+                    if node == 0 or node == n - 1:
+                        hat = dual(hat)
+                    hat *= measure
                     base = order * element
                     if order == 1:
                         weights[node, base] += hat * (1.0 - local)

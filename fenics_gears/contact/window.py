@@ -2,12 +2,14 @@
 
 A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows
 the moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with
-it: nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is.
+it: nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is. Nodes stand closer beside
+such an edge, whose contact pressure rises steeply towards it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
@@ -16,18 +18,36 @@ from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 
 
+# Sizes of the cells beside an edge, in spacings.
+EDGE_CELLS = np.array([0.125, 0.125, 0.25, 0.25, 0.5, 0.5])
+
+
 @dataclass(frozen=True)
 class ContactGrid:
-    """Length of the contact window in mm, contact nodes in a whole window, and the name of their interpolation of the flanks."""
+    """Length of the contact window in mm, contact nodes in a whole window, and the name of their interpolation of the flanks.
+
+    `closer_at_edges`: nodes stand closer beside an edge that cuts the window.
+    """
 
     length: float
     nodes: int
     interpolation: str = AVERAGED
+    closer_at_edges: bool = False
 
     @property
     def spacing(self) -> float:
         """Distance of neighbouring contact nodes, mm."""
         return self.length / (self.nodes - 1)
+
+    @property
+    def most_nodes(self) -> int:
+        """Contact nodes of a window that edges cut at both ends, at most."""
+        return self.nodes + ceil(2.0 * (len(self.edge_cells) - self.edge_cells.sum()))
+
+    @property
+    def edge_cells(self) -> np.ndarray:
+        """Sizes of the cells beside an edge, in spacings."""
+        return EDGE_CELLS if self.closer_at_edges else EDGE_CELLS[:0]
 
 
 def contact_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
@@ -90,9 +110,16 @@ def offsets_between(lowest: float, highest: float, grid: ContactGrid) -> np.ndar
     if length <= 1e-9 * grid.length:
         return np.empty(0)
     cut_low, cut_high = lowest > -half, highest < half
-    if cut_low and cut_high:
-        return np.linspace(start, end, max(1, round(length / grid.spacing)) + 1)
     # The tolerance keeps the node count of an uncut window whole in spite of round-off.
-    cells = max(1, int(np.floor(length / grid.spacing * (1.0 + 1e-12))))
-    steps = min(grid.spacing, length / cells if cells == 1 else grid.spacing) * np.arange(cells + 1)
-    return start + steps if cut_low else (end - steps)[::-1]
+    wholes, beside = length / grid.spacing * (1.0 + 1e-12), grid.edge_cells
+    if cut_low and cut_high:
+        even = round(wholes - 2.0 * beside.sum())
+        cells = np.ones(max(1, round(wholes))) if even < 0 else np.concatenate([beside, np.ones(even), beside[::-1]])
+        return start + length / cells.sum() * np.concatenate([[0.0], np.cumsum(cells)])
+    # From the edge on as far as the window reaches; one cell at least.
+    even = max(0, int(wholes - beside.sum()))
+    distances = np.concatenate([[0.0], np.cumsum(np.concatenate([beside, np.ones(even)]) if cut_low or cut_high else np.ones(int(wholes)))])
+    distances = grid.spacing * distances[distances <= wholes]
+    if len(distances) == 1:
+        distances = np.array([0.0, length])
+    return start + distances if cut_low else (end - distances)[::-1]

@@ -47,7 +47,7 @@ class Recorder:
         places = [[pair.place for pair in cycle.pairs_at(index)] for index in range(cycle.steps)]
         self.first_number = 1 + max((place.index for each in places for place in each), default=0)
         self.slots = max(pairs_at_once(places), 1)
-        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.nodes)
+        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.most_nodes)
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
         self.kept: Kept = self._room

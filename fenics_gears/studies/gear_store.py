@@ -71,13 +71,13 @@ def own_gear_store() -> GearStore:
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, own
+    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name)), reach, own
 
 
 def cycle_key(model: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on."""
     scene, resolution = model.scene, model.resolution
-    accuracy = resolution.condensation, resolution.discretisation, resolution.contact_grid, resolution.steps_per_mesh_cycle
+    accuracy = resolution.condensation, resolution.discretisation(0), resolution.discretisation(1), resolution.contact_grid, resolution.steps_per_mesh_cycle
     in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.elasticity))
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
     return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs), tuple(model.drivetrain.indices), scene.friction is not None
