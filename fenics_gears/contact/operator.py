@@ -251,6 +251,12 @@ def slip_of_rigid_flanks(pairs: tuple[PairNodes, ...], base_radii: tuple[float, 
     return straight - (line_1 - offsets) * (1.0 - np.cos(turned[0])) - (line_2 + offsets) * (1.0 - np.cos(turned[1]))
 
 
+def sliding_now(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> np.ndarray:
+    """Sliding (n,), mm per rad of the pinion, of rigid gears at this position: x - (z1/z2) (L - x) of [12], zero at the pitch point."""
+    turn = per_node(pairs, np.array([pair.place.turn for pair in pairs]))
+    return turn * (over_nodes(pairs, "pinion_lever_arm") - base_radii[0] / base_radii[1] * over_nodes(pairs, "wheel_lever_arm"))
+
+
 def earlier_tangential_jacobian(pairs, radii, turned) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
     rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
