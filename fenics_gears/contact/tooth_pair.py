@@ -170,7 +170,8 @@ def nodes_on_flanks(
         place=place,
         offsets=offsets,
         lengths=hat_integrals(offsets),
-        gap=view.seen(offsets, gap),
+        # Averages of flanks that are nowhere one inside the other may not say that they are: they would press without load.
+        gap=np.maximum(view.seen(offsets, gap), min(0.0, gap.min())),
         pinion_lever_arm=meeting,
         wheel_lever_arm=line.length - meeting,
         pinion_roll=rolls[0],

@@ -17,9 +17,8 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 
-
-# Sizes of the cells beside an edge, in spacings.
-EDGE_CELLS = np.array([0.125, 0.125, 0.25, 0.25, 0.5, 0.5])
+# Sizes of the cells beside an edge, in spacings: whole spacings together, so that the other nodes do not jump where an edge enters the window.
+EDGE_CELLS = np.array([0.25, 0.25, 0.5])
 
 
 @dataclass(frozen=True)
