@@ -1,7 +1,11 @@
-"""How contact nodes see the flanks: displacements, gaps and positions averaged over their hat functions, or taken at their points.
+"""How contact nodes see the flanks: displacements, gaps and positions averaged over functions of their own, or taken at their points.
 
 Contact force and gap use the same averages, so that energy and symmetry are kept: a nodal force acts as the line load
-`p_j hat_j / integral(hat_j)`, and a nodal displacement or gap is `integral(hat_j u) / integral(hat_j)` (model.md section 2).
+`p_j psi_j / integral(psi_j)`, and a nodal displacement or gap is `integral(psi_j u) / integral(psi_j)` (model.md section 2).
+
+On each cell `psi_j` is `2 hat_j - 1/2`, midway between the hat function and its dual `3 hat_j - 1` (B. I. Wohlmuth, SIAM J. Numer. Anal. 38, 2000). Its
+integrals are the hat's and its sum over the nodes is one, so that an even pressure is passed on exactly; but averages of parabolas over even cells are
+exact too, while hats see a gap too large by h^2/(12 R) for cells of h and flanks of relative radius R.
 """
 
 from __future__ import annotations
@@ -19,7 +23,7 @@ GAUSS_WEIGHTS = 0.5 * GAUSS_WEIGHTS
 
 @dataclass(frozen=True)
 class FlankInterpolation:
-    """Row `j` of `near` (n, w) takes the flank's dof nodes `first[j]` to `first[j] + w - 1` to the average over hat `j`; `flank_nodes` of the flank."""
+    """Row `j` of `near` (n, w) takes the flank's dof nodes `first[j]` to `first[j] + w - 1` to the average of node `j`; `flank_nodes` of the flank."""
 
     # A node sees a few flank nodes: whole rows would take several times what the compliance between contact nodes does.
     near: np.ndarray
@@ -47,14 +51,20 @@ def hat_integrals(offsets: np.ndarray) -> np.ndarray:
     return integrals
 
 
+@njit(cache=True)
+def node_function(hat):
+    """A node's function on a cell, from its hat function there."""
+    return 2.0 * hat - 0.5
+
+
 def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
     """Gauss points (n - 1, points), mm, of the cells between contact nodes."""
     return offsets[:-1, None] + (offsets[1:] - offsets[:-1])[:, None] * GAUSS_POINTS
 
 
 @njit(cache=True)
-def hat_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Average over each hat function (n,) of `values` given at `quadrature_offsets(offsets)`."""
+def node_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Average over each node's function (n,) of `values` given at `quadrature_offsets(offsets)`."""
     sums, integrals = np.zeros(len(offsets)), np.zeros(len(offsets))
     for cell in range(len(offsets) - 1):
         width = offsets[cell + 1] - offsets[cell]
@@ -62,8 +72,8 @@ def hat_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
         integrals[cell + 1] += 0.5 * width
         for point in range(len(GAUSS_POINTS)):
             scaled = values[cell, point] * GAUSS_WEIGHTS[point] * width
-            sums[cell] += scaled * (1.0 - GAUSS_POINTS[point])
-            sums[cell + 1] += scaled * GAUSS_POINTS[point]
+            sums[cell] += scaled * node_function(1.0 - GAUSS_POINTS[point])
+            sums[cell + 1] += scaled * node_function(GAUSS_POINTS[point])
     return sums / integrals
 
 
@@ -107,15 +117,15 @@ def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_r
                 local = (arc - vertex_arc[element]) / size
                 for side in range(2):
                     node = cell + side
-                    hat = measure * (right if side == 1 else 1.0 - right)
+                    weight = measure * node_function(right if side == 1 else 1.0 - right)
                     base = order * element - first[node]
                     if order == 1:
-                        near[node, base] += hat * (1.0 - local)
-                        near[node, base + 1] += hat * local
+                        near[node, base] += weight * (1.0 - local)
+                        near[node, base + 1] += weight * local
                     else:
-                        near[node, base] += hat * (1.0 - local) * (1.0 - 2.0 * local)
-                        near[node, base + 1] += hat * 4.0 * local * (1.0 - local)
-                        near[node, base + 2] += hat * local * (2.0 * local - 1.0)
+                        near[node, base] += weight * (1.0 - local) * (1.0 - 2.0 * local)
+                        near[node, base + 1] += weight * 4.0 * local * (1.0 - local)
+                        near[node, base + 2] += weight * local * (2.0 * local - 1.0)
             start = end
             element = min(element + 1, elements - 1)
     for node in range(n):
@@ -132,19 +142,19 @@ def flank_interpolation(
     flank_rolls: np.ndarray,
     element_order: int,
 ) -> FlankInterpolation:
-    """Hat-averaged trace of the flank's elements for contact nodes at `offsets` (n,), mm, roll angles `rolls` (n,), rad."""
+    """Averaged trace of the flank's elements for contact nodes at `offsets` (n,), mm, roll angles `rolls` (n,), rad."""
     near, first = _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_rolls, element_order)
     return FlankInterpolation(near, first, len(flank_rolls))
 
 
 class Averages:
-    """A contact node sees averages over its hat function, so that nothing jumps as it passes nodes of the flank.
+    """A contact node sees averages over its function, so that nothing jumps as it passes nodes of the flank.
 
     `places`: offsets at which nodes need the values that they see; `seen`: what they see of values there; `of_flank`: the weights of
     the flank's nodes.
     """
 
-    places, seen, of_flank = staticmethod(quadrature_offsets), staticmethod(hat_average), staticmethod(flank_interpolation)
+    places, seen, of_flank = staticmethod(quadrature_offsets), staticmethod(node_average), staticmethod(flank_interpolation)
 
 
 class Points:

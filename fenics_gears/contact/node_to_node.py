@@ -157,7 +157,7 @@ def node_to_node_operator(
     kept = 2 * nodes if tangential else nodes
     slip = previous_compliance = previous_jacobian = None
     if tangential:
-        slip = slip_of_rigid_flanks(lines_of(now.pairs, radii), pair.rotation_ratio, advance)
+        slip = slip_of_rigid_flanks(lines_of(now.pairs, radii), turned(pair, advance))
         previous_compliance, previous_jacobian = _last_displacement(radii, now.pairs, before, turned(pair, advance))
         previous_jacobian = np.ascontiguousarray(previous_jacobian[:, coordinates])
     return ContactOperator(

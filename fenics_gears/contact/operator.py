@@ -257,7 +257,7 @@ def operator_on_lines(
         compliance=compliance,
         jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines).take(coordinates, axis=1),
         gap=over_nodes(pairs, "gap"),
-        rigid_slip=slip_of_rigid_flanks(lines, gears.rotation_ratio, advance) if frictional else None,
+        rigid_slip=slip_of_rigid_flanks(lines, turned(gears, advance)) if frictional else None,
         previous_compliance=previous_compliance,
         previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance)).take(coordinates, axis=1) if frictional else None,
         dependent_rows=dependent_rows,
@@ -269,12 +269,20 @@ def turned(gears: GearPair, advance: float) -> tuple[float, float]:
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
 
 
-def slip_of_rigid_flanks(lines: Lines, rotation_ratio: float, advance: float) -> np.ndarray:
-    """Slip (n,), mm, of rigid gears while the pinion turns by `advance` (rad).
+def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarray:
+    """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding speed [12].
 
-    v_rigid = omega1 (x - (z1/z2) (L - x)) of [12], zero at the pitch point.
+    The sliding speed times the step would be of first order only: the speed grows in proportion to the distance from the pitch point.
     """
-    return advance * lines.turn * (lines.friction_arms[0] - rotation_ratio * lines.friction_arms[1])
+    lever_arms, offsets = lines.friction_arms, over_nodes(lines.pairs, "offsets")
+    straight = lines.turn * (lever_arms[0] * sin(turned[0]) + lever_arms[1] * sin(turned[1]))
+    return straight - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0])) - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
+
+
+def sliding_now(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> np.ndarray:
+    """Sliding (n,), mm per rad of the pinion, of rigid gears at this position: x - (z1/z2) (L - x) of [12], zero at the pitch point."""
+    lines = lines_of(pairs, base_radii)
+    return lines.turn * (lines.friction_arms[0] - base_radii[0] / base_radii[1] * lines.friction_arms[1])
 
 
 def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:

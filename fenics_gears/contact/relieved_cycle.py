@@ -10,7 +10,7 @@ import numpy as np
 from fenics_gears.contact.deviating_cycle import DeviatingCycle
 from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
 from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, Position
-from fenics_gears.contact.tooth_pair import PairNodes, Removal, facing_points
+from fenics_gears.contact.tooth_pair import PairNodes, Removal, facing_points, seen_gap
 
 # A tooth pair, and at the points that its nodes see the roll angles (rad) of pinion and wheel and the gap (mm) of true involutes.
 Facing = tuple[PairNodes, tuple[np.ndarray, np.ndarray], np.ndarray]
@@ -59,4 +59,4 @@ class RelievedCycle(DeviatingCycle):
         for removed, roll in zip(self._flanks.removal_at(pair.place), rolls):
             if removed is not None:
                 gap = gap + removed(roll)
-        return self._view.seen(pair.offsets, gap)
+        return seen_gap(self._view, pair.offsets, gap)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.flank_at_height import flank_at_height
-from fenics_gears.contact.interpolation import INTERPOLATIONS, FlankInterpolation, hat_integrals
+from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, hat_integrals
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, node_offsets
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.pair import GearPair
@@ -142,6 +142,14 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
     return nodes_on_flanks(flanks, grid, place, offsets, distances, gap)
 
 
+def seen_gap(view: Averages | Points, offsets: np.ndarray, gap: np.ndarray) -> np.ndarray:
+    """Gaps (n,), mm, of contact nodes at `offsets` (n,), mm, from gaps at the points that they see.
+
+    Averages of flanks that are nowhere one inside the other may not say that they are: they would press without load.
+    """
+    return np.maximum(view.seen(offsets, gap), min(0.0, float(gap.min())))
+
+
 def nodes_on_flanks(
     flanks: Flanks, grid: ContactGrid, place: Place, offsets: np.ndarray, distances: tuple[np.ndarray, np.ndarray], gap: np.ndarray
 ) -> ToothPair:
@@ -168,7 +176,7 @@ def nodes_on_flanks(
         place=place,
         offsets=offsets,
         lengths=hat_integrals(offsets),
-        gap=view.seen(offsets, gap),
+        gap=seen_gap(view, offsets, gap),
         pinion_lever_arm=meeting,
         wheel_lever_arm=line.length - meeting,
         pinion_roll=rolls[0],

@@ -47,7 +47,7 @@ class Recorder:
         self.loads = model.loads if loads is None else loads
         ways = touching_at(lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks)
         self.first_number, self.slots = 1 + ways.latest, ways.slots
-        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.nodes)
+        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.most_nodes)
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
         self.kept: Kept = self._room

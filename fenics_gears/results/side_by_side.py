@@ -160,8 +160,8 @@ class SideBySide:
 
     def over_nodes(self, values: np.ndarray, drive: bool, absent: float) -> np.ndarray:
         """Values (N,) of drive or coast flanks by step, slot and contact node of the pair; `absent` where there is no node."""
-        field = np.full((len(self.steps), self.slots, self.cycle.grid.nodes), absent)
-        places = self._slots * self.cycle.grid.nodes + self.of("node")
+        field = np.full((len(self.steps), self.slots, self.cycle.grid.most_nodes), absent)
+        places = self._slots * self.cycle.grid.most_nodes + self.of("node")
         if drive and self.drive.all():
             field.reshape(-1)[places] = values
         else:

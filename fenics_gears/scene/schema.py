@@ -154,7 +154,7 @@ class Accuracy(Section):
     interpolation: Optional[Literal["averaged", "collocated"]] = choice(
         "averaged",
         "collocated",
-        meaning="displacement of the flank at a contact node: averaged with the node's hat function, or taken at the node alone (collocation)",
+        meaning="displacement of the flank at a contact node: averaged with the node's own function, or taken at the node alone (collocation)",
         otherwise="`averaged`",
     )
     elastic_teeth: Optional[int] = whole_number(

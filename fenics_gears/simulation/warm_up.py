@@ -12,7 +12,7 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
-from fenics_gears.contact.interpolation import flank_interpolation, hat_average, quadrature_offsets
+from fenics_gears.contact.interpolation import flank_interpolation, node_average, quadrature_offsets
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
@@ -32,7 +32,7 @@ def compile_kernels(tangential: bool) -> float:
     offsets = np.array([-0.1, 0.1])
     rolls = roll_angle_at_height(40.0, 0.5, 40.0 + offsets)
     interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
-    hat_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
+    node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
     kinds = 2 if tangential else 1
     nodes = 0, interpolation.near, interpolation.first, np.eye(2)
     compliance_product(np.eye(10), nodes, nodes, np.zeros((kinds, 2, kinds, 2)), nodes, np.zeros((1, 2, 2, 2)))

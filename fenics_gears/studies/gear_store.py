@@ -79,7 +79,7 @@ def own_gear_store() -> GearStore:
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, own
+    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name)), reach, own
 
 
 def differs_in_gaps_alone(model: Model) -> bool:
@@ -99,7 +99,7 @@ def relieved(cycle: Cycle, model: Model) -> Cycle:
 def operators_key(model: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on, their gaps apart where reliefs change nothing else."""
     scene, resolution = model.scene, model.resolution
-    accuracy = resolution.condensation, resolution.discretisation, resolution.contact_grid, resolution.steps_per_mesh_cycle
+    accuracy = resolution.condensation, resolution.discretisation(0), resolution.discretisation(1), resolution.contact_grid, resolution.steps_per_mesh_cycle
     in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity))
     apart = model.removal == (None, None) or differs_in_gaps_alone(model)
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
