@@ -10,16 +10,18 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
-from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.errors import GearsError, SceneError
 from fenics_gears.inputs.units import QuantityError, quantity
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
 from meshes.root_crack import RootCrack, cracked_gear_mesh
+
+GEARS = ("pinion", "wheel")
 
 
 def _of_kind(kind: str):
@@ -41,7 +43,7 @@ def arguments() -> argparse.ArgumentParser:
     length, angle = _of_kind("a length"), _of_kind("an angle")
     parser.add_argument("scene", type=Path, help="a scene file, whose gear is meshed")
     parser.add_argument("file", type=Path, help="the mesh file to write (.msh)")
-    parser.add_argument("--gear", choices=("pinion", "wheel"), default="pinion")
+    parser.add_argument("--gear", choices=GEARS, default="pinion")
     parser.add_argument("--depth", type=length, help='length of the crack, such as "3 mm"; no crack without it')
     parser.add_argument("--angle", type=angle, default="45 deg", help="between crack and the tooth's centreline (default: 45 deg)")
     parser.add_argument("--mouth", type=angle, default="30 deg", help="where it begins: angle of the fillet to the centreline (default: 30 deg)")
@@ -66,7 +68,8 @@ def main(words: list[str] | None = None) -> int:
         model = model_of(load_scene(options.scene))
         _check_elements(model)
         gear, resolution = getattr(model.pair, options.gear), model.resolution
-        sizes = element_sizes(gear, element_named(resolution.element), options.flank_size or resolution.flank_element_size, resolution.body_element_size)
+        discretisation = resolution.discretisation(GEARS.index(options.gear))
+        sizes = replace(discretisation, flank_element_size=options.flank_size or resolution.flank_element_size).sizes(gear)
         cracks = {} if options.depth is None else {options.tooth: RootCrack(options.depth, options.angle, options.mouth)}
         mesh = cracked_gear_mesh(gear, sizes, cracks)
         write_body_mesh(mesh, options.file)

@@ -50,10 +50,9 @@ class Pressed:
 
     @property
     def half_width(self) -> float:
-        """From the second moment of the pressure: of an ellipse b^2/4, to which every node's hat function adds its own h^2/6."""
+        """From the second moment of the pressure: of an ellipse b^2/4, to which the nodes' own functions add nothing."""
         centre = self.pressure @ self.offsets / self.pressure.sum()
-        spacing = self.offsets[1] - self.offsets[0]
-        return 2.0 * float(np.sqrt(self.pressure @ (self.offsets - centre) ** 2 / self.pressure.sum() + spacing**2 / 6.0))
+        return 2.0 * float(np.sqrt(self.pressure @ (self.offsets - centre) ** 2 / self.pressure.sum()))
 
 
 class HertzContact:

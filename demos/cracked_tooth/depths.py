@@ -12,8 +12,6 @@ import xarray as xr
 from fenics_gears import load_scene, simulate
 from fenics_gears.effects.body_meshes import BodyMeshes, MeshFile, located
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
-from fenics_gears.elasticity.element_sizes import element_sizes
-from fenics_gears.elasticity.elements import element_named
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Scene
@@ -60,8 +58,7 @@ def healthy(scene: Scene) -> Scene:
 def cracked(scene: Scene, depth: float, file: Path) -> Scene:
     """The scene with a crack of some depth (mm) in its pinion, whose mesh is written to a file; as fine as the contact asks for."""
     model = model_of(healthy(scene))
-    resolution = model.resolution
-    sizes = element_sizes(model.pair.pinion, element_named(resolution.element), resolution.flank_element_size, resolution.body_element_size)
+    sizes = model.resolution.discretisation(0).sizes(model.pair.pinion)
     write_body_mesh(cracked_gear_mesh(model.pair.pinion, sizes, {CRACKED_TOOTH: RootCrack(depth)}), file)
     return replace(scene, body_meshes=located(BodyMeshes(MeshFile(str(file)), None), file.parent))
 

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from demos.lundvall2004.measured import PRINTED, READ, WITH, WITHOUT, Measured, base_pair, peak_to_peak
-from fenics_gears.system.output import written_aside
+from fenics_gears.system.output import write_whole
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, GREY, PALETTE, legend, limits, styled
 
 LINES = {
@@ -24,13 +24,9 @@ HIGHEST_SHOWN = 4001.0  # Hz
 RELIEVED = "modified pair, 31 µm"
 
 
-def draw_figures(measured: Measured, directory: Path) -> list[Path]:
-    """Draw every figure and save it as PNG; returns the files."""
-    written: list[Path] = []
-    with written_aside(directory, written) as aside:
-        for name, draw in FIGURES.items():
-            _save(draw(measured), aside / f"{name}.png")
-    return written
+def draw_figure(name: str, measured: Measured, directory: Path) -> Path:
+    """Draw a figure, one of `FIGURES`, and save it as PNG; returns the file."""
+    return write_whole(directory / f"{name}.png", lambda aside: _save(FIGURES[name](measured), aside))
 
 
 @styled

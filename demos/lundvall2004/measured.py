@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from fenics_gears.model.model import model_of
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.studies.combine import load_combined
 
 HERE = Path(__file__).parent
 BASE_SCENE = HERE.parent / "lundvall2004.toml"
@@ -34,11 +36,17 @@ class Measured:
     """Results of the studies below a directory, each at `directory / name`."""
 
     directory: Path
+    # What has been read: figures and claims ask for the same studies again and again.
+    _read: dict[Path, xr.Dataset] = field(default_factory=dict, compare=False)
 
     def study(self, name: str) -> xr.Dataset:
         """The combined dataset of a study."""
-        with xr.open_dataset(self.directory / name / "study.nc", engine="h5netcdf") as opened:
-            return opened.load()
+        return self._once(self.directory / name / "study.nc", load_combined)
+
+    def _once(self, file: Path, load: Callable[[Path], xr.Dataset]) -> xr.Dataset:
+        if file not in self._read:
+            self._read[file] = load(file)
+        return self._read[file]
 
     def sweep(self, *names: str) -> xr.Dataset:
         """Peak-to-peak transmission error (rad) and warnings of studies that continue each other in mesh frequency (Hz)."""
@@ -53,7 +61,7 @@ class Measured:
     def run(self, name: str, **where) -> xr.Dataset:
         """The last cycles of the run of one case: run("figure04", friction="present")."""
         case = self.study(name).case_file.sel(where)
-        return results.shown(results.load(self.directory / name / str(case.item())))
+        return results.shown(self._once(self.directory / name / str(case.item()), results.load))
 
 
 def peak_to_peak(dataset: xr.Dataset, friction: str) -> np.ndarray:

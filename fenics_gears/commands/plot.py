@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file
+from fenics_gears.commands.shared import add_run_argument, loaded_run, plots, print_files, run_file
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -24,7 +24,5 @@ def plot(options: argparse.Namespace) -> int:
     directory = options.output or file.parent
     check_writable(directory)
     dataset = loaded_run(file)
-    from fenics_gears.show.plots import draw_run
-
-    print_files(draw_run(dataset, directory), options.quiet)
+    print_files(plots().draw_run(dataset, directory, shared=True), options.quiet)
     return 0

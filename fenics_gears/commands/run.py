@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,6 +17,7 @@ from fenics_gears.commands.shared import (
     add_output_argument,
     add_scene_argument,
     checked_scene_and_directory,
+    plots,
     shown_progress,
 )
 from fenics_gears.errors import ComputationError
@@ -47,6 +49,8 @@ def run(options: argparse.Namespace) -> int:
     from fenics_gears.results.journal import Place
     from fenics_gears.studies.simulate import simulate
 
+    # The quarter of a million objects that imports have made stay: the search for garbage need not look at them.
+    gc.freeze()
     journal = Place(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
         try:
@@ -64,9 +68,7 @@ def run(options: argparse.Namespace) -> int:
             try:
                 interruption.heed()
                 interruption.stage("draw pictures")
-                from fenics_gears.show.plots import draw_run
-
-                files += draw_run(dataset, directory)
+                files += plots().draw_run(dataset, directory, shared=True)
             except KeyboardInterrupt:
                 last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
     if not options.quiet:

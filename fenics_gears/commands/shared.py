@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterable
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 
 from fenics_gears.errors import ComputationError, GeometryError, SceneError
 from fenics_gears.system.console import on_terminal
@@ -134,6 +136,17 @@ def shown_progress(quiet: bool) -> Progress:
     from rich.console import Console
 
     return BarProgress(Console(stderr=True))
+
+
+def plots() -> ModuleType:
+    """The module `show.plots`; matplotlib is imported without the lists of properties in its docstrings, whose making is a quarter of that time."""
+    from matplotlib import artist
+
+    properties, artist.kwdoc = artist.kwdoc, lambda kind: ""
+    try:
+        return import_module("fenics_gears.show.plots")
+    finally:
+        artist.kwdoc = properties
 
 
 def print_files(files: Iterable[Path], quiet: bool) -> None:

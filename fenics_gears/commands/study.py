@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import INTERRUPTED, add_memory_argument, shown_progress
+from fenics_gears.commands.shared import INTERRUPTED, add_memory_argument, plots, shown_progress
 from fenics_gears.errors import ComputationError, SceneError
 
 
@@ -33,9 +33,7 @@ def study(options: argparse.Namespace) -> int:
     outcome = run_study(options.study, options.output, shown_progress(options.quiet), options.quiet)
     if outcome is None:
         return 0
-    from fenics_gears.show.plots import draw_study
-
-    pictures = [] if outcome.interrupted else draw_study(outcome.file)
+    pictures = [] if outcome.interrupted else plots().draw_study(outcome.file)
     if not options.quiet:
         from fenics_gears.system.console import print_rows
 

@@ -16,40 +16,63 @@ def directions(contact_roll: float, tangential: bool) -> np.ndarray:
 
 
 @njit(cache=True)
-def compliance_product(block, near_a, first_a, last_a, directions_a, near_b, first_b, last_b, directions_b, result):
-    """Add `N_a A N_b^T` to `result` (directions_a, n_a, directions_b, n_b), mm per N/mm.
+def compliance_product(block, responding, now, compliance, before, previous_compliance):
+    """Add `N_a A N_b^T` of the contact nodes a of a flank and those b of another to compliances between all contact nodes, mm per N/mm.
 
-    `block` (2n, 2n): displacement of the flank of tooth a due to forces on the flank of tooth b; `near_*`,
-    `first_*`, `last_*`: a FlankInterpolation; `directions_*` (d, 2): the directions in either tooth's frame.
+    `block` (2n, 2n): displacement of the flank of a due to forces on the flank of b. `responding`: place of the first node of a among all,
+    `near` and `first` of its FlankInterpolation, directions (d, 2) in the tooth's frame. `now`: the same of b; `before`: of b as it stood a step
+    before. `compliance` (d, n, d, n): first d of the directions of a, nodes of b that come after those of a left out; `previous_compliance` (1, n, 2,
+    n before): the direction that follows.
     """
-    n_a, n_b = len(first_a), len(first_b)
-    if n_a == 0 or n_b == 0:
-        return
-    start, end = 2 * first_b.min(), 2 * last_b.max()
-    width = end - start
-    along_x, along_y = np.zeros((n_a, width)), np.zeros((n_a, width))
-    for i in range(n_a):
-        to_x, to_y = along_x[i], along_y[i]
-        for node in range(first_a[i], last_a[i]):
-            _add_rows(to_x, to_y, near_a[i, node - first_a[i]], block[2 * node, start:end], block[2 * node + 1, start:end])
-    # Turned over, so that the inner loops run over neighbours in memory once more.
-    along, total_x, total_y = np.empty((width, n_a)), np.empty(n_a), np.empty(n_a)
-    for d in range(len(directions_a)):
-        for i in range(n_a):
-            for column in range(width):
-                along[column, i] = directions_a[d, 0] * along_x[i, column] + directions_a[d, 1] * along_y[i, column]
-        for j in range(n_b):
-            total_x[:] = 0.0
-            total_y[:] = 0.0
-            for node in range(first_b[j], last_b[j]):
-                _add_rows(total_x, total_y, near_b[j, node - first_b[j]], along[2 * node - start], along[2 * node + 1 - start])
-            for e in range(len(directions_b)):
-                for i in range(n_a):
-                    result[d, i, e, j] += directions_b[e, 0] * total_x[i] + directions_b[e, 1] * total_y[i]
+    row, near, first, directions = responding
+    start, end = block.shape[1] // 2, 0
+    for loaded in (now, before):
+        for begin in loaded[2]:
+            start, end = min(start, begin), max(end, begin + loaded[1].shape[1])
+    kinds, forces, numbers = len(compliance), 2 * (end - start), block.reshape(-1)
+    x, y, along = np.empty(forces), np.empty(forces), np.zeros((len(directions), len(near), forces))
+    for i in range(len(near)):
+        x[:], y[:] = 0.0, 0.0
+        for node in range(near.shape[1]):
+            at = 2 * (first[i] + node) * block.shape[1] + 2 * start
+            _add(x, near[i, node], numbers, at)
+            _add(y, near[i, node], numbers, at + block.shape[1])
+        for d in range(len(directions)):
+            _add(along[d, i], directions[d, 0], x, 0)
+            _add(along[d, i], directions[d, 1], y, 0)
+    _at_nodes(along[:kinds], start, row, now, compliance, True)
+    _at_nodes(along[kinds:], start, row, before, previous_compliance, False)
 
 
 @njit(cache=True)
-def _add_rows(to_x, to_y, weight, row_x, row_y):
-    for i in range(len(to_x)):
-        to_x[i] += weight * row_x[i]
-        to_y[i] += weight * row_y[i]
+def _add(total, weight, values, first):
+    """Add weight times the values from `first` on."""
+    # A function of its own, and unsigned places (no look for a negative index): so the loop is compiled for several numbers at a time.
+    first = np.uint64(first)
+    for i in range(len(total)):
+        total[i] += weight * values[first + np.uint64(i)]
+
+
+@njit(cache=True)
+def _at_nodes(along, start, row, loaded, result, symmetric):
+    """Add displacements `along` directions (d, n, 2 k), by x and y of each flank node from `start` on, to rows of `result` (d, n, e, m) from `row` on.
+
+    Where it is symmetric, only nodes up to the row's own, and what follows from them.
+    """
+    zero, one, two, row, column = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(row), np.uint64(loaded[0])
+    _, near, first, directions = loaded
+    for i in range(np.uint64(along.shape[1])):
+        place = row + i
+        nodes = min(np.uint64(len(near)), place + one - column) if symmetric else np.uint64(len(near))
+        for node in range(nodes):
+            at, other = two * np.uint64(first[node] - start), column + node
+            for d in range(np.uint64(len(along))):
+                by_x, by_y = 0.0, 0.0
+                for k in range(np.uint64(near.shape[1])):
+                    by_x += near[node, k] * along[d, i, at + two * k]
+                    by_y += near[node, k] * along[d, i, at + two * k + one]
+                for e in range(np.uint64(len(directions))):
+                    value = directions[e, zero] * by_x + directions[e, one] * by_y
+                    result[d, place, e, other] += value
+                    if symmetric and other != place:
+                        result[e, other, d, place] += value

@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fenics_gears.contact.flank_at_height import flank_at_height
 from fenics_gears.contact.interpolation import INTERPOLATIONS
 from fenics_gears.contact.tooth_pair import SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
 from fenics_gears.contact.window import ContactGrid, offsets_between
-from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
+from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tip_edge import TipEdge, tip_edge
 
@@ -122,8 +123,7 @@ def edge_limits(pair: GearPair, corner: CornerContact, place: Place) -> tuple[fl
 
 def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
     """Distance (mm, shape of `height`) from the line's foot to a tooth's surface at heights (mm): involute, then the edge's arc."""
-    roll = roll_angle_at_height(gear.base_radius, contact_roll, height)
-    x = flank_point(gear.base_radius, roll, contact_roll)[0]
+    roll, x = flank_at_height(gear.base_radius, contact_roll, height)
     if edge.radius > 0.0:
         centre_x, centre_height = edge_position(edge, contact_roll)
         arc = centre_x + np.sqrt(np.maximum(edge.radius**2 - (height - centre_height) ** 2, 0.0))

@@ -26,6 +26,11 @@ class DeviatingCycle(Cycle):
         self.kept = cycle.kept
 
     @property
+    def base(self) -> Cycle:
+        """The cycle whose contact nodes this one has."""
+        return self.cycle.base
+
+    @property
     def bodies(self) -> tuple:
         """Flank compliance of pinion and wheel; empty where they have none."""
         return self.cycle.bodies

@@ -2,7 +2,7 @@
 
 The gap of a node is linear in the deviations of the two teeth that meet there. The factors depend on the position in the mesh
 cycle alone and are kept; each step multiplies them by the deviations of the teeth then in mesh. Where displacements are averaged over
-a node's hat function, so are deviations.
+a node's function, so are deviations.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import hat_average, quadrature_offsets
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
+from fenics_gears.contact.interpolation import node_average, quadrature_offsets
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.flank_error_data import FlankErrors
-from fenics_gears.geometry.involute import roll_angle_at_height
 from fenics_gears.geometry.pair import GearPair
 
 # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the pinion's.
@@ -92,7 +92,7 @@ def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes) -> lis
     `roll_at`: roll angle (rad) at offsets (mm, any shape).
     """
     start, end = deviations.active_profile
-    # Nodes that average displacements over their hats average the flank as well.
+    # Nodes that average displacements average the flank as well.
     averaged = isinstance(pair, ToothPair)
     roll = roll_at(quadrature_offsets(pair.offsets) if averaged else pair.offsets)
     along = (roll - start) / (end - start)
@@ -100,7 +100,7 @@ def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes) -> lis
     if deviations.waviness is not None:
         waves = deviations.waviness.waves * roll
         shapes += [np.cos(waves), -np.sin(waves)]
-    return [hat_average(pair.offsets, each) for each in shapes] if averaged else shapes
+    return [node_average(pair.offsets, each) for each in shapes] if averaged else shapes
 
 
 def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) -> np.ndarray:

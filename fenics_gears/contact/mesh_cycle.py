@@ -6,7 +6,6 @@ phase `i / steps`. All teeth being alike, the equations at a phase are the same 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import inf
@@ -85,15 +84,6 @@ def pair_places(
     return tuple(place for place in places if can_touch(place))
 
 
-def pairs_at_once(positions: Iterable[Iterable[Place]]) -> int:
-    """Largest number of consecutive tooth pairs that can touch at one of some positions; drive and coast flank of a pair count once."""
-    spans = [0]
-    for places in positions:
-        indices = [place.index for place in places]
-        spans += [max(indices) - min(indices) + 1] if indices else []
-    return max(spans)
-
-
 @dataclass(frozen=True)
 class CycleTraits:
     """What the contact nodes of a cycle are.
@@ -151,6 +141,11 @@ class Cycle:
         """Flank compliance of pinion and wheel; empty where they have none."""
         return ()
 
+    @property
+    def base(self) -> Cycle:
+        """The cycle whose contact nodes this one has: itself, unless it is made on another one."""
+        return self
+
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
         index = step % self.steps
@@ -161,6 +156,10 @@ class Cycle:
             if self.kept.takes(found.bytes):
                 self._positions[index] = found
         return found
+
+    def keeps(self, index: int) -> bool:
+        """Whether position `index` (0 to steps - 1) has been built and is kept."""
+        return index in self._positions
 
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not kept.
@@ -272,8 +271,8 @@ def carried_nodes(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...],
     for nodes, pair in zip(node_slices(pairs), pairs):
         if _key(pair) in earlier:
             first, offsets = earlier[_key(pair)]
-            distance = np.abs(pair.offsets[:, None] - offsets[None, :])
-            carried[nodes] = np.where(distance.min(axis=1) <= 0.75 * spacing, first + distance.argmin(axis=1), -1)
+            nearest = np.abs(pair.offsets[:, None] - offsets).argmin(axis=1)
+            carried[nodes] = np.where(np.abs(pair.offsets - offsets[nearest]) <= 0.75 * spacing, first + nearest, -1)
     return carried
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE, OPEN
+from fenics_gears.contact.newton import solved
 
 
 @njit(cache=True)
@@ -63,4 +64,4 @@ def _tangent(compliance, nodes):
     for i in range(len(nodes)):
         for j in range(len(nodes)):
             matrix[i, j] = compliance[nodes[i], nodes[j]]
-    return np.linalg.solve(matrix, np.ones(len(nodes))).sum()
+    return solved(matrix, np.ones(len(nodes))).sum()

@@ -79,7 +79,7 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
         right_side[size + c] = load[c]
-    solution = _solved(matrix, right_side)
+    solution = solved(matrix, right_side)
     forces[:] = 0.0
     for a in range(n_closed):
         node = closed[a]
@@ -92,7 +92,7 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
 
 
 @njit(cache=True)
-def _solved(matrix, right_side):
+def solved(matrix, right_side):
     """Solution of a linear system, in place of both; small ones without LAPACK, whose call costs more than they do."""
     size = len(right_side)
     if size > SMALL_SYSTEM:

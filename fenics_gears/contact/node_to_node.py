@@ -15,6 +15,7 @@ from fenics_gears.contact.operator import (
     ContactOperator,
     displacement_jacobian,
     earlier_tangential_jacobian,
+    lines_of,
     node_slices,
     over_nodes,
     slip_of_rigid_flanks,
@@ -156,7 +157,7 @@ def node_to_node_operator(
     kept = 2 * nodes if tangential else nodes
     slip = previous_compliance = previous_jacobian = None
     if tangential:
-        slip = slip_of_rigid_flanks(now.pairs, pair.rotation_ratio, advance)
+        slip = slip_of_rigid_flanks(lines_of(now.pairs, radii), turned(pair, advance))
         previous_compliance, previous_jacobian = _last_displacement(radii, now.pairs, before, turned(pair, advance))
         previous_jacobian = np.ascontiguousarray(previous_jacobian[:, coordinates])
     return ContactOperator(
@@ -184,7 +185,7 @@ def _last_displacement(radii, pairs, before: NodeResponse, angles: tuple[float, 
     """
     last = len(over_nodes(before.pairs, "offsets"))
     tangential_last = displacement_jacobian(before.pairs, radii, height_lever_arms(before.pairs, radii), True)[last:]
-    outside = earlier_tangential_jacobian(pairs, radii, angles)
+    outside = earlier_tangential_jacobian(lines_of(pairs, radii), radii, angles)
     elastic, jacobian = np.zeros((len(outside), 2 * last)), np.zeros_like(outside)
     for gear, columns in enumerate(GEAR_COLUMNS):
         weights, reached = _pairwise(pairs, before.pairs, gear)

@@ -7,14 +7,16 @@ of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
+from math import cos, sin
 
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product, directions
 from fenics_gears.contact.rank import of_full_rank
-from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, ToothPair
+from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, Place, ToothPair
 from fenics_gears.geometry.pair import GearPair
 
 # The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
@@ -62,12 +64,12 @@ class ContactOperator:
     @cached_property
     def on_drive_flanks(self) -> np.ndarray:
         """Whether a node (n,) is on the drive flanks, not the coast flanks."""
-        return per_node(self.pairs, np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool))
+        return np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool)[self.node_pair]
 
 
 def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
     """Where each pair's contact nodes stand among those of all pairs, one pair after the other."""
-    ends = np.cumsum([0] + [len(pair.offsets) for pair in pairs])
+    ends = list(accumulate((len(pair.offsets) for pair in pairs), initial=0))
     return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
 
 
@@ -81,26 +83,38 @@ def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:
     return np.repeat(values, [len(pair.offsets) for pair in pairs], axis=0)
 
 
+@dataclass(frozen=True)
+class Lines:
+    """Line of action of each contact node: its direction `normal` (n, 2) in space, from pinion to wheel, `tangent` (n, 2) across it, sign (n,)
+    of rotations there, and `lever_arms` (n,), mm, of normal forces about the centres of pinion and wheel.
+
+    Lever arms are the base radii, and at a tip's edge those of the mate's normal. An involute turned by phi moves by rb phi along its own
+    normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
+    """
+
+    pairs: Sequence[PairNodes]
+    normal: np.ndarray
+    tangent: np.ndarray
+    turn: np.ndarray
+    lever_arms: tuple[np.ndarray, np.ndarray]
+
+    @cached_property
+    def friction_arms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lever arms (n,), mm, of friction about the centres of pinion and wheel."""
+        return over_nodes(self.pairs, "pinion_lever_arm"), over_nodes(self.pairs, "wheel_lever_arm")
+
+
+def lines_of(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> Lines:
+    """The lines of action of the pairs' nodes."""
+    places = [pair.place for pair in pairs]
+    of_pairs = [(*place.axes[0], *place.axes[1], place.turn, *(base_radii if place.line is None else place.line.lever_arms)) for place in places]
+    values = per_node(pairs, np.array(of_pairs).reshape(len(pairs), 7))
+    return Lines(pairs, values[:, :2], values[:, 2:4], values[:, 4], (values[:, 5].copy(), values[:, 6].copy()))
+
+
 def normals(pairs: Sequence[PairNodes]) -> np.ndarray:
     """Direction (n, 2) in space of each node's line of action, from pinion to wheel."""
-    return _axes(pairs)[0]
-
-
-def _axes(pairs: Sequence[PairNodes]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Normal (n, 2) and tangential (n, 2) direction of each node in space, and the sign (n,) of rotations there."""
-    axes = per_node(pairs, np.array([pair.place.axes for pair in pairs]).reshape(len(pairs), 2, 2))
-    return axes[:, 0], axes[:, 1], per_node(pairs, np.array([pair.place.turn for pair in pairs]))
-
-
-def line_lever_arms(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Lever arms (n,), mm, of normal forces: the base radii, and at a tip's edge those of the mate's normal.
-
-    An involute turned by phi moves by rb phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds
-    exactly without friction.
-    """
-    lines = [base_radii if pair.place.line is None else pair.place.line.lever_arms for pair in pairs]
-    arms = per_node(pairs, np.array(lines).reshape(len(pairs), 2))
-    return arms[:, 0].copy(), arms[:, 1].copy()
+    return lines_of(pairs, (0.0, 0.0)).normal
 
 
 def displacement_jacobian(
@@ -108,80 +122,99 @@ def displacement_jacobian(
     base_radii: tuple[float, float],
     normal_lever_arms: tuple[np.ndarray, np.ndarray],
     tangential: bool,
+    lines: Lines | None = None,
 ) -> np.ndarray:
-    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm."""
-    nodes = sum(len(pair.offsets) for pair in pairs)
+    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm.
+
+    `lines`: of the nodes, where they are known.
+    """
+    nodes, lines = len(normal_lever_arms[0]), lines or lines_of(pairs, base_radii)
+    normal, tangent, turn = lines.normal, lines.tangent, lines.turn
     rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
-    normal, tangent, turn = _axes(pairs)
     rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_lever_arms[0] / base_radii[0]
     rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_lever_arms[1] / base_radii[1]
     if tangential:
-        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * over_nodes(pairs, "pinion_lever_arm") / base_radii[0]
-        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * over_nodes(pairs, "wheel_lever_arm") / base_radii[1]
+        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * lines.friction_arms[0] / base_radii[0]
+        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * lines.friction_arms[1] / base_radii[1]
     return rows
 
 
+# A flank of a gear, by its tooth's place and its side; contact nodes as `compliance_product` takes them, and none of them.
+_Flank = tuple[int, int]
+_Nodes = tuple[int, np.ndarray, np.ndarray, np.ndarray]
+NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
+
+
 class CompliancePairing:
-    """Compliance between the contact nodes of two sets of tooth pairs, from the flank compliances of both gears."""
+    """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
 
     def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None):
-        """`kept`: where blocks of either gear, over the face width, are kept; pairings of the same bodies may share it."""
+        """`kept`: where blocks of either gear are kept; pairings of the same bodies may share it."""
         self._widths, self._gears = flanks.pair.face_widths, flanks.compliance
         self._blocks = ({}, {}) if kept is None else kept
 
-    def _block(self, gear: int, responding: ToothPair, loaded: ToothPair) -> np.ndarray:
-        body, blocks = self._gears[gear], self._blocks[gear]
-        teeth = responding.place.ahead(gear), loaded.place.ahead(gear)
-        sides = responding.place.flank, loaded.place.flank
-        key = body.key(*teeth), *sides
+    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> np.ndarray:
+        body, blocks, teeth, sides = self._gears[gear], self._blocks[gear], (responding[0], loaded[0]), (responding[1], loaded[1])
+        key = body.key(*teeth), sides
         if key not in blocks:
-            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides)) / self._widths[gear]
+            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides))
         return blocks[key]
 
-    def product(
-        self,
-        responding: tuple[ToothPair, ...],
-        loaded: tuple[ToothPair, ...],
-        response_directions,
-        load_directions,
-        symmetric: bool = False,
-    ) -> np.ndarray:
-        """Sum over both gears of `N A N^T`: (d_r n_r, d_l n_l), mm/N, directions outermost.
+    def compliance(
+        self, pairs: Sequence[ToothPair], previous: Sequence[ToothPair] | None = None, turned: tuple[float, float] = (0.0, 0.0)
+    ) -> tuple[np.ndarray, np.ndarray | None]:
+        """Sum over both gears of `N A N^T`, mm/N: C (m, m) between the nodes of `pairs`, and E (n, m before) by forces on those of `previous`.
 
-        `response_directions(gear, pair)` and `load_directions(gear, pair)` give unit vectors (d, 2) in tooth frames.
+        With `previous`, the pairs a step before, there are tangential rows, and E is the displacement along the tangent that the material
+        points had while the gears stood `turned` (rad, of either one) before. E is None without.
         """
-        if not responding or not loaded:
-            return np.zeros((0, 0))
-        rows, columns = node_slices(responding), node_slices(loaded)
-        kinds = len(response_directions(0, responding[0])), len(load_directions(0, loaded[0]))
-        result = np.zeros((kinds[0], rows[-1].stop, kinds[1], columns[-1].stop))
-        for a, pair_a in enumerate(responding):
-            for b, pair_b in enumerate(loaded):
-                if symmetric and b > a:
-                    continue
-                part = np.zeros((kinds[0], len(pair_a.offsets), kinds[1], len(pair_b.offsets)))
-                for gear in range(2):
-                    n_a, n_b = pair_a.interpolation[gear], pair_b.interpolation[gear]
-                    compliance_product(
-                        self._block(gear, pair_a, pair_b),
-                        n_a.near, n_a.first, n_a.last, response_directions(gear, pair_a),
-                        n_b.near, n_b.first, n_b.last, load_directions(gear, pair_b),
-                        part,
-                    )  # fmt: skip
-                result[:, rows[a], :, columns[b]] = part
-                if symmetric and b < a:
-                    result[:, rows[b], :, columns[a]] = part.transpose(2, 3, 0, 1)
-        return result.reshape(kinds[0] * rows[-1].stop, -1)
+        tangential = previous is not None
+        kinds, nodes, nodes_before = 2 if tangential else 1, _count(pairs), _count(previous or ())
+        compliance, earlier = np.zeros((kinds, nodes, kinds, nodes)), np.zeros((1, nodes, 2, nodes_before))
+        for gear in range(2):
+            now, before = (_nodes_of(each, gear, tangential) for each in (pairs, previous or ()))
+            loads = _matched(now, before)
+            for pair, (flank, own) in zip(pairs, now):
+                row, near, first, axes = own
+                if tangential:
+                    axes = np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
+                own = row, near, first, axes / self._widths[gear]
+                for other, loaded, loaded_before in loads:
+                    # The other half follows by symmetry.
+                    loaded = loaded if loaded[0] <= row else NO_NODES
+                    if len(loaded[2]) or len(loaded_before[2]):
+                        compliance_product(self._block(gear, flank, other), own, loaded, compliance, loaded_before, earlier)
+        rows = kinds * nodes
+        return compliance.reshape(rows, rows), earlier.reshape(nodes, 2 * nodes_before) if tangential else None
 
 
-def own_directions(tangential: bool):
-    """Directions at a pair's own position: e_x, and e_y where friction asks for it."""
-    return lambda gear, pair: directions(pair.place.contact_rolls[gear], tangential)
+def _count(pairs: Sequence[PairNodes]) -> int:
+    return sum(len(pair.offsets) for pair in pairs)
 
 
-def earlier_tangent(advance: tuple[float, float]):
-    """e_y at the material point as it stood `advance` (rad, of either gear) before: that tooth's frame then."""
-    return lambda gear, pair: directions(pair.place.contact_rolls[gear] - pair.place.turn * advance[gear], True)[1:]
+def _nodes_of(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> list[tuple[_Flank, _Nodes]]:
+    """The flank of each pair, its contact nodes, and the directions of forces on them: e_x, and e_y where friction asks for it."""
+    found, start = [], 0
+    for pair in pairs:
+        view, place = pair.interpolation[gear], pair.place
+        axes = directions(place.contact_rolls[gear], tangential)
+        found.append(((place.ahead(gear), place.flank), (start, view.near, view.first, axes)))
+        start += len(view.near)
+    return found
+
+
+def _matched(now: list[tuple[_Flank, _Nodes]], before: list[tuple[_Flank, _Nodes]]) -> list[tuple[_Flank, _Nodes, _Nodes]]:
+    """Contact nodes now and a step before that are on the same flank, and those that have none beside them."""
+    left, found = list(before), []
+    for flank, nodes in now:
+        same = next((place for place, (other, _) in enumerate(left) if other == flank), None)
+        found.append((flank, nodes, NO_NODES if same is None else left.pop(same)[1]))
+    return found + [(flank, NO_NODES, nodes) for flank, nodes in left]
+
+
+def _earlier_tangent(place: Place, gear: int, turned: tuple[float, float]) -> np.ndarray:
+    """e_y (1, 2) at the material point as it stood `turned` (rad, of either gear) before: that tooth's frame then."""
+    return directions(place.contact_rolls[gear] - place.turn * turned[gear], True)[1:]
 
 
 def contact_operator(
@@ -197,12 +230,9 @@ def contact_operator(
 
     `coordinates`: which of CENTRE_COORDINATES are unknowns; `advance`: rotation of the pinion (rad) during the step.
     """
-    own = own_directions(previous is not None)
-    compliance, dependent = of_full_rank(pairing.product(pairs, pairs, own, own, symmetric=True))
-    before = None
-    if previous is not None:
-        before = pairing.product(pairs, previous, earlier_tangent(turned(flanks.pair, advance)), own)
-    return replace(operator_on_lines(flanks.pair, pairs, coordinates, compliance, before, advance), dependent_rows=dependent)
+    compliance, before = pairing.compliance(pairs, previous, turned(flanks.pair, advance))
+    compliance, dependent = of_full_rank(compliance)
+    return operator_on_lines(flanks.pair, pairs, coordinates, compliance, before, advance, dependent)
 
 
 def operator_on_lines(
@@ -212,25 +242,25 @@ def operator_on_lines(
     compliance: np.ndarray,
     previous_compliance: np.ndarray | None,
     advance: float,
+    dependent_rows: int = 0,
 ) -> ContactOperator:
     """The contact equations of nodes whose normal forces act along their pair's line; `previous_compliance` None without friction.
 
     Arguments as of `contact_operator`, arrays as of ContactOperator.
     """
-    radii = (gears.pinion.base_radius, gears.wheel.base_radius)
-    arms, frictional = line_lever_arms(pairs, radii), previous_compliance is not None
-    slip = slip_of_rigid_flanks(pairs, radii, turned(gears, advance)) if frictional else None
-    earlier = earlier_tangential_jacobian(pairs, radii, turned(gears, advance))[:, coordinates] if frictional else None
+    radii, frictional = (gears.pinion.base_radius, gears.wheel.base_radius), previous_compliance is not None
+    lines = lines_of(pairs, radii)
     return ContactOperator(
         pairs=pairs,
         base_radii=radii,
-        normal_lever_arms=arms,
+        normal_lever_arms=lines.lever_arms,
         compliance=compliance,
-        jacobian=np.ascontiguousarray(displacement_jacobian(pairs, radii, arms, frictional)[:, coordinates]),
+        jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines).take(coordinates, axis=1),
         gap=over_nodes(pairs, "gap"),
-        rigid_slip=slip,
+        rigid_slip=slip_of_rigid_flanks(lines, turned(gears, advance)) if frictional else None,
         previous_compliance=previous_compliance,
-        previous_jacobian=None if earlier is None else np.ascontiguousarray(earlier),
+        previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance)).take(coordinates, axis=1) if frictional else None,
+        dependent_rows=dependent_rows,
     )
 
 
@@ -239,26 +269,29 @@ def turned(gears: GearPair, advance: float) -> tuple[float, float]:
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
 
 
-def slip_of_rigid_flanks(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
+def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarray:
     """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding speed [12].
 
     The sliding speed times the step would be of first order only: the speed grows in proportion to the distance from the pitch point.
     """
-    offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_lever_arm", "wheel_lever_arm"))
-    line_1, line_2 = line_lever_arms(pairs, base_radii)
-    turn = per_node(pairs, np.array([pair.place.turn for pair in pairs]))
-    straight = turn * (arm_1 * np.sin(turned[0]) + arm_2 * np.sin(turned[1]))
-    return straight - (line_1 - offsets) * (1.0 - np.cos(turned[0])) - (line_2 + offsets) * (1.0 - np.cos(turned[1]))
+    lever_arms, offsets = lines.friction_arms, over_nodes(lines.pairs, "offsets")
+    straight = lines.turn * (lever_arms[0] * sin(turned[0]) + lever_arms[1] * sin(turned[1]))
+    return straight - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0])) - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
 
 
-def earlier_tangential_jacobian(pairs, radii, turned) -> np.ndarray:
+def sliding_now(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> np.ndarray:
+    """Sliding (n,), mm per rad of the pinion, of rigid gears at this position: x - (z1/z2) (L - x) of [12], zero at the pitch point."""
+    lines = lines_of(pairs, base_radii)
+    return lines.turn * (lines.friction_arms[0] - base_radii[0] / base_radii[1] * lines.friction_arms[1])
+
+
+def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
-    rows = np.zeros((sum(len(pair.offsets) for pair in pairs), len(CENTRE_COORDINATES)))
-    offsets, arm_1, arm_2 = (over_nodes(pairs, name) for name in ("offsets", "pinion_lever_arm", "wheel_lever_arm"))
-    line_1, line_2 = line_lever_arms(pairs, radii)
-    height_1, height_2 = line_1 - offsets, line_2 + offsets
-    _, tangent, turn = _axes(pairs)
+    offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms
+    height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
+    tangent, turn = lines.tangent, lines.turn
+    rows = np.zeros((len(offsets), len(CENTRE_COORDINATES)))
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
-    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * np.cos(turned[0]) - turn * height_1 * np.sin(turned[0])) / radii[0]
-    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * np.cos(turned[1]) - turn * height_2 * np.sin(turned[1])) / radii[1]
+    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cos(turned[0]) - turn * height_1 * sin(turned[0])) / radii[0]
+    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cos(turned[1]) - turn * height_2 * sin(turned[1])) / radii[1]
     return rows

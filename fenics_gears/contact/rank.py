@@ -20,7 +20,8 @@ def dependent_rows(compliance: np.ndarray) -> int:
     if not len(compliance):
         return 0
     tolerance = SMALLEST_PIVOT * compliance.diagonal().max()
-    return len(compliance) - int(dpstrf(compliance, tol=tolerance, lower=1)[2])
+    # Turned over, in the order of Fortran: it is symmetric.
+    return len(compliance) - int(dpstrf(compliance.T, tol=tolerance, lower=1)[2])
 
 
 def of_full_rank(compliance: np.ndarray) -> tuple[np.ndarray, int]:

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.operator import ContactOperator, sliding_now
 from fenics_gears.contact.rigid_cycle import RigidCycle, pairs_that_touch
 from fenics_gears.contact.step_solver import StepProblem
 
@@ -26,7 +26,7 @@ class RigidFrictionCycle(RigidCycle):
 
     def _unit_forces(self, operator: ContactOperator, problem: StepProblem, touching: list[int]) -> np.ndarray:
         """Forces (2 n, t) per unit mesh force: even shares on the nearest node of each pair that touches with a leader, and their friction."""
-        count = len(problem.gap)
+        count, sliding = len(problem.gap), np.sign(sliding_now(operator.pairs, operator.base_radii))
         unit = np.zeros((2 * count, len(touching)))
         for column, leader in enumerate(touching):
             together = pairs_that_touch(operator, leader)
@@ -34,5 +34,5 @@ class RigidFrictionCycle(RigidCycle):
                 nodes = np.flatnonzero(operator.node_pair == pair)
                 node = leader if pair == operator.node_pair[leader] else nodes[np.argmin(problem.gap[nodes])]
                 unit[node, column] = 1.0 / len(together)
-                unit[count + node, column] = problem.friction * np.sign(operator.rigid_slip[node]) / len(together)
+                unit[count + node, column] = problem.friction * sliding[node] / len(together)
         return unit

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import INTERPOLATIONS, FlankInterpolation, hat_integrals
+from fenics_gears.contact.flank_at_height import flank_at_height
+from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, hat_integrals
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, node_offsets
 from fenics_gears.elasticity.compliance import FlankCompliance
-from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
 from fenics_gears.geometry.pair import GearPair
 
 Removal = Callable[[np.ndarray], np.ndarray]
@@ -111,13 +111,12 @@ class ToothPair(PairNodes):
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
 
-def rolls_at(pair: GearPair, place: Place, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Roll angles (rad, any shape) on pinion and wheel of the flank points at offsets (mm) from the line of a place."""
-    gears, arms = (pair.pinion, pair.wheel), place.line_in(pair).lever_arms
-    return tuple(
-        roll_angle_at_height(gear.base_radius, roll, arm + sense * offsets)
-        for gear, roll, arm, sense in zip(gears, place.contact_rolls, arms, SENSES)
-    )
+def flank_points(pair: GearPair, place: Place, offsets: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (mm, any shape) from the line of a place."""
+    (roll_1, roll_2), (arm_1, arm_2) = place.contact_rolls, place.line_in(pair).lever_arms
+    rolls_1, x_1 = flank_at_height(pair.pinion.base_radius, roll_1, arm_1 - offsets)
+    rolls_2, x_2 = flank_at_height(pair.wheel.base_radius, roll_2, arm_2 + offsets)
+    return (rolls_1, rolls_2), (x_1, x_2)
 
 
 def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None], place: Place, offsets: np.ndarray):
@@ -125,8 +124,7 @@ def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None]
 
     Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm).
     """
-    rolls, gears = rolls_at(pair, place, offsets), (pair.pinion, pair.wheel)
-    distances = tuple(flank_point(gear.base_radius, roll, at)[0] for gear, roll, at in zip(gears, rolls, place.contact_rolls))
+    rolls, distances = flank_points(pair, place, offsets)
     gap = pair.line_of_action_length - distances[1] - distances[0]
     for removed, roll in zip(removal, rolls):
         if removed is not None:
@@ -144,6 +142,14 @@ def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | N
     return nodes_on_flanks(flanks, grid, place, offsets, distances, gap)
 
 
+def seen_gap(view: Averages | Points, offsets: np.ndarray, gap: np.ndarray) -> np.ndarray:
+    """Gaps (n,), mm, of contact nodes at `offsets` (n,), mm, from gaps at the points that they see.
+
+    Averages of flanks that are nowhere one inside the other may not say that they are: they would press without load.
+    """
+    return np.maximum(view.seen(offsets, gap), min(0.0, float(gap.min())))
+
+
 def nodes_on_flanks(
     flanks: Flanks, grid: ContactGrid, place: Place, offsets: np.ndarray, distances: tuple[np.ndarray, np.ndarray], gap: np.ndarray
 ) -> ToothPair:
@@ -152,7 +158,7 @@ def nodes_on_flanks(
     `distances`: of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`, mm, where the interpolation wants them.
     """
     view, line = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair)
-    gears, rolls = (flanks.pair.pinion, flanks.pair.wheel), rolls_at(flanks.pair, place, offsets)
+    gears, rolls = (flanks.pair.pinion, flanks.pair.wheel), flank_points(flanks.pair, place, offsets)[0]
     # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that action and
     # reaction leave no torque.
     meeting = 0.5 * (view.seen(offsets, distances[0] - distances[1]) + line.length)
@@ -170,7 +176,7 @@ def nodes_on_flanks(
         place=place,
         offsets=offsets,
         lengths=hat_integrals(offsets),
-        gap=view.seen(offsets, gap),
+        gap=seen_gap(view, offsets, gap),
         pinion_lever_arm=meeting,
         wheel_lever_arm=line.length - meeting,
         pinion_roll=rolls[0],

@@ -6,12 +6,13 @@ mesh. Positions are counted in steps along this way: pair `index` stands at `ste
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh_cycle import pair_places
-from fenics_gears.contact.tooth_pair import COAST, DRIVE
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.geometry.pair import GearPair
@@ -43,6 +44,11 @@ class Touching:
         return Reach(same, (min(least, -most - 1), max(most, -least - 1)))
 
     @property
+    def latest(self) -> int:
+        """Largest index of a pair at any step."""
+        return max(last // self.steps for _, last in (self.drive, self.coast or self.drive))
+
+    @property
     def slots(self) -> int:
         """Largest number of consecutive tooth pairs that can touch at a step; drive and coast flank of a pair count once."""
         ways = [self.drive, self.coast or self.drive]
@@ -56,14 +62,19 @@ class Touching:
 @lru_cache(maxsize=64)
 def touching(pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None) -> Touching:
     """Where the pairs of a mesh cycle touch."""
+    return touching_at(lambda step: pair_places(pair, grid, step / steps, coast_flanks, corner), steps, coast_flanks)
+
+
+def touching_at(places_at: Callable[[int], Iterable[Place]], steps: int, coast_flanks: bool) -> Touching:
+    """Where pairs touch, of which `places_at` gives those at a step (0 to steps - 1)."""
 
     def touches(position: int, flank: int) -> bool:
         index, step = divmod(position, steps)
-        return any(place.index == index and place.flank == flank for place in pair_places(pair, grid, step / steps, coast_flanks, corner))
+        return any(place.index == index and place.flank == flank for place in places_at(step))
 
     def ends(flank: int) -> tuple[int, int] | None:
-        looked_at = {step: pair_places(pair, grid, step / steps, coast_flanks, corner) for step in range(0, steps, max(1, steps // LOOKED_AT))}
-        found = [step + place.index * steps for step, places in looked_at.items() for place in places if place.flank == flank]
+        looked_at = range(0, steps, max(1, steps // LOOKED_AT))
+        found = [step + place.index * steps for step in looked_at for place in places_at(step) if place.flank == flank]
         if not found:
             return None
         return _end(lambda position: touches(position, flank), min(found), -1, steps), _end(lambda position: touches(position, flank), max(found), 1, steps)

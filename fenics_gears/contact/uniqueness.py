@@ -12,6 +12,7 @@ serves where inertia makes K regular but little: its part of D M is then b b^T/l
 
 from __future__ import annotations
 
+from collections import Counter, defaultdict
 from collections.abc import Iterable
 from functools import lru_cache
 
@@ -63,18 +64,47 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
 
     Cycles repeat the same operators and sets: each of them is judged once, where no node sticks.
     """
-    known: dict[tuple, bool] = {}
-    count = 0
+    sets: dict[tuple, tuple] = {}
+    times: Counter[tuple] = Counter()
     for operator, status, forces in solved:
         n = len(status)
         sigma = np.where(status == SLIP_BACKWARD, -1.0, 1.0)
         stick = np.flatnonzero(status == STICK)
         sigma[stick] = forces[n + stick] / (friction * np.maximum(forces[stick], np.finfo(float).tiny))
         key = id(operator), sigma.tobytes(), status.tobytes()
-        if key not in known:
-            known[key] = is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, status != OPEN, sigma)
-        count += not known[key]
-    return count
+        times[key] += 1
+        if key not in sets:
+            sets[key] = operator, status != OPEN, sigma
+    plain = _plainly_only(stiffness, friction, list(sets.values()))
+    return sum(
+        times[key]
+        for (key, (operator, closed, sigma)), certified in zip(sets.items(), plain)
+        if not certified and not is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, closed, sigma)
+    )
+
+
+def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> list[bool]:
+    """Whether D = 1 is a certificate, of many `sets` (operator, closed, sigma) at once: those with as many closed nodes m together."""
+    values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
+    found, of_size = [False] * len(sets), defaultdict(list)
+    if not held.all():
+        return found
+    for place, (_, closed, _) in enumerate(sets):
+        of_size[np.count_nonzero(closed)].append(place)
+    for m, places in of_size.items():
+        compliance, moved, share = np.empty((len(places), m, 2 * m)), np.empty((len(places), 2 * m, len(values))), np.empty((len(places), m))
+        for i, place in enumerate(places):
+            operator, closed, sigma = sets[place]
+            nodes = np.flatnonzero(closed)
+            both = np.concatenate((nodes, len(closed) + nodes))
+            compliance[i], moved[i], share[i] = operator.compliance[nodes[:, None], both], operator.jacobian[both], friction * sigma[nodes]
+        moved = moved @ vectors
+        sliding = moved[:, :m] + share[:, :, None] * moved[:, m:]
+        matrices = compliance[:, :, :m] + compliance[:, :, m:] * share[:, None, :] + (moved[:, :m] / values) @ sliding.transpose(0, 2, 1)
+        together = _positive(matrices)
+        for place, matrix in zip(places, matrices):
+            found[place] = together or _positive(matrix)
+    return found
 
 
 @lru_cache(maxsize=4)
@@ -90,9 +120,9 @@ def _across(direction: np.ndarray) -> np.ndarray:
 
 
 def _positive(matrix: np.ndarray) -> bool:
-    """Whether the symmetric part is positive definite."""
+    """Whether the symmetric part of a matrix (m, m), or of each of several, is positive definite."""
     try:
-        np.linalg.cholesky(matrix + matrix.T)
+        np.linalg.cholesky(matrix + np.swapaxes(matrix, -1, -2))
     except np.linalg.LinAlgError:
         return False
     return True

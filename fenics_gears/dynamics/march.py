@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
+from itertools import compress
 from math import ceil
 
 import numpy as np
@@ -59,7 +60,7 @@ class March:
             del self._last[0]
         moved = solved.numbers > 0
         self.steps, self.newton_iterations = int(solved.numbers[-1]), self.newton_iterations + int(solved.iterations[moved].sum())
-        for method, count in Counter(method for method, counts in zip(solved.methods, moved) if counts).items():
+        for method, count in Counter(compress(solved.methods, moved)).items():
             self.steps_by_method[method] += count
         apart = np.flatnonzero(~drive_flanks_touch(solved) & moved)
         if len(apart):
@@ -168,7 +169,9 @@ class Marcher(Stepper):
         positions = [last.position, *(self.cycle.position(step) for step in numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
         steps.put(0, last)
-        durations = np.array([self.clock.duration(step - 1, step) for step in (numbers[0], *numbers)])
+        durations = np.zeros(len(steps))
+        if self._motion.method != STATIC:
+            durations[1:] = [self.clock.duration(step - 1, step) for step in numbers]
         loads = np.array([self.load(step) for step in (numbers[0], *numbers)]) if self.loads else np.tile(self.drivetrain.load, (len(steps), 1))
         done = 1
         try:

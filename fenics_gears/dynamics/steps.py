@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import GAP, NODES, ON_DRIVE_FLANKS, flags_at, vector_at
+from fenics_gears.contact.addresses import GAP, NODES, ON_DRIVE_FLANKS, PREVIOUS_COMPLIANCE, flags_at, vector_at
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
@@ -75,13 +75,15 @@ class Steps:
     def put(self, place: int, record: Record) -> None:
         """Take the solution of one step from its record."""
         state, solution, (nodes, forces) = record.state, record.solution, self._slices(place)
-        self.positions[place], self.methods[place] = record.position, solution.method
+        if record.position is not self.positions[place]:
+            self.positions[place] = record.position
+            self.__dict__.pop("table", None)
+        self.methods[place] = solution.method
         self.states[place] = state.position, state.velocity, state.acceleration
         self.forces[forces], self.displacement[forces], self.status[nodes] = solution.forces, solution.displacement, solution.status
         self.iterations[place] = solution.iterations
         if record.parts:
             self.parts[place] = record.parts
-        self.__dict__.pop("table", None)
 
     def record(self, place: int) -> Record:
         """One step by itself; its arrays are parts of these."""
@@ -101,16 +103,20 @@ class Steps:
         """The steps from place `first` to before `end`; arrays are parts of these."""
         nodes, forces = slice(self.starts[first], self.starts[end]), slice(self.kinds * self.starts[first], self.kinds * self.starts[end])
         parts = {place - first: parts for place, parts in self.parts.items() if first <= place < end}
-        return Steps(
+        steps = Steps(
             self.numbers[first:end], self.positions[first:end], self.states[first:end], self.forces[forces], self.displacement[forces],
             self.status[nodes], self.iterations[first:end], self.methods[first:end], parts,
         )  # fmt: skip
+        steps.__dict__["table"] = self.table[first:end]
+        return steps
 
     def followed_by(self, other: Steps) -> Steps:
         """These steps and others after them."""
         parts = self.parts | {len(self) + place: parts for place, parts in other.parts.items()}
         arrays = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in ARRAYS}
-        return Steps(**arrays, positions=self.positions + other.positions, methods=self.methods + other.methods, parts=parts)
+        steps = Steps(**arrays, positions=self.positions + other.positions, methods=self.methods + other.methods, parts=parts)
+        steps.__dict__["table"] = np.concatenate([self.table, other.table])
+        return steps
 
     def with_parts(self) -> tuple[Steps, np.ndarray]:
         """All steps with the parts of those that were divided; and the places (s,) of the whole steps among them."""
@@ -136,6 +142,16 @@ class Steps:
             yield position.operator, self.status[first:end], self.forces[kinds * first : kinds * end]
 
     @property
+    def largest_forces(self) -> np.ndarray:
+        """The largest normal force of a contact node at each step (s,), N; zero where there is no node."""
+        first, nodes = self.starts[:-1], np.diff(self.starts)
+        # A step's tangential forces come after its normal ones.
+        normal = self.forces[np.arange(len(self.status)) + (self.kinds - 1) * np.repeat(first, nodes)]
+        found, some = np.zeros(len(self)), nodes > 0
+        found[some] = np.maximum.reduceat(normal, first[some]) if some.any() else 0.0
+        return np.maximum(found, 0.0)
+
+    @property
     def kinds(self) -> int:
         """Forces of a contact node: 2 with friction, else 1."""
         return 2 if len(self.forces) > len(self.status) else 1
@@ -148,7 +164,8 @@ class Steps:
     @cached_property
     def table(self) -> np.ndarray:
         """What compiled code needs of each step's contact operator (s, 10), by the names of `contact.addresses`: sizes and addresses."""
-        return np.array([position.in_memory[0] for position in self.positions], dtype=np.int64).reshape(len(self), -1)
+        rows = [position.in_memory[0] for position in self.positions]
+        return np.concatenate(rows).reshape(len(rows), -1) if rows else np.empty((0, PREVIOUS_COMPLIANCE + 1), dtype=np.int64)
 
     def _slices(self, place: int) -> tuple[slice, slice]:
         first, end = int(self.starts[place]), int(self.starts[place + 1])

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, is_dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
@@ -95,13 +96,17 @@ class Effect:
         return data if self.located is None else self.located(data, directory)
 
 
+# A study reads hundreds of scenes.
+_hints = cache(get_type_hints)
+
+
 def same_names(kind: type, section: Section, leaving: Collection[str] = (), **others: Any) -> Any:
     """The dataclass ``kind`` with the section's values, which have the same names; a section within it becomes the dataclass of that field.
 
     What the scene leaves out keeps the dataclass's own default. ``leaving``: fields of the section that the dataclass does not have;
     ``others``: values that are not the section's own.
     """
-    hints = get_type_hints(kind)
+    hints = _hints(kind)
     for name, value in section:
         if value is None or name in leaving or name in others:
             continue

@@ -138,9 +138,8 @@ def kinks_watched(section: str, removal: Callable, reliefs, cycle, steps) -> dic
 
     from fenics_gears.contact.kink_pressure import kink_at_the_peak
 
-    solved = [(record.position.operator, record.solution.forces) for record in steps.records]
-    hardest = sorted(solved, key=lambda each: each[1][: each[0].nodes].max(initial=0.0))[-STEPS_JUDGED:]
-    gear, pressure = kink_at_the_peak(cycle, hardest, kinks)
+    hardest = [steps.record(int(place)) for place in np.argsort(steps.largest_forces, kind="stable")[-STEPS_JUDGED:]]
+    gear, pressure = kink_at_the_peak(cycle, [(record.position.operator, record.solution.forces) for record in hardest], kinks)
     first = np.zeros((2, len(steps)))
     first[:, 0] = pressure, 0 if gear is None else 1 + GEARS.index(gear)
     return {f"{section} pressure": first[0], f"{section} kink": first[1]}

@@ -24,7 +24,8 @@ class ElementSizes:
     and fillets. coast: along the coast flank and the tip. body: largest size in the tooth and the rim
     below it; further inside elements go on growing. growth: increase of size per distance.
     both_flanks: the coast flank is a working flank too, meshed as the drive flank's mirror image.
-    hub_angle: largest angle (rad) of an edge along the bore.
+    hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles (rad) between which the mate's tip edge may press
+    on the flank. There, and beside the flank's own tip, its elements are finer; None: none are.
     """
 
     flank: float
@@ -35,6 +36,7 @@ class ElementSizes:
     growth: float = 0.35
     both_flanks: bool = False
     hub_angle: float = HUB_ANGLE
+    mate_tip: tuple[float, float] | None = None
 
     def refined(self, factor: float) -> ElementSizes:
         """All sizes but the flank's times `factor`: meshes of several factors are one family, whose error falls with an order.
@@ -66,18 +68,19 @@ class Discretisation:
 
     element: a name of ELEMENTS. flank_element_size, body_element_size: mm, along the working flank and the largest in tooth and rim
     (None: from the module). elastic_teeth: teeth this many pitches apart and further do not feel each other (1: each feels itself
-    alone); None: all do.
+    alone); None: all do. mate_tip: roll angles (rad), see ElementSizes.
     """
 
     element: str
     flank_element_size: float
     body_element_size: float | None = None
     elastic_teeth: int | None = None
+    mate_tip: tuple[float, float] | None = None
 
     def sizes(self, gear: Gear, both_flanks: bool = False) -> ElementSizes:
         """Element sizes (mm) of a gear's sector mesh; both_flanks: the coast flank works too."""
         sizes = element_sizes(gear, element_named(self.element), self.flank_element_size, self.body_element_size)
-        return replace(sizes, both_flanks=both_flanks)
+        return replace(sizes, both_flanks=both_flanks, mate_tip=self.mate_tip)
 
 
 def element_sizes(gear: Gear, element: Element, flank: float, body: float | None = None) -> ElementSizes:

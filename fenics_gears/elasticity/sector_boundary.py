@@ -15,6 +15,9 @@ FILLET_SAMPLES = 201
 CURVE_SAMPLES = 400
 # Elements have at most the body's size to this depth (modules) below the tooth's surface, and grow beyond it.
 BODY_REACH = 2.0
+# Size of flank elements, in the flank's, at its own sharp edge and where the mate's edge presses; beyond, it grows by so much per distance. The pressure
+# rises towards an edge as the power -1/2 to -1/3 of the distance.
+AT_TIP, AT_MATE_TIP, EDGE_GROWTH, EDGE_SAMPLES = 0.125, 0.25, 0.5, 20001
 # A prescribed vertex this near to an end of the flank (in element sizes) is that end.
 SNAP = 1e-6
 
@@ -36,11 +39,24 @@ class SectorBoundary:
         return np.arange(first, last + 1) % len(self.points)
 
 
-def flank_roll_angles(gear: Gear, size: float) -> np.ndarray:
-    """Roll angles (rad) of the flank's element vertices, even in arc length, an even number of elements."""
-    ends = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
-    elements = max(2 * int(np.ceil((ends[1] - ends[0]) / (2.0 * size) - 1e-9)), 4)
-    return roll_angle_at_arc_length(gear.base_radius, np.linspace(*ends, elements + 1))
+def flank_roll_angles(gear: Gear, size: float, mate_tip: tuple[float, float] | None = None) -> np.ndarray:
+    """Roll angles (rad) of the flank's element vertices, an even number of elements.
+
+    They are even in arc length; with `mate_tip` (rad, see ElementSizes) closer there and towards the tip.
+    """
+    form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
+    arcs = np.linspace(form, tip, 2 if mate_tip is None else EDGE_SAMPLES)
+    sizes = np.full(len(arcs), size) if mate_tip is None else _size_near_edges(gear, arcs, size, mate_tip)
+    density = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(arcs) * (1.0 / sizes[1:] + 1.0 / sizes[:-1]))])
+    elements = max(2 * int(np.ceil(0.5 * density[-1] - 1e-9)), 4)
+    return roll_angle_at_arc_length(gear.base_radius, np.interp(np.linspace(0.0, density[-1], elements + 1), density, arcs))
+
+
+def _size_near_edges(gear: Gear, arcs: np.ndarray, size: float, mate_tip: tuple[float, float]) -> np.ndarray:
+    """Element sizes (n,), mm, at arc lengths (n,), mm, of the flank."""
+    start, end = arc_length(gear.base_radius, np.array(mate_tip))
+    outside = np.maximum(np.maximum(start - arcs, arcs - end), 0.0)
+    return np.minimum(size, np.minimum(AT_TIP * size + EDGE_GROWTH * (arcs[-1] - arcs), AT_MATE_TIP * size + EDGE_GROWTH * outside))
 
 
 def flank_through(gear: Gear, size: float, prescribed: np.ndarray) -> np.ndarray:
@@ -69,7 +85,7 @@ def sector_boundary(
     All else, the cuts above all, stays as without them.
     """
     outline = tooth_outline(gear, FILLET_SAMPLES)
-    flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank))
+    flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank, sizes.mate_tip))
     root = root_curve(outline)
     tip = _arc(gear.tip_radius, flank[-1], outline.coast(flank[-1]))
     coast = outline.coast(flank[::-1])
@@ -106,22 +122,35 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
     hub_size = gear.bore_radius * min(gear.angular_pitch, sizes.hub_angle)
     largest = 0.5 * (gear.root_radius - gear.bore_radius)
     body, fillet, coast_size = (min(size, largest) for size in (sizes.body, sizes.fillet, sizes.coast))
-    roots = np.vstack([root, outline.coast(root)])
+    roots, sides = np.vstack([root, outline.coast(root)]), (flank, coast) if sizes.both_flanks else (flank,)
 
-    def working(side: np.ndarray) -> SizeSource:
-        return SizeSource((side,), min(sizes.flank, body), sizes.depth * sizes.flank, growth)
+    def working(curves, part: float = 1.0) -> SizeSource:
+        size = part * sizes.flank
+        return SizeSource(tuple(curves), min(size, body), sizes.depth * size, growth)
 
+    near_edges = ()
+    if sizes.mate_tip is not None:
+        mated, tips = zip(*(_near_edges(gear, side, sizes.mate_tip) for side in sides))
+        near_edges = working(mated, AT_MATE_TIP), SizeSource(tips, min(AT_TIP * sizes.flank, body), 0.0, EDGE_GROWTH)
     return SizeField(
         sources=(
-            working(flank),
+            working(sides),
+            *near_edges,
             SizeSource((roots,), fillet, fillet, growth),
-            working(coast) if sizes.both_flanks else SizeSource((coast,), coast_size, coast_size, growth),
+            *(() if sizes.both_flanks else (SizeSource((coast,), coast_size, coast_size, growth),)),
             SizeSource((flank, roots, coast), body, BODY_REACH * gear.module, growth),
             # In a slender wedge elements may not outgrow the sector's own width.
             SizeSource((hub,), min(largest, hub_size), 0.0, min(growth, gear.angular_pitch)),
         ),
         largest=largest,
     )
+
+
+def _near_edges(gear: Gear, side: np.ndarray, mate_tip: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """The points of a flank (n, 2) on which the mate's tip may press, its ends among them, and the flank's own tip (1, 2)."""
+    radii, (lowest, highest) = np.linalg.norm(side, axis=1), gear.base_radius * np.hypot(1.0, mate_tip)
+    inside = np.flatnonzero((radii > lowest) & (radii < highest))
+    return side[max(inside[0] - 1, 0) : inside[-1] + 2], side[[np.argmax(radii)]]
 
 
 def _cut_radii(gear: Gear, field: SizeField, hub_angles) -> np.ndarray:

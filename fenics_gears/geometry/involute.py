@@ -73,31 +73,6 @@ def flank_point(base_radius: float, roll_angle, contact_roll_angle):
     return x, h
 
 
-def roll_angle_at_height(base_radius: float, contact_roll_angle, height) -> np.ndarray:
-    """Roll angle (rad) of the flank point at a height ``h`` (mm) above the gear's centre; arrays broadcast.
-
-    ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
-    above the height at which it turns away. Newton in ``s = v^2/2`` (arc length over base radius), in which
-    ``dh/ds = rb cos(vc - v)``: h is convex in s below the contact point and concave above it, so steps
-    from the contact point never pass the root.
-    """
-    contact, target = np.broadcast_arrays(
-        np.asarray(contact_roll_angle, dtype=float), np.asarray(height, dtype=float) / base_radius
-    )
-    turning = contact + 0.5 * np.pi
-    reachable = (target >= np.cos(contact)) & (target < turning)
-    target = np.where(reachable, target, 1.0)
-    half_square = 0.5 * contact**2
-    for _ in range(NEWTON_STEPS):
-        roll = np.sqrt(2.0 * half_square)
-        turned = contact - roll
-        residual = target - np.cos(turned) + roll * np.sin(turned)
-        half_square = np.maximum(half_square + residual / np.cos(turned), 0.0)
-        if np.all(np.abs(residual) <= 1e-10):  # the step just taken squares what is left
-            break
-    return np.where(reachable, np.sqrt(2.0 * half_square), np.nan)
-
-
 def arc_length(base_radius: float, roll_angle):
     """Length of the involute from the base circle to a roll angle: ``rb v^2/2``, mm.
 

@@ -7,7 +7,7 @@ drives, so that contact runs from the wheel's tip (path_start) to the pinion's t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import acos, floor, sqrt, tan
 
 from fenics_gears.geometry.gear import Gear
@@ -150,6 +150,8 @@ class GearPair:
         return self.centre_distance - pinion.tip_radius - wheel.root_radius, self.centre_distance - wheel.tip_radius - pinion.root_radius
 
 
+# Cost, warnings, the run and its quasi-static companion ask for the same pair.
+@lru_cache(maxsize=16)
 def gear_pair(data: GearPairData) -> GearPair:
     """The pair that a scene describes, checked.
 

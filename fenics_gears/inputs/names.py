@@ -15,6 +15,8 @@ def nearest(word: str, names: Iterable[str], likeness: float = 0.6) -> str | Non
     True
     """
     by_lower_case = {name.lower(): name for name in names}
+    if word.lower() in by_lower_case:
+        return by_lower_case[word.lower()]
     found = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=likeness)
     return by_lower_case[found[0]] if found else None
 

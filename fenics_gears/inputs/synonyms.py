@@ -52,6 +52,7 @@ SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
         "mesh_frequency": ("frequency", "f", "gear_mesh_frequency", "tooth_frequency", "fz"),
         "pinion_speed": ("speed", "n", "n1", "rpm", "rotational_speed", "input_speed", "rotation_speed", "angular_velocity", "omega", "wheel_speed"),
         "mesh_cycles": ("cycles", "duration", "time", "periods", "revolutions"),
+        "settling_time": ("settling", "settle", "run_in_time", "transient_time", "start_up_time"),
         "recorded_cycles": ("stored_cycles", "recorded", "saved_cycles", "output_cycles"),
     },
     "shafts": {"torsional_stiffness": ("stiffness", "k", "c", "torsion", "spring_rate", "torsional_spring")},

@@ -26,7 +26,7 @@ GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 1.4e-10, 4.5e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
 # Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and each of its contact rows.
-PAIR, NODES_SQUARE, STEP, ROW = 5e-4, 1e-7, 8e-6, 2.5e-7
+PAIR, NODES_SQUARE, STEP, ROW = 3e-4, 1e-7, 8e-6, 2.5e-7
 # A step of rigid flanks, which have a solver of their own.
 RIGID_STEP = 1.4e-4
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of unequal length.
@@ -100,7 +100,7 @@ def expected_cost(model: Model) -> ExpectedCost:
 @dataclass(frozen=True)
 class _Gear:
     """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance that are computed, those that contact
-    copies in the order in which it goes through them, dense inverses of a flank's size."""
+    copies (the transposes, of teeth behind), dense inverses of a flank's size."""
 
     words: str
     unknowns: float
@@ -117,12 +117,12 @@ def _condensed(model: Model, name: str) -> _Gear:
     dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
-        return _Gear(f"the whole {name}", meshed, dofs, 3.0 * gear.teeth, 3.0, gear.teeth)
+        return _Gear(f"the whole {name}", meshed, dofs, 3.0 * gear.teeth, 1.0, gear.teeth)
     if reach.across is None:
-        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, 2 * reach.same + 1)
+        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
     across = reach.across[1] - reach.across[0] + 1
-    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, reach.same + 1 + across, 2 * (2 * reach.same + 1 + across), BOTH_FLANKS_INVERSES)
+    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, reach.same + 1 + across, 2 * reach.same, BOTH_FLANKS_INVERSES)
 
 
 def _meshed(model: Model, name: str) -> int | None:

@@ -89,7 +89,7 @@ class Model:
     @property
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
-        size = sizes(self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.nodes)
+        size = sizes(self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.most_nodes)
         return counted_bytes(stored_arrays(self.scene, size), size)
 
     @cached_property

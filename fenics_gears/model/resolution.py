@@ -17,6 +17,7 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.elasticity.element_sizes import Discretisation
+from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.model.drivetrain import mesh_stiffness
@@ -34,6 +35,8 @@ LONGEST_WINDOW = 3.0
 # Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart. Peak pressure is
 # then within 4, 1, 0.5 % of Hertz's for half-widths of 2, 4, 8 elements; with nodes one element apart it errs by 12, 2, 0.3 %.
 NODE_SPACING = 0.7
+# Where the mate's tip edge presses, along the flank from the start of its active profile, in modules: at 650 N/mm and 4.5 mm module no longer part helps.
+BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.15, 0.06
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
 # Between steps curves are seen as straight lines, 0.4 % off in L2 for the transmission error of the paper's pair; its extremes are located between them.
@@ -55,7 +58,8 @@ class Resolution:
     """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle, condensation.
 
     `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm): largest in tooth
-    and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1: not at all), None for all.
+    and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1: not at all), None for all;
+    `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may press.
     """
 
     element: str
@@ -66,11 +70,13 @@ class Resolution:
     condensation: str
     body_element_size: float | None = None
     elastic_teeth: int | None = None
+    mate_tips: tuple[tuple[float, float] | None, tuple[float, float] | None] = (None, None)
 
-    @property
-    def discretisation(self) -> Discretisation:
-        """How the gears' bodies are divided into finite elements."""
-        return Discretisation(self.element, self.flank_element_size, self.body_element_size, self.elastic_teeth)
+    def discretisation(self, gear: int) -> Discretisation:
+        """How the body of the pinion (0) or the wheel (1) is divided into finite elements."""
+        return Discretisation(
+            self.element, self.flank_element_size, self.body_element_size, self.elastic_teeth, self.mate_tips[gear]
+        )
 
 
 def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:
@@ -115,16 +121,33 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
+    condensation = asked.condensation or ONCE
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
-        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED),
+        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED, closer_at_edges=condensation == ONCE),
         steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
         half_width=half_width,
-        condensation=asked.condensation or ONCE,
+        condensation=condensation,
         body_element_size=asked.body_element_size,
         elastic_teeth=asked.elastic_teeth,
+        mate_tips=mate_tips(pair) if condensation == ONCE else (None, None),
     )
+
+
+def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Roll angles (rad) of pinion and wheel between which the mate's tip edge may press on the flank.
+
+    The edge comes to the flank's start of active profile, and under load slides on towards the root before it leaves.
+    """
+    gears, ends = (pair.pinion, pair.wheel), (pair.path_start, pair.line_of_action_length - pair.path_end)
+    found = []
+    for gear, end in zip(gears, ends):
+        arc = arc_length(gear.base_radius, end / gear.base_radius)
+        around = np.maximum([arc - BELOW_MATE_TIP * gear.module, arc + ABOVE_MATE_TIP * gear.module], 0.0)
+        first, last = roll_angle_at_arc_length(gear.base_radius, around)
+        found.append((float(max(first, gear.form_roll_angle)), float(min(last, gear.tip_roll_angle))))
+    return found[0], found[1]
 
 
 def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:

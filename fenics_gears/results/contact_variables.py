@@ -109,11 +109,11 @@ def node_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 def watched_contact(nodes: SideBySide) -> Values:
     """What the run's warnings need of consecutive steps: contact at the window's ends and on tips, rank of the compliance."""
-    operators = [position.operator for position in nodes.steps.positions]
+    steps = nodes.steps
     found = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),
-        "dependent rows": np.array([operator.dependent_rows for operator in operators]),
-        "rows": np.array([len(operator.compliance) for operator in operators]),
+        "dependent rows": np.array([position.operator.dependent_rows for position in steps.positions]),
+        "rows": steps.kinds * np.diff(steps.starts),
     }
     if nodes.cycle.traits.has_pressure:
         pressed = nodes.normal > NO_FORCE

@@ -16,14 +16,13 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
-from fenics_gears.model.model import Model
 from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.results.extrema import Extrema, largest_pair_force, peak_to_peak
 from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate, path_point_values
-from fenics_gears.results.pairs import shown
+from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled, settled
 from fenics_gears.results.validity import warnings_of, warnings_of_energy
@@ -36,27 +35,26 @@ def dataset(recorder: Recorder, march: March) -> xr.Dataset:
     """What was recorded of a march as a dataset; every variable with units and long name."""
     recorder.finish()
     model, arrays = recorder.model, dict(recorder.arrays)
+    counted = settled(model, max(recorder.steps - 1, 0))
+    # All variables at once, attributes in place: a copy of so many variables takes a millisecond.
     result = xr.Dataset(
-        {name: (dims, values, labels) for name, dims, values, labels in _variables(recorder, arrays)},
+        {name: (dims, values, labels) for name, dims, values, labels in _variables(recorder, arrays, counted.first)},
         coords=_coordinates(recorder, arrays),
     )
-    counted = settled(model, max(recorder.steps - 1, 0))
-    # In place: a copy of so many variables takes a millisecond.
     result.attrs.update(_attributes(recorder, march, result, counted.first))
     counted_steps = of_settled(result)
-    result = result.assign(_contact_points(model, counted_steps))
     attributes = _numbers(recorder, march, result, counted_steps)
     found = [counted.warning] if counted.warning else []
     found += warnings_of(recorder, march, result)
-    found += [*warnings_of_energy(model.scene, shown(result), recorder.cycle.steps), *_undetermined_shares(result)]
+    found += [*warnings_of_energy(model.scene, result, recorder.cycle.steps, shown_steps(result)), *_undetermined_shares(result)]
     for sentences in from_effects(model.scene, "findings", recorder.watched):
         found += sentences
     result.attrs.update(attributes, warnings="\n".join(found))
     return result
 
 
-def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
-    """Name, dimensions, values and labels of each variable."""
+def _variables(recorder: Recorder, arrays: dict[str, np.ndarray], first: int):
+    """Name, dimensions, values and labels of each variable; `first`: the first settled step."""
     scene, described = recorder.model.scene, {variable.name: variable for variable in result_variables(recorder.model.scene)}
     for name, variable in described.items():
         if name in arrays:
@@ -65,6 +63,11 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray]):
         for name, (dims, values) in found.items():
             if dims[:1] != ("time",):
                 yield name, dims, values, {"units": described[name].units, "long_name": described[name].long_name}
+    forces, numbers = arrays["pair_normal_force"][first:], arrays["pair_number"][first:]
+    points = path_point_values(recorder.model.scene, recorder.model.pair, arrays["mesh_phase"][first:], numbers, forces, recorder.first_number)
+    for name, values in points.items():
+        if name in described:
+            yield name, described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name}
     if recorder.stress is not None:
         for name, words in recorder.stress.labels()[0].items():
             if name in arrays:
@@ -102,15 +105,6 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
 def _time_name(scene: Scene) -> str:
     """What the time is; a scene without speed has none."""
     return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
-
-
-def _contact_points(model: Model, counted: xr.Dataset) -> dict[str, tuple]:
-    """Variables over the points of the path of contact, of the settled steps."""
-    described = {variable.name: variable for variable in result_variables(model.scene)}
-    return {
-        name: (described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name})
-        for name, values in path_point_values(counted, model.scene, model.pair).items() if name in described
-    }
 
 
 def _undetermined_shares(result: xr.Dataset) -> list[str]:
@@ -159,7 +153,8 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
     if len(error) > 1 and recorder.model.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
         numbers |= _friction_loss(counted)
-    numbers |= key_numbers(counted.assign_attrs(numbers), recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
+    counted.attrs.update(numbers)
+    numbers |= key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
     return numbers | (largest_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
 
 

@@ -169,11 +169,18 @@ def highest(steps: np.ndarray, values: np.ndarray, value: Callable[[float], floa
 
 
 def _steep_neighbour(steps: np.ndarray, values: np.ndarray, near: float) -> int:
-    """Interval beside the largest value in which the curve falls most; 0 where that is by less than `near`, or within a jump's width, or at an end."""
-    top = int(values.argmax())
-    beside = [each for each in (top - 1, top) if 0 < each < len(values) - 2 and steps[each + 1] - steps[each] > WIDTH_OF_JUMP]
-    interval = max(beside, key=lambda each: abs(values[each + 1] - values[each]), default=0)
-    return interval if interval and abs(values[interval + 1] - values[interval]) > near else 0
+    """The steeper of the intervals in which a curve falls below the largest value by more than `near` on either side within a step of it; 0 where
+    neither falls by so much in itself, over more than a jump's width, or both are at an end."""
+    top, found = int(values.argmax()), {}
+    for side in (-1, 1):
+        end = top
+        while 0 < end + side < len(values) - 1 and values[end + side] >= values[top] - near and abs(steps[end + side] - steps[top]) < 1.0:
+            end += side
+        interval = min(end, end + side)
+        if 0 < interval < len(values) - 2 and steps[interval + 1] - steps[interval] > WIDTH_OF_JUMP:
+            found[interval] = float(values[end] - values[end + side])
+    interval = max(found, key=found.__getitem__, default=0)
+    return interval if interval and found[interval] > near else 0
 
 
 def _bounds(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
-import numpy as np
 import xarray as xr
-from xarray.conventions import cf_encoder, encode_dataset_coordinates
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.old_layout import upgraded
@@ -22,6 +19,8 @@ def save(result: xr.Dataset, path: str | Path) -> None:
 
     Raises OSError where the disk is full or the directory cannot be written.
     """
+    from fenics_gears.results.netcdf import write_netcdf
+
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     aside = path.with_name(f".{path.name}.{os.getpid()}.part")
@@ -76,54 +75,6 @@ class NeverFull:
         self._file.seek(place)
 
 
-def write_netcdf(dataset: xr.Dataset, content) -> None:
-    """Write a dataset into an empty open file as NetCDF-4, what has several dimensions compressed.
-
-    Written by h5py, as the NetCDF-4 format specification
-    (appendix "NetCDF-4 format" of the NetCDF user's guide) has dimensions and attributes in HDF5: h5netcdf takes five times as long for so many variables.
-    """
-    import h5py
-
-    variables, attributes = cf_encoder(*encode_dataset_coordinates(dataset))
-    with h5py.File(content, "w", track_order=True) as file:
-        _write_attributes(file, attributes)
-        written = {name: _write_variable(file, name, variable) for name, variable in variables.items()}
-        scales = {name: written.get(name) or file.create_dataset(name, (size,), ">f4") for name, size in dataset.sizes.items()}
-        for number, (name, scale) in enumerate(scales.items()):
-            scale.make_scale(name if name in variables else f"This is a netCDF dimension but not a netCDF variable.{scale.size:10}")
-            scale.attrs["_Netcdf4Dimid"] = np.int32(number)
-        for name, values in written.items():
-            for axis, dimension in enumerate(variables[name].dims):
-                if name not in scales:
-                    h5py.h5ds.attach_scale(values.id, scales[dimension].id, axis)
-
-
-def _write_variable(file, name: str, variable: xr.Variable):
-    """The HDF5 dataset of an encoded variable."""
-    import h5py
-
-    values = np.asarray(variable.data)
-    if values.dtype.kind in "OU":
-        values = values.astype(h5py.string_dtype())
-    compressed = {"compression": "gzip", "compression_opts": 1, "shuffle": True} if values.ndim > 1 and values.size else {}
-    written = file.create_dataset(name, data=values, fillvalue=variable.attrs.get("_FillValue"), track_order=True, **compressed)
-    _write_attributes(written, variable.attrs)
-    return written
-
-
-def _write_attributes(place, attributes: Mapping[str, Any]) -> None:
-    """As `place.attrs.update(attributes)`, single values, of which there are hundreds, by HDF5's own call: a third of the time."""
-    import h5py
-
-    string, scalar = h5py.string_dtype(), h5py.h5s.create(h5py.h5s.SCALAR)
-    for name, value in attributes.items():
-        array = np.array(value, dtype=string if isinstance(value, str) else None)
-        if array.ndim or array.dtype.kind not in "Oif":
-            place.attrs[name] = value
-        else:
-            h5py.h5a.create(place.id, name.encode(), h5py.h5t.py_create(array.dtype, logical=True), scalar).write(array)
-
-
 def load(path: str | Path) -> xr.Dataset:
     """Read a saved result into memory, one of an earlier layout as results are now. Raises ComputationError when the file is no result of this program, or damaged."""
     result = read(path)
@@ -134,8 +85,10 @@ def load(path: str | Path) -> xr.Dataset:
 
 def read(path: str | Path) -> xr.Dataset:
     """Read a saved dataset, whatever it holds, into memory. Raises ComputationError when it is damaged or not written by `save`."""
+    from fenics_gears.results.netcdf import read_netcdf
+
     try:
-        with unsealed(Path(path)) as content, xr.open_dataset(content, engine="h5netcdf") as opened:
-            return opened.load()
+        with unsealed(Path(path)) as content:
+            return read_netcdf(content)
     except (OSError, ValueError) as failure:
         raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure

@@ -137,20 +137,24 @@ def _power(counted: xr.Dataset, timed: bool) -> dict[str, float]:
     return found
 
 
-def path_point_values(counted: xr.Dataset, scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
-    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in the settled steps."""
+def path_point_values(
+    scene: Scene, pair: GearPair, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray, first_number: int
+) -> dict[str, np.ndarray]:
+    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in the settled steps.
+
+    Of these steps `phase` (steps,), mesh cycles, the pairs' `numbers` (steps, slots), 0 for none, of which `first_number` reaches the start of contact at
+    phase 0, and their `forces` (steps, slots), N.
+    """
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
     diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
-    numbers = counted["pair_number"].values
-    entered = numbers - counted["pair_number"].attrs["number_at_phase_0"]
-    forces = np.where(numbers > 0, counted["pair_normal_force"].values, np.nan)
+    shares = shares_at((points - pair.path_start) / pair.base_pitch, phase, numbers - first_number, np.where(numbers > 0, forces, np.nan))
     return {
         "path_point_position": points,
         "path_point_diameter": np.transpose(diameters),
         "sliding_speed": sliding_speed(pair, points, scene.mesh_frequencies[1]),
         "specific_sliding": np.transpose(specific_sliding(pair, points)),
-        "load_share": shares_at((points - pair.path_start) / pair.base_pitch, counted["mesh_phase"].values, entered, forces),
+        "load_share": shares,
     }
 
 

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle, pairs_at_once
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.touching import touching_at
 from fenics_gears.dynamics.march import March
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
@@ -44,10 +45,9 @@ class Recorder:
     ):
         self.model, self.cycle, self.stress = model, cycle, stress
         self.loads = model.loads if loads is None else loads
-        places = [[pair.place for pair in cycle.pairs_at(index)] for index in range(cycle.steps)]
-        self.first_number = 1 + max((place.index for each in places for place in each), default=0)
-        self.slots = max(pairs_at_once(places), 1)
-        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.nodes)
+        ways = touching_at(lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks)
+        self.first_number, self.slots = 1 + ways.latest, ways.slots
+        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.most_nodes)
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
         self.kept: Kept = self._room
@@ -98,7 +98,7 @@ class Recorder:
         scene, cycle = self.model.scene, self.cycle
         nodes = SideBySide(self._layouts, cycle, block, self.slots, self.first_number)
         numbers = block.numbers
-        times = np.array([self.model.clock.time(step) for step in numbers])
+        times = np.array([self.model.clock.time(step) for step in numbers.tolist()])
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:

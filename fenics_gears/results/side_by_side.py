@@ -86,10 +86,9 @@ class KnownLayouts:
 
     def joined(self, cycle: Cycle, steps: Steps) -> Layouts:
         """The layouts of some steps of that cycle."""
-        operators = [position.operator for position in steps.positions]
-        key = tuple(id(operator.pairs) for operator in operators)
+        key = tuple([id(position.operator.pairs) for position in steps.positions])
         if key not in self._joined:
-            self._joined[key] = Layouts([self._layout(cycle, operator, steps.kinds) for operator in operators], steps.kinds)
+            self._joined[key] = Layouts([self._layout(cycle, position.operator, steps.kinds) for position in steps.positions], steps.kinds)
         return self._joined[key]
 
     def _layout(self, cycle: Cycle, operator: ContactOperator, kinds: int) -> Layout:
@@ -111,7 +110,7 @@ MOST_TIMES_JOINED = 8
 
 def known_layouts(cycle: Cycle) -> KnownLayouts:
     """What the runs of a cycle so far know of its layouts."""
-    known = _OF_CYCLES.setdefault(cycle, KnownLayouts())
+    known = _OF_CYCLES.setdefault(cycle.base, KnownLayouts())
     known.forget_beyond(cycle.steps)
     return known
 
@@ -161,8 +160,8 @@ class SideBySide:
 
     def over_nodes(self, values: np.ndarray, drive: bool, absent: float) -> np.ndarray:
         """Values (N,) of drive or coast flanks by step, slot and contact node of the pair; `absent` where there is no node."""
-        field = np.full((len(self.steps), self.slots, self.cycle.grid.nodes), absent)
-        places = self._slots * self.cycle.grid.nodes + self.of("node")
+        field = np.full((len(self.steps), self.slots, self.cycle.grid.most_nodes), absent)
+        places = self._slots * self.cycle.grid.most_nodes + self.of("node")
         if drive and self.drive.all():
             field.reshape(-1)[places] = values
         else:

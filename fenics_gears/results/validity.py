@@ -37,14 +37,14 @@ def worst_first(warnings: Iterable[str]) -> list[str]:
     return sorted(warnings, key=lambda said: (NO_MEANING not in said, FEWER_THAN_THE_PERIOD not in said))
 
 
-def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: int) -> list[str]:
-    """Whether the time stepping, not physics, adds or removes much energy within a mesh cycle where teeth part and meet.
+def warnings_of_energy(scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: int, steps: slice = slice(None)) -> list[str]:
+    """Whether the time stepping, not physics, adds or removes much energy within a mesh cycle where teeth part and meet, in all steps or some.
 
     The work is taken cycle by cycle: over a long run even little of it adds up.
     """
     if scene.inertia is None or scene.tooth_elasticity is None or not result.sizes["time"]:
         return []
-    work, largest = result["work_contact_changes"].values, max(result["energy"].values.max(), np.finfo(float).tiny)
+    work, largest = result["work_contact_changes"].values[steps], max(result["energy"].values[steps].max(), np.finfo(float).tiny)
     cycles = (work[first : first + steps_per_mesh_cycle + 1] for first in range(0, len(work), steps_per_mesh_cycle))
     part = max(float(np.ptp(cycle)) for cycle in cycles) / largest
     if part <= NOTABLE_WORK:

@@ -85,7 +85,7 @@ def scene_from_text(
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
         raise SceneError(_message(problems, line_numbers(text), source, with_lines))
-    return _scene(checked, text, name, directory)
+    return checked_scene(checked, text, name, directory)
 
 
 def _why_no_toml(error: Exception) -> str:
@@ -106,8 +106,8 @@ def _nearest_file(path: Path) -> str:
     return "." + did_you_mean(path.name, neighbours)
 
 
-def _scene(checked, text: str, name: str, directory: Path) -> data.Scene:
-    """The dataclasses of a validated scene."""
+def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
+    """The dataclasses of a scene whose tree has neither problems of its schema, `checked` being what that gave, nor broken rules."""
     return data.Scene(
         title=checked.title or name,
         gears=_gears(checked.gears),
@@ -137,7 +137,8 @@ def _gears(gears: schema.Gears) -> data.GearPairData:
 def _motion(checked) -> data.Motion:
     """The motion by its mesh frequency: a turn of the pinion has as many mesh cycles as it has teeth.
 
-    Cycles that are run, unless given (with inertia they must be): one, or a whole hunting tooth period where cycles differ.
+    Cycles that are run, unless given (with inertia they must be, or the settling time, whose cycles come first): one, or a whole hunting tooth
+    period where cycles differ.
     Cycles that are recorded, unless given: the last two; of a speed ramp or a whole hunting tooth period all that fit.
     """
     motion, gears = checked.motion, checked.gears
@@ -152,9 +153,12 @@ def _motion(checked) -> data.Motion:
     cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles is None
     if "mesh_cycles" not in motion.model_fields_set:
         # True is not a number of cycles, although Python counts it as 1.
-        wanted = recorded or (fields if fields is not True and fields else 1)
+        least = 1 if motion.settling_time is None else data.LAST_CYCLES
+        wanted = recorded or (fields if fields is not True and fields else least)
         whole = any(effect.period is not None and getattr(checked, effect.section) is not None for effect in top_level())
-        cycles = max(whole_period if whole else 1, wanted)
+        # Rounded, so that 25 ms at 40 Hz are one cycle in spite of round-off.
+        settling = math.ceil(round((motion.settling_time or 0.0) * frequency, 9))
+        cycles = settling + max(whole_period if whole else 1, wanted)
     if fields:
         return data.Motion(frequency, cycles, cycles if fields is True else fields, speed_given=speed_given)
     if recorded is not None:

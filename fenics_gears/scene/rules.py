@@ -71,9 +71,22 @@ def _one_speed(tree: Tree) -> Iterator[Problem]:
     if not any(nearest(name, names) or meant(("motion",), name, names) for name in motion for names in [("mesh_frequency", "pinion_speed")]):
         message = f'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"; [{needing}] needs one.'
         yield Problem(("motion", "mesh_frequency"), None, message)
-    if "mesh_cycles" not in motion:
-        message = f"is missing. Allowed: {allowed_in(Motion, 'mesh_cycles').description}; [{needing}] needs it."
+    if "mesh_cycles" not in motion and "settling_time" not in motion:
+        message = f"is missing. Allowed: {allowed_in(Motion, 'mesh_cycles').description}; [{needing}] needs it, or settling_time, such as \"25 ms\"."
         yield Problem(("motion", "mesh_cycles"), None, message)
+
+
+def _one_length_of_the_run(tree: Tree) -> Iterator[Problem]:
+    motion = table(tree, "motion") or {}
+    if "settling_time" not in motion:
+        return
+    place, written = ("motion", "settling_time"), as_written(motion["settling_time"])
+    if "mesh_cycles" in motion:
+        yield Problem(place, written, "stands beside mesh_cycles; allowed is one of the two. Leave one out.")
+    if "inertia" not in tree:
+        yield Problem(place, written, "is for scenes with [inertia]: without it there is no vibration that dies down. Leave it out.")
+    if "speed_ramp" in tree:
+        yield Problem(place, written, "is for a steady speed. Allowed with [speed_ramp]: mesh_cycles, the length of the whole ramp.")
 
 
 def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
@@ -201,6 +214,7 @@ _RULES = (
     _effects_fit_together,
     _both_gears_have_a_width,
     _one_speed,
+    _one_length_of_the_run,
     _recorded_cycles_are_run,
     _contact_fields_are_of_cycles_that_run,
     _resolution_fits_the_teeth,

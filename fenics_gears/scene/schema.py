@@ -86,8 +86,16 @@ class Motion(Section):
         1_000_000,
         30,
         meaning="number of mesh cycles of the run",
-        otherwise="required with `[inertia]`; without it 1, or `\"hunting tooth period\"` where mesh cycles differ",
+        otherwise="required with `[inertia]`, or `settling_time` in its place; without it 1, or `\"hunting tooth period\"` where mesh cycles differ",
         words=WHOLE_PERIOD,
+    )
+    settling_time: Optional[float] = quantity(
+        "0 s",
+        "1e6 s",
+        "25 ms",
+        meaning="time for the start to die down, in place of `mesh_cycles`: as many mesh cycles as it has at the mesh frequency are run, rounded up, and "
+        "the recorded ones after them; a sweep of the speed then runs no longer than each speed needs",
+        otherwise="`mesh_cycles` says how long",
     )
     recorded_cycles: Optional[int] = whole_number(
         1,
@@ -146,7 +154,7 @@ class Accuracy(Section):
     interpolation: Optional[Literal["averaged", "collocated"]] = choice(
         "averaged",
         "collocated",
-        meaning="displacement of the flank at a contact node: averaged with the node's hat function, or taken at the node alone (collocation)",
+        meaning="displacement of the flank at a contact node: averaged with the node's own function, or taken at the node alone (collocation)",
         otherwise="`averaged`",
     )
     elastic_teeth: Optional[int] = whole_number(

@@ -6,6 +6,7 @@ import functools
 from collections.abc import Callable
 
 import matplotlib
+import matplotlib.style  # `rcdefaults` needs it
 import numpy as np
 
 # Okabe and Ito's palette without its yellow, which is too pale for a line: told apart with any colour vision.

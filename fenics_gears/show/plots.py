@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import struct
 import textwrap
 import zlib
@@ -25,6 +26,7 @@ from fenics_gears.show.orders import OF_ERROR, order_spectrum
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
 from fenics_gears.show.pressure import pressure_maps
 from fenics_gears.show.run import Run, conditions
+from fenics_gears.system.copied_process import do_all
 from fenics_gears.system.output import written_aside
 
 
@@ -53,24 +55,36 @@ SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
     (OF_ERROR, _orders),
 )
 PICTURES = dict(zip(PICTURE_FILES, SUBJECTS))
+ROWS_AT_ONCE = 16
 
 
-def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
+def draw_run(dataset: xr.Dataset, directory: str | Path, shared: bool = False) -> list[Path]:
     """Draw all pictures for which the result has data, as PNG, and return the files.
 
-    They appear in ``directory`` together, when all are drawn. Raises ComputationError where fewer than two steps are stored, a variable's
-    units do not fit it, or the directory cannot be written.
+    They appear in ``directory`` together, when all are drawn. `shared`: with a copy of this process, see `system.copied_process`.
+    Raises ComputationError where fewer than two steps are stored, a variable's units do not fit it, or the directory cannot be written.
     """
-    return save_figures(run_figures(dataset), Path(directory))
+    drawn, written = _drawn(dataset), []
+    with written_aside(Path(directory), written) as aside:
+        do_all([functools.partial(_draw, aside / name, *what) for name, what in drawn.items()], shared)
+    return written
 
 
 def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
+    return {name: picture(*what) for name, what in _drawn(dataset).items()}
+
+
+def _drawn(dataset: xr.Dataset) -> dict[str, tuple[str, list[Chart], str]]:
+    """Heading, charts and colour of each picture that there is, by file name."""
     run = Run(dataset)
     _check_steps(run)
-    drawn = {name: (subject, list(charts(run))) for name, (subject, charts) in PICTURES.items()}
-    colour = DARK if run.complete else WARNING
-    return {name: picture(_heading(run, subject), charts, colour) for name, (subject, charts) in drawn.items() if charts}
+    drawn = {name: (_heading(run, subject), list(charts(run)), DARK if run.complete else WARNING) for name, (subject, charts) in PICTURES.items()}
+    return {name: what for name, what in drawn.items() if what[1]}
+
+
+def _draw(file: Path, heading: str, charts: list[Chart], colour: str) -> None:
+    save_figure(picture(heading, charts, colour), file)
 
 
 def _heading(run: Run, subject: str) -> str:
@@ -133,11 +147,16 @@ def save_figure(figure: Figure, path: Path | BinaryIO) -> None:
 def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
     """Pixels (height, width, 4) as PNG. Rows are not filtered: of curves on white paper that makes the file no smaller, and takes twice as long."""
     height, width, _ = pixels.shape
-    rows = np.pad(pixels.reshape(height, -1), ((0, 0), (1, 0)))
+    # The same few rows again and again: fresh memory for a second copy of a picture is slower than the copying.
+    rows, packer, packed = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8), zlib.compressobj(1), []
+    for first in range(0, height, ROWS_AT_ONCE):
+        part = pixels[first : first + ROWS_AT_ONCE].reshape(-1, 4 * width)
+        rows[: len(part), 1:] = part
+        packed.append(packer.compress(rows[: len(part)]))
     dots = round(dots_per_inch / 0.0254)
     parts = {
         b"IHDR": struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0), b"pHYs": struct.pack(">IIB", dots, dots, 1),
-        b"IDAT": zlib.compress(rows, 1), b"IEND": b"",
+        b"IDAT": b"".join([*packed, packer.flush()]), b"IEND": b"",
     }  # fmt: skip
-    packed = [struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in parts.items()]
-    return b"\x89PNG\r\n\x1a\n" + b"".join(packed)
+    chunks = [struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in parts.items()]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)

@@ -37,7 +37,7 @@ def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) 
     # Imported here: rigid flanks have none.
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
-    return flank_compliance(getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, cache)
+    return flank_compliance(getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation(("pinion", "wheel").index(name)), reach, cache)
 
 
 def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:

@@ -41,7 +41,7 @@ def reference_route(
                 getattr(model.pair, name),
                 model.scene.gears.material_of(name),
                 [loaded_teeth(pairs, number, order) for pairs in nodes],
-                resolution.discretisation,
+                resolution.discretisation(number),
                 cache=cache,
                 comm=comm,
                 report=progress.update,

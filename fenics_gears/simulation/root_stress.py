@@ -24,7 +24,7 @@ def gear_rows(model: Model, name: str, cache: Cache | None) -> RootStressRows:
     return root_stress_rows(
         getattr(model.pair, name),
         model.scene.gears.material_of(name),
-        model.resolution.discretisation,
+        model.resolution.discretisation(("pinion", "wheel").index(name)),
         # Pairs are numbered by their drive flanks' teeth; the wheel's tooth of a coast pair stands one beside.
         reach=model.touching.reach.farthest + 1,
         coast_flank=model.scene.coast_flanks is not None,

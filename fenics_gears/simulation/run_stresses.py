@@ -143,7 +143,7 @@ def recovery_of(model: Model, gear: int) -> GearRecovery:
     return gear_recovery(
         (model.pair.pinion, model.pair.wheel)[gear],
         model.scene.gears.materials[gear],
-        model.resolution.discretisation,
+        model.resolution.discretisation(gear),
         coast_flank=model.scene.coast_flanks is not None,
     )
 

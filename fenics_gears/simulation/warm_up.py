@@ -11,7 +11,8 @@ import time
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
-from fenics_gears.contact.interpolation import flank_interpolation
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
+from fenics_gears.contact.interpolation import flank_interpolation, node_average, quadrature_offsets
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
@@ -28,15 +29,13 @@ from fenics_gears.results.mesh_curves import stiffness_curves
 def compile_kernels(tangential: bool) -> float:
     """Run every compiled kernel once on a problem of one contact node; returns the seconds it took."""
     begun = time.perf_counter()
-    offsets, rolls = np.array([-0.1, 0.1]), np.array([0.5, 0.51])
+    offsets = np.array([-0.1, 0.1])
+    rolls = roll_angle_at_height(40.0, 0.5, 40.0 + offsets)
     interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
-    directions = np.eye(2)[: 2 if tangential else 1]
-    compliance_product(
-        np.eye(10),
-        interpolation.near, interpolation.first, interpolation.last, directions,
-        interpolation.near, interpolation.first, interpolation.last, directions,
-        np.zeros((len(directions), 2, len(directions), 2)),
-    )  # fmt: skip
+    node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
+    kinds = 2 if tangential else 1
+    nodes = 0, interpolation.near, interpolation.first, np.eye(2)
+    compliance_product(np.eye(10), nodes, nodes, np.zeros((kinds, 2, kinds, 2)), nodes, np.zeros((1, 2, 2, 2)))
     unknowns = 2 if tangential else 1
     node, row, tolerance = np.zeros(1), np.eye(unknowns, 1), Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import functools
 from dataclasses import replace
 
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import EFFECTS
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
+from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
@@ -23,6 +24,7 @@ class GearStore:
 
     Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact grid,
     steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and coefficient may differ.
+    Where only reliefs differ they share its operators, and each relief has gaps of its own.
     Shared gears keep the times that condensing them took; with a shared mesh cycle these times are zero. `most`: how many gears are kept,
     None for all.
     """
@@ -30,20 +32,26 @@ class GearStore:
     def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, FlankCompliance] = {}
         self._most, self._cycles = most, cycles
+        self._operators_key: tuple | None = None
+        self._operators: tuple[Compliances, Cycle] | None = None
         self._cycle_key: tuple | None = None
-        self._prepared: tuple[Compliances, MeshCycle] | None = None
+        self._cycle: Cycle | None = None
 
-    def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
+    def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, Cycle]:
         """Compliances and mesh cycle for ``simulate``, kept or made."""
-        key = cycle_key(model)
-        if self._cycles and key == self._cycle_key:
-            compliances, cycle = self._prepared
-            return tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances), cycle
-        self._cycle_key = self._prepared = None  # frees its memory before the next is made
-        made = self._made(model, progress, cache)
-        if self._cycles:
-            self._cycle_key, self._prepared = key, made
-        return made
+        if not self._cycles:
+            return self._made(model, progress, cache)
+        key, shared = operators_key(model), True
+        if key != self._operators_key:
+            self._operators_key = self._operators = self._cycle_key = self._cycle = None  # frees its memory before the next is made
+            unrelieved = replace(model, removal=(None, None)) if differs_in_gaps_alone(model) else model
+            self._operators, self._operators_key, shared = self._made(unrelieved, progress, cache), key, False
+        compliances, cycle = self._operators
+        if cycle_key(model) != self._cycle_key:
+            self._cycle, self._cycle_key = relieved(cycle, model) if differs_in_gaps_alone(model) else cycle, cycle_key(model)
+        if shared:
+            compliances = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances)
+        return compliances, self._cycle
 
     def gear(self, model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
         """Flank compliance of the "pinion" or the "wheel", kept, from the cache, or condensed."""
@@ -52,7 +60,7 @@ class GearStore:
         self._gears[key] = self._gears.pop(key, None) or gear_compliance(model, name, reach, cache)
         return self._gears[key]
 
-    def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, MeshCycle]:
+    def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, Cycle]:
         if route_of(model) is not CONDENSED:
             return prepared(model, progress, cache)
         reach = model.touching.reach
@@ -71,13 +79,38 @@ def own_gear_store() -> GearStore:
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation, reach, own
+    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name)), reach, own
+
+
+def differs_in_gaps_alone(model: Model) -> bool:
+    """Whether a scene with reliefs has the contact operators of one without: along the line of action, on teeth that are all alike."""
+    scene = model.scene
+    others = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity))
+    return model.removal != (None, None) and route_of(model) is CONDENSED and all(each is None for each in others)
+
+
+def relieved(cycle: Cycle, model: Model) -> Cycle:
+    """A mesh cycle with the model's reliefs, on the operators of one without."""
+    from fenics_gears.contact.relieved_cycle import RelievedCycle
+
+    return RelievedCycle(cycle, model.removal)
+
+
+def operators_key(model: Model) -> tuple:
+    """What the contact operators of a mesh cycle depend on, their gaps apart where reliefs change nothing else."""
+    scene, resolution = model.scene, model.resolution
+    accuracy = resolution.condensation, resolution.discretisation(0), resolution.discretisation(1), resolution.contact_grid, resolution.steps_per_mesh_cycle
+    in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity))
+    apart = model.removal == (None, None) or differs_in_gaps_alone(model)
+    springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    own = None if apart else _reliefs(scene)
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs), own, tuple(model.drivetrain.indices), scene.friction is not None
 
 
 def cycle_key(model: Model) -> tuple:
-    """What the contact operators of a mesh cycle depend on."""
-    scene, resolution = model.scene, model.resolution
-    accuracy = resolution.condensation, resolution.discretisation, resolution.contact_grid, resolution.steps_per_mesh_cycle
-    in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.removal or effect.gaps or effect.elasticity))
-    springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs), tuple(model.drivetrain.indices), scene.friction is not None
+    """What the contact equations of a mesh cycle depend on."""
+    return *operators_key(model), _reliefs(model.scene)
+
+
+def _reliefs(scene: Scene) -> tuple:
+    return tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal)

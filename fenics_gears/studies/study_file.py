@@ -16,7 +16,7 @@ from fenics_gears.inputs.written import as_toml, as_written
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
-from fenics_gears.scene.read import load_scene, parsed, scene_from_text, text_of
+from fenics_gears.scene.read import checked_scene, load_scene, parsed, text_of
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
@@ -254,10 +254,11 @@ def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[st
 
 def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Scene | None, list[Problem]]:
     """The validated scene of a case, or what is wrong with it."""
-    problems = without_echoes(problems_of_schema(tree)[1] + broken_rules(tree))
+    checked, problems = problems_of_schema(tree)
+    problems = without_echoes(problems + broken_rules(tree))
     if problems:
         return None, problems
-    scene = scene_from_text(as_toml(tree), name, directory=directory)
+    scene = checked_scene(checked, as_toml(tree), name, directory)
     try:
         model_of(scene)
     except SceneError as error:

@@ -16,7 +16,7 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.combine import CaseRecord
-from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, own_gear_store
+from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, operators_key, own_gear_store
 from fenics_gears.studies.simulate import simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.system.progress import SilentProgress
@@ -53,11 +53,12 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
 
 
 def in_order_of_sharing(cases: list[Case]) -> list[Case]:
-    """The cases in their order, but those that share contact operators next to each other."""
-    groups: dict[tuple, list[Case]] = {}
+    """The cases in their order, but those that share contact operators next to each other, and of these those with the same gaps."""
+    groups: dict[tuple, dict[tuple, list[Case]]] = {}
     for case in cases:
-        groups.setdefault(cycle_key(model_of(case.scene)), []).append(case)
-    return [case for group in groups.values() for case in group]
+        model = model_of(case.scene)
+        groups.setdefault(operators_key(model), {}).setdefault(cycle_key(model), []).append(case)
+    return [case for group in groups.values() for alike in group.values() for case in alike]
 
 
 def condense(task: GearTask, tick: Tick | None = None) -> None:

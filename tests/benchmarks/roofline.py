@@ -106,7 +106,7 @@ def main() -> None:
     cycle = mesh_cycle(model, gear_compliances(model, SilentProgress(), None))
     marcher = Marcher(cycle, model.equations_of_motion)
     blocks: list[Steps] = []
-    marcher.run(model.steps, 1, observe=blocks.append)
+    marcher.run(model.steps, 1, observe=lambda solved, march: blocks.append(solved))
     steps = blocks[0]
     for block in blocks[1:]:
         steps = steps.followed_by(block)

@@ -7,8 +7,8 @@ import pytest
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.corner import corner_contact
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places, pairs_at_once
-from fenics_gears.contact.operator import over_nodes
+from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places
+from fenics_gears.contact.operator import over_nodes, sliding_now
 from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 
@@ -61,8 +61,7 @@ def test_gap_is_second_order_beside_the_line_of_action(cycle, paper_pair):
     xi = pair.place.contact_rolls[0] * paper_pair.pinion.base_radius
     near = np.abs(pair.offsets) < 0.35
     curvature = 1.0 / xi + 1.0 / (paper_pair.line_of_action_length - xi)
-    averaged = 0.5 * curvature * (pair.offsets**2 + GRID.spacing**2 / 6.0)
-    assert pair.gap[near] == pytest.approx(averaged[near], rel=0.05)
+    assert pair.gap[near] == pytest.approx(0.5 * curvature * pair.offsets[near] ** 2, rel=0.05, abs=1e-5)
 
 
 def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_pair):
@@ -116,13 +115,29 @@ def test_normal_rows_are_the_same_with_and_without_friction(stand_in_flanks, cyc
 
 
 def test_sliding_vanishes_at_the_pitch_point(cycle, paper_pair):
-    """Definition of the pitch point: rigid sliding is zero there and of opposite sign on either side."""
+    """Definition of the pitch point: rigid flanks do not slide there, and in opposite directions on either side."""
     for step in range(STEPS):
         operator = cycle.position(step).operator
         arm = over_nodes(operator.pairs, "pinion_lever_arm")
-        expected = np.sign(arm - paper_pair.pitch_point)
-        clear = np.abs(arm - paper_pair.pitch_point) > 0.1
-        assert np.array_equal(np.sign(operator.rigid_slip[clear]), expected[clear])
+        sliding = sliding_now(operator.pairs, operator.base_radii)
+        assert sliding == pytest.approx((arm - paper_pair.pitch_point) * (1.0 + paper_pair.rotation_ratio), abs=1e-12)
+
+
+def test_rigid_slip_over_a_step_is_exact(cycle, paper_pair):
+    """Exact: slip is the integral of the sliding speed of the two material points, here by 40 Gauss points of their circular motion."""
+    advance = paper_pair.pinion.angular_pitch / STEPS
+    back, weights = np.polynomial.legendre.leggauss(40)
+    back, weights = 0.5 * advance * (back + 1.0), 0.5 * advance * weights
+    for step in range(0, STEPS, 3):
+        operator = cycle.position(step).operator
+        arm_1, arm_2, offset = (over_nodes(operator.pairs, name) for name in ("pinion_lever_arm", "wheel_lever_arm", "offsets"))
+        height_1, height_2 = operator.base_radii[0] - offset, operator.base_radii[1] + offset
+        slip, ratio = 0.0, paper_pair.rotation_ratio
+        for angle, weight in zip(back, weights):
+            # Speed across the line of action is the distance along it from the centre, a rotation earlier.
+            slip = slip + weight * (arm_1 * np.cos(angle) - height_1 * np.sin(angle))
+            slip = slip - weight * ratio * (arm_2 * np.cos(ratio * angle) + height_2 * np.sin(ratio * angle))
+        assert operator.rigid_slip == pytest.approx(slip, abs=1e-13)
 
 
 def test_every_pair_that_can_carry_is_there(paper_pair):
@@ -148,7 +163,9 @@ def test_reach_holds_between_steps_too(paper_pair, coast, corner):
                         found.setdefault((one.flank, other.flank), set()).add(one.ahead(gear) - other.ahead(gear))
     ways = touching(paper_pair, GRID, steps, coast, corner)
     reach = ways.reach
-    assert ways.slots == pairs_at_once(places[i] for i in range(0, steps * parts, parts))
+    at_steps = [[place.index for place in places[i]] for i in range(0, steps * parts, parts)]
+    assert ways.slots == max(max(indices) - min(indices) + 1 for indices in at_steps)
+    assert ways.latest == max(map(max, at_steps))
     assert reach.same == max(max(found[sides]) for sides in found if sides[0] == sides[1])
     across = found.get((0, 1), set()) | {-ahead for ahead in found.get((1, 0), set())}
     assert reach.across == ((min(across), max(across)) if coast else None)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from demos.lundvall2004 import claims, figures, spectrum
+from demos.lundvall2004 import claims, figures, gallery, spectrum
 from demos.lundvall2004.gallery import run_one
 from demos.lundvall2004.measured import BASE_SCENE, PRINTED, READ, WITH, WITHOUT, Measured, study_files
 
@@ -44,6 +44,11 @@ def _reduced(file: Path, field: str, values: str, directory: Path) -> Path:
 
 def _swept(study, name):
     return next(axis.coordinate() for axis in study.axes if axis.name == name)
+
+
+def test_the_gallery_draws_every_figure():
+    """Authority: identity; the processes of the gallery are handed the figures by name."""
+    assert sorted(gallery.FIGURES) == sorted(figures.FIGURES)
 
 
 @pytest.mark.nightly

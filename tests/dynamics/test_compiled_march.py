@@ -32,7 +32,7 @@ SCENES = {
     "coast flanks, undamped, from contact to contact": lambda scene: replace(scene, coast_flanks=CoastFlanks(), damping=None, motion=Motion(150.0, 6, 1)),
     "backward Euler": lambda scene: replace(scene, motion=Motion(2e5, 3, 1)),
     "steps that change": lambda scene: replace(scene, speed_ramp=SpeedRamp(250.0), motion=Motion(150.0, 4, 1)),
-    "friction beyond Newton": lambda scene: replace(quasi_static(scene), friction=Friction(1.2)),
+    "friction beyond Newton": lambda scene: replace(quasi_static(scene), friction=Friction(2.0)),
     "springs": lambda scene: replace(scene, accuracy=replace(COARSE, model="ISO 6336-1")),
 }
 

@@ -11,8 +11,6 @@ from tests.effects.examples import MESHES, text_of
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.element_sizes import element_sizes
-from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
@@ -40,10 +38,10 @@ def text_with(meshes: str, *sections: str) -> str:
 def healthy(tmp_path_factory):
     """Mesh files of both gears, all teeth whole, as the coarse scene's sectors are meshed."""
     directory = tmp_path_factory.mktemp("meshes")
-    pair = model_of(scene_from_text(text_of(TEETH))).pair
-    for name in ("pinion", "wheel"):
-        gear = getattr(pair, name)
-        sizes = element_sizes(gear, ELEMENTS["P1"], COARSE["flank_element_size"], COARSE["body_element_size"])
+    model = model_of(scene_from_text(text_of(TEETH)))
+    for number, name in enumerate(("pinion", "wheel")):
+        gear = getattr(model.pair, name)
+        sizes = replace(model.resolution.discretisation(number), **COARSE).sizes(gear)
         write_body_mesh(cracked_gear_mesh(gear, sizes, {}), directory / f"{name}.msh")
     return directory
 
@@ -172,7 +170,7 @@ def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_writte
 def test_a_flank_coarser_than_the_contact_asks_for_is_warned_of():
     """The example's 0.38 mm against the scene's 0.12 mm."""
     model = model_of(scene_from_text(text_of(TEETH, "body_meshes")))
-    assert any("body_meshes.pinion: elements along its flanks are up to 0.376 mm long, the contact asks for 0.12 mm" in words for words in model.warnings)
+    assert any("body_meshes.pinion: elements along its flanks are up to 0.374 mm long, the contact asks for 0.12 mm" in words for words in model.warnings)
 
 
 def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):

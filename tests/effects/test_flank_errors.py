@@ -10,6 +10,7 @@ from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears.contact.deviating_cycle import DeviatingCycle
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.flank_gaps import FlankGaps, flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks
@@ -21,7 +22,6 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.geometry.flank_deviations import flank_deviations
 from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
-from fenics_gears.geometry.involute import roll_angle_at_height
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.simulation.simulate import simulate

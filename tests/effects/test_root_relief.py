@@ -8,6 +8,7 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.effects.hats import hat_mean
 
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
@@ -16,7 +17,7 @@ from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.involute import flank_point, roll_angle_at_height
+from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.read import scene_from_text

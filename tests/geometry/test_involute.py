@@ -6,6 +6,7 @@ from math import radians
 import numpy as np
 import pytest
 
+from fenics_gears.contact.flank_at_height import flank_at_height, roll_angle_at_height
 from fenics_gears.geometry.involute import (
     arc_length,
     canonical_normal,
@@ -14,7 +15,6 @@ from fenics_gears.geometry.involute import (
     inverse_involute,
     involute_function,
     roll_angle_at_arc_length,
-    roll_angle_at_height,
 )
 
 ROLLS = np.linspace(0.01, 1.2, 40)
@@ -86,12 +86,13 @@ def test_heights_without_a_flank_point_give_nan():
     assert np.isnan(found).tolist() == [True, False, False, False, True]
 
 
-def test_roll_angle_at_height_broadcasts():
-    """Authority: column of contact angles against row of heights equals the entries one by one."""
-    contact, heights = np.array([[0.3], [0.6]]), np.array([39.5, 40.0, 40.7])
-    together = roll_angle_at_height(40.0, contact, heights)
-    single = [[float(roll_angle_at_height(40.0, vc, h)) for h in heights] for vc in contact[:, 0]]
-    assert together == pytest.approx(np.array(single), rel=1e-14)
+def test_heights_of_any_shape_are_treated_one_by_one():
+    """Authority: a matrix of heights equals its entries one by one, and x is that of the flank point found."""
+    heights = np.array([[39.5, 40.0, 40.7], [39.9, 40.1, 41.0]])
+    rolls, x = flank_at_height(40.0, 0.6, heights)
+    single = [[float(roll_angle_at_height(40.0, 0.6, h)) for h in row] for row in heights]
+    assert np.array_equal(rolls, single)
+    assert x == pytest.approx(flank_point(40.0, rolls, 0.6)[0], rel=1e-14)
 
 
 def test_arc_length_is_the_length_of_the_curve():

@@ -97,6 +97,6 @@ def test_uniform_pressure_on_an_involute_is_the_consistent_load(paper_pair, meas
 
 
 def _arc(radius: float, contact_roll: float, offset: float) -> float:
-    from fenics_gears.geometry.involute import roll_angle_at_height
+    from fenics_gears.contact.flank_at_height import roll_angle_at_height
 
     return 0.5 * radius * float(roll_angle_at_height(radius, contact_roll, radius - offset)) ** 2

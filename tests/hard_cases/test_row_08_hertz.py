@@ -55,9 +55,9 @@ def errors(paper_scene):
                 xi, force = pair.pitch_point + shift * size, load * nominal
                 offsets, pressure = pressed(flanks, xi, force, node_spacing * size, 3.0 * half_width(force, xi))
                 peak = 2.0 * force / pair.face_width / (np.pi * half_width(force, xi))
-                # Second moment of the elliptic pressure: b^2/4; that of each node's hat function adds spacing^2/6.
+                # Second moment of the elliptic pressure: b^2/4; the nodes' own functions have none.
                 centre = pressure @ offsets / pressure.sum()
-                moment = pressure @ (offsets - centre) ** 2 / pressure.sum() + (offsets[1] - offsets[0]) ** 2 / 6.0
+                moment = pressure @ (offsets - centre) ** 2 / pressure.sum()
                 found.append((
                     pressure.max() / peak - 1.0,
                     without_oscillation(pressure).max() / peak - 1.0,

@@ -79,8 +79,8 @@ def test_reversed_torque_with_friction_balances(both_flanks, paper_scene, measur
 
 
 def test_coast_flanks_stand_a_backlash_apart(both_flanks, paper_pair, measured):
-    """Exact: with the centres fixed the openings of drive and coast flanks sum to the geometry's backlash. At the contact nodes the hat
-    average adds to that the flanks' curvature over a node spacing, which falls as its square."""
+    """Exact: with the centres fixed the openings of drive and coast flanks sum to the geometry's backlash. The contact nodes'
+    averages are exact for parabolas; what they add falls faster than the square of the node spacing."""
     scene, excess = replace(quasi_static(both_flanks), shafts=None, bearings=None), []
     compliances = gear_compliances(model_of(scene), SilentProgress(), user_cache())
     for nodes in (26, 51, 101):
@@ -88,10 +88,10 @@ def test_coast_flanks_stand_a_backlash_apart(both_flanks, paper_pair, measured):
         operators = [cycle.position(step).operator for step in range(20)]
         sums = [sum(operator.gap[operator.on_drive_flanks == drive].min() for drive in (True, False)) for operator in operators]
         excess.append(np.mean(sums) - paper_pair.backlash)
-    orders = np.log2(np.array(excess[:-1]) / excess[1:])
-    measured("gaps of drive and coast flanks minus backlash, contact nodes 0.12 mm apart", excess[0] * 1e3, "of order 2", "um")
-    measured("order of this difference in the node spacing", orders[-1], "2 +- 0.2")
-    assert orders[-1] == pytest.approx(2.0, abs=0.2)
+    order = 0.5 * np.log2(abs(excess[0] / excess[-1]))
+    measured("gaps of drive and coast flanks minus backlash, contact nodes 0.12 mm apart", excess[0] * 1e3, "above order 2", "um")
+    measured("order of this difference in the node spacing", order, "above 2")
+    assert order > 2.0 and abs(excess[-1]) < 1e-4 * paper_pair.backlash
 
 
 def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):

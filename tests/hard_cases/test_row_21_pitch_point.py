@@ -51,7 +51,7 @@ def on_line(record):
 def test_friction_turns_through_stick(absent, changes, friction, paper_scene, paper_pair, stand_in_flanks, measured):
     """Known course: the nodes slip backward, stick, slip forward; none turns from one slip to the other without sticking between.
 
-    With mu = 0.1 every node that touches does so once. With 0.3 friction moves the gears enough to turn some nodes to and fro.
+    With mu = 0.1 no node that slips forward turns back. With 0.3 friction moves the gears enough to turn some nodes to and fro.
     No step fails, 1e-12 mm change nothing, and friction is full on either side, against the slip.
     """
     scene = replace(paper_scene, friction=replace(paper_scene.friction, coefficient=friction), **changes, **dict.fromkeys(absent))
@@ -75,7 +75,7 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     measured(f"{case}: different sequences of slip and stick of the nodes", f"{len(touching)}", "never from slip to opposite slip")
     assert (SLIP_BACKWARD, SLIP_FORWARD) not in turns and (SLIP_FORWARD, SLIP_BACKWARD) not in turns
     assert (SLIP_BACKWARD, STICK, SLIP_FORWARD) in touching
-    assert friction > 0.1 or len(touching) == 1
+    assert friction > 0.1 or (SLIP_FORWARD, STICK) not in turns
     assert difference <= 1e-9
     assert total[0] == pytest.approx(-friction * forces[0][0, :n].sum(), rel=1e-9)
     assert total[-1] == pytest.approx(friction * forces[0][-1, :n].sum(), rel=1e-9)

@@ -2,10 +2,12 @@
 
 import io
 
+import h5py
 import numpy as np
 import xarray as xr
 
-from fenics_gears.results.files import write_netcdf
+from fenics_gears.results import netcdf
+from fenics_gears.results.netcdf import read_netcdf, write_netcdf
 
 
 def several_kinds(steps: int) -> xr.Dataset:
@@ -35,6 +37,57 @@ def test_a_file_is_read_as_if_another_program_had_written_it():
         with xr.open_dataset(content, engine="h5netcdf") as read, xr.open_dataset(theirs, engine="h5netcdf") as expected:
             assert read.load().identical(expected.load())
             assert read.identical(ours)
+
+
+def test_files_are_read_as_another_program_reads_them():
+    """Authority: another program; what xarray reads by h5netcdf, of files that it or this program has written: values, types, attributes and order."""
+    for steps in (0, 5):
+        ours = io.BytesIO()
+        write_netcdf(several_kinds(steps), ours)
+        for content in (ours, _by_h5netcdf(several_kinds(steps))):
+            found = read_netcdf(content)
+            with xr.open_dataset(content, engine="h5netcdf") as opened:
+                expected = opened.load()
+            assert found.identical(expected) and list(found.variables) == list(expected.variables) and list(found.attrs) == list(expected.attrs)
+            for name, each in found.variables.items():
+                assert each.dtype == expected[name].dtype
+                assert {key: type(value) for key, value in each.attrs.items()} == {key: type(value) for key, value in expected[name].attrs.items()}
+
+
+def test_a_file_made_on_disk_is_the_one_made_in_memory(monkeypatch):
+    """Authority: identity; results too large for memory go through the file, and are read as the same."""
+    monkeypatch.setattr(netcdf, "MOST_IN_MEMORY", 0)
+    ours, content = several_kinds(5), io.BytesIO()
+    write_netcdf(ours, content)
+    with xr.open_dataset(content, engine="h5netcdf") as read:
+        assert read.load().identical(ours)
+
+
+def test_a_file_begun_as_a_copy_has_nothing_of_the_one_before():
+    """Authority: identity; of datasets that differ in values, in an attribute or only in its type, each is read back as itself."""
+    first = several_kinds(5)
+    other = first.map(lambda each: each if each.dtype.kind == "O" else each + each.dtype.type(1), keep_attrs=True).assign_attrs(title="other", more=1)
+    written = [first, other]
+    for offset in (1, 1.0, np.int32(1)):
+        written.append(first.assign(force=first["force"].assign_attrs(offset=offset)))
+    for dataset in written:
+        content = io.BytesIO()
+        write_netcdf(dataset, content)
+        with xr.open_dataset(content, engine="h5netcdf") as read:
+            assert read.load().identical(dataset)
+            wanted = dataset["force"].attrs.get("offset")
+            assert wanted is None or read["force"].attrs["offset"].dtype == np.asarray(wanted).dtype
+
+
+def test_large_arrays_are_compressed_in_chunks_that_a_reader_holds():
+    """Authority: the format; arrays of several dimensions beyond the least size are packed, others are not, and values come back."""
+    values = np.arange(400_000.0).reshape(-1, 4)
+    ours, content = xr.Dataset({"large": (("a", "b"), values), "small": (("c", "b"), values[:3])}), io.BytesIO()
+    write_netcdf(ours, content)
+    with h5py.File(content) as file:
+        assert file["large"].compression == "gzip" and file["small"].compression is None
+        assert 0 < np.prod(file["large"].chunks) * 8 <= netcdf.LARGEST_CHUNK
+        np.testing.assert_array_equal(file["large"][:], values)
 
 
 def _by_h5netcdf(dataset: xr.Dataset) -> io.BytesIO:

@@ -44,7 +44,7 @@ def marched(paper_scene):
 def in_old_layout(model, cycle, records) -> xr.Dataset:
     """A result as versions before slots had it, by pair counted through the run, written out of the records one by one: brute force."""
     numbers = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
-    shape = (len(records), len(numbers), cycle.grid.nodes)
+    shape = (len(records), len(numbers), cycle.grid.most_nodes)
     fields = {name: np.full(shape, np.nan if name.endswith(("offset", "angle")) else 0.0) for name in FIELDS + tuple(f"coast_{each}" for each in FIELDS)}
     forces = {name: np.zeros(shape[:2]) for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force", "unused")}
     for i, record in enumerate(records):

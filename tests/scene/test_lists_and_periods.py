@@ -5,6 +5,7 @@ is allowed.
 """
 
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -54,6 +55,33 @@ def test_a_run_may_last_a_whole_hunting_tooth_period(run, recorded, cycles):
     text = DEMO.replace("mesh_cycles = 30 ", f"mesh_cycles = {run} ").replace("recorded_cycles = 2\n", f"recorded_cycles = {recorded}\n")
     motion = scene_from_text(text).motion
     assert (motion.mesh_cycles, motion.recorded_cycles) == cycles
+
+
+@pytest.mark.parametrize(
+    ("frequency", "time", "recorded", "cycles"),
+    [("40 Hz", "25 ms", "", (3, 2)), ("40 Hz", "25.1 ms", "", (4, 2)), ("4 kHz", "25 ms", "recorded_cycles = 5", (105, 5)), ("200 Hz", "0 s", "", (2, 2))],
+)
+def test_a_settling_time_comes_before_the_recorded_cycles(frequency, time, recorded, cycles):
+    """Arithmetic: time times mesh frequency, rounded up, and the recorded cycles after them."""
+    text = DEMO.replace('"200 Hz"', f'"{frequency}"').replace("mesh_cycles = 30 ", f'settling_time = "{time}"  ').replace("recorded_cycles = 2\n", f"{recorded}\n")
+    motion = scene_from_text(text).motion
+    assert (motion.mesh_cycles, motion.recorded_cycles) == cycles
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("#mesh_cycles", "mesh_cycles"), "stands beside mesh_cycles"),
+        (("[inertia]", "[output]\n[nothing]"), "is for scenes with [inertia]"),
+        (("[shafts]", '[speed_ramp]\nend_frequency = "300 Hz"\n[shafts]'), "is for a steady speed"),
+    ],
+)
+def test_a_settling_time_stands_alone(change, said):
+    """It says how long a run with inertia at a steady speed is, in place of mesh_cycles."""
+    text = DEMO.replace("mesh_cycles = 30", 'settling_time = "25 ms"\n#mesh_cycles = 30', 1)
+    assert scene_from_text(text).motion.mesh_cycles == 7
+    with pytest.raises(SceneError, match=rf'motion.settling_time = "25 ms"\n    {re.escape(said)}'):
+        scene_from_text(text.replace(*change, 1))
 
 
 def test_a_period_that_is_not_run_cannot_be_recorded():

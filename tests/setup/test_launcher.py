@@ -104,8 +104,10 @@ def test_hot_loops_are_compiled_after_each_change_of_their_sources(checkout, thi
     later = (checkout / ".setup/compiled").stat().st_mtime + 10.0
     (package / "dynamics/march.py").write_text("")
     os.utime(package / "dynamics/march.py", (later, later))
-    call(checkout / "gears", "run", environment=this_python)
+    call(checkout / "gears", "run", environment=this_python | {"PYTHONDONTWRITEBYTECODE": "1"})
     assert done.read_text() == "once "
+    # The module itself is compiled, also where Python keeps nothing by itself.
+    assert list((package / "dynamics/__pycache__").glob("march.*.pyc"))
     os.utime(package / "contact/newton.py", (later, later))
     call(checkout / "gears", "--help", environment=this_python)
     assert done.read_text() == "once "

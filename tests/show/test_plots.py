@@ -33,6 +33,12 @@ def test_a_picture_without_its_variable_is_not_written(tmp_path):
     assert {file.name for file in files} == OF_A_SHORT_RUN - {"contact_pressure.png"}
 
 
+def test_a_copy_of_the_process_draws_the_same(tmp_path):
+    """Authority: the pictures that one process draws, byte for byte."""
+    alone, shared = (draw_run(made_up_run(), tmp_path / str(shared), shared) for shared in (False, True))
+    assert [file.read_bytes() for file in shared] == [file.read_bytes() for file in alone]
+
+
 @pytest.mark.parametrize("steps", [0, 1])
 def test_too_few_steps_are_said_and_nothing_is_written(tmp_path, steps):
     """Authority: a curve needs two points."""
@@ -93,6 +99,17 @@ def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):
         files = draw_run(made_up_run(), tmp_path / "own")
         assert matplotlib.rcParams["font.size"] == 40.0
     assert [file.read_bytes() for file in files] == plain
+
+
+def test_commands_import_matplotlib_without_its_lists_of_properties_and_leave_it_as_it_is():
+    """Authority: matplotlib itself: its function that makes these lists is in place again, a class imported meanwhile has none, and all else is there."""
+    code = (
+        "from fenics_gears.commands.shared import plots; plots()\n"
+        "from matplotlib import artist, lines\n"
+        "assert 'linewidth' in artist.kwdoc(lines.Line2D) and 'linewidth' not in lines.Line2D.set.__doc__\n"
+        "assert 'linewidth' in str(lines.Line2D.set.__signature__)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_the_command_starts_without_matplotlib():

@@ -100,7 +100,7 @@ def test_hertz_at_the_pitch_point(bare_scene, bare, paper_pair):
     known = ~np.isnan(fields.contact_offset.values[pair])
     pressure, offset = fields.contact_pressure.values[pair][known], fields.contact_offset.values[pair][known]
     assert pressure.max() == pytest.approx(peak, rel=0.02)
-    # Second moment of the elliptic pressure is b^2/4; that of each node's hat function adds spacing^2/6.
+    # Second moment of the elliptic pressure is b^2/4; the nodes' own functions have none.
     centre = pressure @ offset / pressure.sum()
-    moment = pressure @ (offset - centre) ** 2 / pressure.sum() + (offset[1] - offset[0]) ** 2 / 6.0
+    moment = pressure @ (offset - centre) ** 2 / pressure.sum()
     assert 2.0 * np.sqrt(moment) == pytest.approx(half_width, rel=0.02)

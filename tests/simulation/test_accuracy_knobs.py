@@ -87,7 +87,7 @@ def test_collocation_takes_values_at_points(order):
     view = INTERPOLATIONS[COLLOCATED].of_flank(rolls, rolls, 30.0, 0.4, -1.0, flank, order)
     for power in range(order + 1):
         assert view.weights @ flank ** (2 * power) == pytest.approx(rolls ** (2 * power), abs=1e-13)
-    assert all(not np.delete(row, np.arange(a, b)).any() for row, a, b in zip(view.weights, view.first, view.last))
+    assert view.near.shape == (len(rolls), order + 1)
 
 
 @pytest.mark.parametrize("change", [{"body_element_size": 1.0}, {"elastic_teeth": 1}, {"interpolation": COLLOCATED}])

@@ -26,7 +26,7 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
     """
     model = model_of(scene)
     rows = _rows(
-        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation, model.touching.reach.farthest + 1,
+        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation(0), model.touching.reach.farthest + 1,
         scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)

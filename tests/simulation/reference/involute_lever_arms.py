@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import displacement_jacobian, line_lever_arms
+from fenics_gears.contact.operator import displacement_jacobian, lines_of
 from fenics_gears.simulation.reference_route import reference_route
 
 
@@ -27,7 +27,7 @@ class InvoluteArms(Cycle):
     def position(self, step: int):
         position = self._cycle.position(step)
         operator = position.operator
-        arms = line_lever_arms(operator.pairs, operator.base_radii)
+        arms = lines_of(operator.pairs, operator.base_radii).lever_arms
         rigid = displacement_jacobian(operator.pairs, operator.base_radii, arms, operator.rigid_slip is not None)[:, self._coordinates]
         return replace(position, operator=replace(operator, jacobian=np.ascontiguousarray(rigid), normal_lever_arms=arms))
 

@@ -1,0 +1,53 @@
+"""The flank point at a height above the gear's centre (compiled, since every contact node of every position asks for several)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+NEWTON_STEPS = 60
+# The step just taken squares what is left.
+CLOSE = 1e-10
+# A height may lie below the start of the involute by round-off.
+ROUND_OFF = 4e-16
+
+
+def flank_at_height(base_radius: float, contact_roll_angle: float, height) -> tuple[np.ndarray, np.ndarray]:
+    """Roll angle (rad) and ``x`` (mm, as of `geometry.involute.flank_point`) of the flank point at a height ``h`` (mm, any shape).
+
+    ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
+    above the height at which it turns away.
+    """
+    heights = np.asarray(height, dtype=float)
+    rolls, x = _points(base_radius, contact_roll_angle, heights.reshape(-1))
+    return rolls.reshape(heights.shape), x.reshape(heights.shape)
+
+
+def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) -> np.ndarray:
+    """The roll angle (rad) alone."""
+    return flank_at_height(base_radius, contact_roll_angle, height)[0]
+
+
+@njit(cache=True)
+def _points(base_radius, contact, heights):
+    """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s below the
+    contact point and concave above it, so steps from the contact point never pass the root."""
+    lowest, turning = math.cos(contact) - ROUND_OFF, contact + 0.5 * math.pi
+    rolls, x = np.full(len(heights), np.nan), np.full(len(heights), np.nan)
+    for point in range(len(heights)):
+        target = heights[point] / base_radius
+        if not lowest <= target < turning:
+            continue
+        half_square = 0.5 * contact**2
+        for _ in range(NEWTON_STEPS):
+            roll = math.sqrt(2.0 * half_square)
+            slope = math.cos(contact - roll)
+            residual = target - slope + roll * math.sin(contact - roll)
+            half_square = max(half_square + residual / slope, 0.0)
+            if abs(residual) <= CLOSE:
+                break
+        roll = math.sqrt(2.0 * half_square)
+        rolls[point], x[point] = roll, base_radius * (math.sin(contact - roll) + roll * math.cos(contact - roll))
+    return rolls, x
