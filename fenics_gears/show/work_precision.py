@@ -12,7 +12,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run import conditions
 from fenics_gears.studies.accuracy.measures import judged
-from fenics_gears.studies.accuracy.report import OWN, AccuracyReport, WholeResult
+from fenics_gears.studies.accuracy.refinement import CONDENSATION
+from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h")
@@ -33,11 +34,13 @@ def work_precision(report: AccuracyReport) -> Figure:
 
 def _whole(axes: Axes, report: AccuracyReport) -> None:
     front = report.front
-    others = [each for each in report.settings if each.name != OWN and each not in front]
+    others = [each for each in report.settings if each.name not in (OWN, DEFAULTS) and each not in front]
     if others:
         axes.plot([each.times.total for each in others], [each.total_error for each in others], "o", color=GREY, markersize=5, label="other settings: another is quicker and more accurate")
     axes.plot([each.times.total for each in front], [each.total_error for each in front], "-o", color=PALETTE[0], label="Pareto front: none is quicker and as accurate")
     axes.plot(report.own.times.total, report.own.total_error, "*", color=PALETTE[1], markersize=16, label="the scene's own settings")
+    if report.defaults:
+        axes.plot(report.defaults.times.total, report.defaults.total_error, "P", color=PALETTE[3], markersize=11, label="the default settings")
     for place, each in enumerate(report.models):
         axes.plot(each.times.total, each.total_error, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
     axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")
@@ -75,7 +78,7 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
         if not points:
             continue
         order, expected = result.order("T_E"), result.refinement.expected
-        aside = f" ({result.refinement.why})" if result.refinement.base else ""
+        aside = f" ({result.refinement.why})" if result.refinement.name == CONDENSATION else ""
         note = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
         style = "-" if expected is not None else ":"
         colour = PALETTE[place % len(PALETTE)]

@@ -12,9 +12,9 @@ from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import Limit
 from fenics_gears.studies.accuracy.measures import MEASURES, judged
 from fenics_gears.studies.accuracy.refinement import fine, refinements
-from fenics_gears.studies.accuracy.report import OWN, AccuracyReport, LevelResult, RefinementResult, WholeResult
+from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, LevelResult, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import Times
-from fenics_gears.studies.accuracy.setting import own_setting
+from fenics_gears.studies.accuracy.setting import own_setting, without_settings
 from fenics_gears.studies.accuracy.table import ORDERED
 
 MACHINE = ("processor", "load", "threads", "versions")
@@ -30,7 +30,8 @@ def saved_report(scene: Scene, file: Path) -> AccuracyReport:
     results = _single(scene, [line for line in lines if line["kind"] == "single setting"])
     errors = {(each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels}
     ran = [each.refinement for each in results]
-    known = {OWN: own_setting(scene)} | {each.words: each for each in whole.path(fine(scene), ran, errors, lambda setting: whole.fits(scene, setting))}
+    known = {each.words: each for each in whole.path(fine(scene), ran, errors, lambda setting: whole.fits(scene, setting))}
+    known |= {OWN: own_setting(scene), DEFAULTS: own_setting(without_settings(scene))}
     settings, models = [], []
     for line in lines:
         if line["kind"] == "setting":

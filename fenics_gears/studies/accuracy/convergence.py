@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from fenics_gears.studies.accuracy.measures import CURVE, JUDGED, SPAN, Answer
+from fenics_gears.studies.accuracy.measures import CURVE, JUDGED, SPAN, Answer, comparable
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
@@ -23,6 +23,8 @@ LEAST_ORDER, MOST_ORDER = 0.1, 10.0
 LEAST_TRUSTED, MOST_ABOVE_EXPECTED = 0.5, 1.0
 # An observed order is taken as the expected one up to this far below it.
 LIKE_EXPECTED = 0.5
+# A limit and its order are found from so many of the finest terms.
+LAST_TERMS = 3
 ROUND_OFF = 1e-10
 # Cosine of the angle between the last two changes: above the first the limit is extrapolated; kinks that move between steps give changes in
 # any direction whose length still falls with an order; below the second, where changes turn back, there is no order.
@@ -98,10 +100,17 @@ def last_of(values: Sequence[np.ndarray]) -> Limit:
     return Limit(values[-1], None, away, away)
 
 
-def together(base: np.ndarray, limits: Sequence[Limit]) -> Limit:
-    """All settings at their limits at once: `base` and the change that each makes to it; uncertainties add, for their signs are unknown."""
-    value = base + sum((limit.value - base for limit in limits), np.zeros_like(base))
-    return Limit(value, None, sum(limit.uncertainty for limit in limits))
+def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:
+    """All settings at their limits at once: `base`, a measure of a whole setting, and the change from a setting's own base to its limit, for each.
+
+    Uncertainties, relative to their limits, add, for their signs are unknown.
+    """
+    value, uncertainty = base, 0.0
+    for limit, own_base in changes:
+        value, end, start = comparable((value, limit.value, own_base), name)
+        value = value + end - start
+        uncertainty += limit.uncertainty / (float(np.linalg.norm(limit.value)) or 1.0)
+    return Limit(value, None, uncertainty * float(np.linalg.norm(value)))
 
 
 def largest_part(parts: Mapping[str, float]) -> str:
@@ -165,7 +174,7 @@ class ErrorCurve:
 
 def error_curve(name: str, sizes: Sequence[float], answers: Sequence[Answer], expected: float) -> ErrorCurve:
     """The errors of three runs or more, from coarse to fine. T_EPP without an order of its own is given that of the T_E curve."""
-    curve = _fit([each[CURVE] for each in answers], sizes, expected)
+    curve = _fit(comparable([each[CURVE] for each in answers], CURVE), sizes, expected)
     height = _fit([each[SPAN] for each in answers], sizes, expected, instead=curve.used)
     return ErrorCurve(name, np.asarray(sizes, dtype=float), {CURVE: curve, SPAN: height}, expected)
 

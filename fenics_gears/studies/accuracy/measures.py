@@ -1,9 +1,15 @@
-"""The measures by which two runs of a scene are compared, as arrays of the same shape in all runs, and their relative distance.
+"""The measures by which two runs of a scene are compared, and their relative distance.
 
+All are arrays of the same shape in all runs but the curve of T_E, which has a value for each step of the last mesh cycle. Curves of different steps are
+compared at phases that both have: the value at a step is what a run computes, while straight lines between steps would add an error of
+their own at the kinks where tooth pairs enter or leave contact. T_EPP is located between steps (`results.extrema`).
 The `energy defect` is an error in itself, given in parts of the drive's work.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from math import gcd
 
 import numpy as np
 import xarray as xr
@@ -13,7 +19,9 @@ ROOT, DEFECT = "root stress", "energy defect"
 MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, ROOT, DEFECT)
 # Settings are judged by both of these: a curve may have the right height and the wrong shape.
 JUDGED = (CURVE, SPAN)
-CURVE_POINTS, PRESSURE_PHASES, PRESSURE_POINTS = 640, 20, 401
+# Curves are compared at the phases that all of them have, unless these are fewer.
+FEWEST_PHASES = 20
+PRESSURE_PHASES, PRESSURE_POINTS = 20, 401
 PAIRS_BACK, PAIRS = 6, 9
 
 Answer = dict[str, np.ndarray]
@@ -38,10 +46,34 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
 def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
     """The two measures that settings are judged by; `every`: take every n-th step only, as in a quasi-static run of longer steps.
 
-    T_EPP is the same then: its extremes are located between steps.
+    The curve (n,), mm at the wheel's base circle, is T_E at the steps of the last mesh cycle, of which the last has phase 1, its mean removed.
+    T_EPP does not depend on `every`: its extremes are located between steps.
     """
-    height = run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]
-    return {CURVE: _curve(run, every), SPAN: np.array([height])}
+    last_cycle = run["transmission_error"].values[_last_cycle(run)]
+    if len(last_cycle) % every:
+        raise ValueError(f"every {every}-th of {len(last_cycle)} steps in a mesh cycle: these are no steps of equal length; take a divisor")
+    curve, height = last_cycle[every - 1 :: every], run.attrs["peak_to_peak_transmission_error"]
+    return {CURVE: (curve - curve.mean()) * run.attrs["base_radius_wheel"], SPAN: np.array([height * run.attrs["base_radius_wheel"]])}
+
+
+def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
+    """The same measure of several runs as arrays of one shape: curves at their common phases, their means over these removed.
+
+    Curves (n_i,) have the phases k/n_i of the greatest common divisor of all n_i in common; where it is below FEWEST_PHASES, all are taken at the phases
+    of the one with fewest steps, straight between the steps of the others.
+    """
+    counts = [len(value) for value in values]
+    if name != CURVE or len(set(counts)) == 1:
+        return list(values)
+    common = gcd(*counts)
+    if common < FEWEST_PHASES:
+        common = min(counts)
+    phases = np.arange(1, common + 1) / common
+    found = [
+        value[count // common - 1 :: count // common] if count % common == 0 else np.interp(phases, np.arange(1, count + 1) / count, value)
+        for value, count in zip(values, counts)
+    ]  # fmt: skip
+    return [value - value.mean() for value in found]
 
 
 def stiffness_by_energy(run: xr.Dataset) -> float:
@@ -57,8 +89,8 @@ def distance(one: Answer, other: Answer, name: str) -> float:
         return float(abs(one[name][0]))
     if name not in one or name not in other:
         return np.nan
-    scale = float(np.linalg.norm(other[name]))
-    away = float(np.linalg.norm(one[name] - other[name]))
+    value, reference = comparable((one[name], other[name]), name)
+    scale, away = float(np.linalg.norm(reference)), float(np.linalg.norm(value - reference))
     return away / scale if scale else np.nan if away else 0.0
 
 
@@ -75,14 +107,6 @@ def judged(errors: dict[str, float]) -> float:
 def _last_cycle(run: xr.Dataset) -> np.ndarray:
     phase = run["mesh_phase"].values
     return phase > phase[-1] - 1.0 + 1e-9
-
-
-def _curve(run: xr.Dataset, every: int) -> np.ndarray:
-    """Transmission error (640,), mm at the wheel's base circle, over the last mesh cycle, straight between steps, its mean removed."""
-    phase = run["mesh_phase"].values[::every]
-    wanted = phase[-1] - 1.0 + np.arange(1, CURVE_POINTS + 1) / CURVE_POINTS
-    curve = np.interp(wanted, phase, run["transmission_error"].values[::every]) * run.attrs["base_radius_wheel"]
-    return curve - curve.mean()
 
 
 def _pressure(run: xr.Dataset, window: float) -> np.ndarray:

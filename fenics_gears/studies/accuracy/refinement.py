@@ -8,57 +8,72 @@ from math import isclose
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.model.resolution import EVERY_STEP, NODE_SPACING, ONCE
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings
 
+FLANK, NODES, BODY, STEPS, LENGTH = "flank element size", "contact node spacing", "body element size", "steps per mesh cycle", "contact length"
+# Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone converge to what fixed elements
+# give. So whole settings and the reference take both together.
+FAMILY, CONDENSATION = "flank elements and contact nodes", "condensation"
+OF_FAMILY = (FLANK, NODES)
 # Elements and contact nodes in a half-width, body elements in parts of their default, the window in parts of the default, steps in a cycle.
 FULL = {
-    "flank elements": (0.7, 1.0, 2.0, 4.0, 8.0), "contact nodes": (1.0, 2.0, 4.0, 8.0), "body elements": (4.0, 2.0, 1.0, 0.5, 0.25),
-    "contact length": (0.25, 0.5, 0.75, 1.0, 1.25), "steps": (20, 40, 80, 160, 320, 640),
+    FAMILY: (0.7, 1.0, 2.0, 4.0, 8.0, 16.0), FLANK: (1.0, 2.0, 4.0, 8.0), NODES: (1.0, 2.0, 4.0, 8.0), BODY: (4.0, 2.0, 1.0, 0.5, 0.25),
+    LENGTH: (0.25, 0.5, 0.75, 1.0, 1.25), STEPS: (20, 40, 80, 160, 320, 640, 1280),
 }  # fmt: skip
 QUICK = {
-    "flank elements": (0.7, 1.4, 2.8), "contact nodes": (0.7, 1.4, 2.8), "body elements": (4.0, 2.0, 1.0),
-    "contact length": (0.5, 1.0), "steps": (10, 20, 40),
+    FAMILY: (0.7, 1.4, 2.8), FLANK: (0.7, 1.4, 2.8), NODES: (0.7, 1.4, 2.8), BODY: (4.0, 2.0, 1.0), LENGTH: (0.5, 1.0), STEPS: (10, 20, 40),
 }  # fmt: skip
-# Values of the settings while another one is refined: one halving before the finest level; steps, which cost memory, three.
-FINE = {"flank elements": 4.0, "contact nodes": 4.0, "body elements": 0.5, "contact length": 1.0, "steps": 80}
-QUICK_FINE = {"flank elements": 1.4, "contact nodes": 1.4, "body elements": 1.0, "contact length": 1.0, "steps": 20}
+# Values of the settings while another one is refined; flank elements in a half-width.
+FINE = {FLANK: 4.0, BODY: 1.0, LENGTH: 1.0, STEPS: 80}
+QUICK_FINE = {FLANK: 1.4, BODY: 1.0, LENGTH: 1.0, STEPS: 20}
+# Where one is refined beside other values than these: its changes depend on the others only in second order. A longer window moves the contact
+# nodes a little where an edge enters it, which matters less the closer they are.
+BESIDE = {FAMILY: {STEPS: 40, LENGTH: 0.75}, BODY: {FLANK: 2.0}, LENGTH: {FLANK: 8.0, STEPS: 40}, STEPS: {FLANK: 2.0}}
 # Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a coarser setting.
-REMESHED_FINE = {"flank elements": 2.0, "contact nodes": 2.0, "body elements": 1.0, "steps": 20}
+REMESHED_FINE = {FLANK: 2.0, NODES: 2.0, BODY: 1.0, STEPS: 20}
 CHOICES = {"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)}
 QUICK_CHOICES = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
-FLANK, NODES, BODY, STEPS, LENGTH = "flank element size", "contact node spacing", "body element size", "steps per mesh cycle", "contact length"
+# Whose value a level has that stands between the others.
+SCENE, DEFAULT = "scene", "default"
 
 
 @dataclass(frozen=True)
 class Level:
-    """A value of a setting. `size` goes to zero as it is refined; None for a choice. `own`: the scene's, between the levels."""
+    """A value of a setting. `size` goes to zero as it is refined; None for a choice. `own`: whose it is where it stands between the others."""
 
     label: str
     setting: Setting
     size: float | None = None
-    own: bool = False
+    own: str = ""
 
 
 @dataclass(frozen=True)
 class Refinement:
     """A setting, its levels from coarse to fine, the order expected of its error; None where there is no power law.
 
-    base: the whole setting in which it is refined and from which its levels are measured, where that is not the fine one.
+    fields: of a whole setting that the levels differ in. base: the whole setting whose others all levels have.
     """
 
     name: str
-    field: str
+    fields: tuple[str, ...]
     levels: tuple[Level, ...]
     expected: float | None
     why: str
-    base: Setting | None = None
+    base: Setting
 
     def level_of(self, setting: Setting) -> int | None:
         """On which level a whole setting stands; None for none."""
-        value = getattr(setting, self.field)
-        return next((place for place, level in enumerate(self.levels) if _same(getattr(level.setting, self.field), value)), None)
+
+        def same(other: Setting) -> bool:
+            return all(_same(getattr(setting, field), getattr(other, field)) for field in self.fields)
+
+        return next((place for place, level in enumerate(self.levels) if same(level.setting)), None)
+
+    def moved(self, setting: Setting, place: int) -> Setting:
+        """A whole setting with the values of a level."""
+        return replace(setting, **{field: getattr(self.levels[place].setting, field) for field in self.fields})
 
 
 def checked_model(scene: Scene) -> Model:
@@ -77,9 +92,11 @@ def checked_model(scene: Scene) -> Model:
 
 def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
     """For each setting the expected order of its error, and why."""
+    nodes = 2.0, "functions whose averages of a parabola are exact, closer at tip edges: h^2"
     return {
         FLANK: (2.0, "straight sides on a curved flank: h^2, whatever the element's order"),
-        NODES: _order_of_nodes(scene),
+        NODES: nodes,
+        FAMILY: (2.0, "both have h^2"),
         BODY: (2.0, "straight sides along the outline: h^2"),
         STEPS: _order_in_time(scene),
     }
@@ -87,86 +104,88 @@ def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
 
 def fine(scene: Scene, quick: bool = False) -> Setting:
     """The setting in which one at a time is refined."""
-    values, unit = QUICK_FINE if quick else FINE, half_width(scene)
-    length = model_of(without_settings(scene)).resolution.contact_grid.length
-    return Setting("P2", unit / values["flank elements"], unit / values["contact nodes"], length, values["body elements"], values["steps"])
+    return _setting(scene, QUICK_FINE if quick else FINE)
+
+
+def _setting(scene: Scene, values: dict[str, float]) -> Setting:
+    """A whole setting with elements of second order and, unless `values` says otherwise, contact nodes at NODE_SPACING of them."""
+    unit, length = half_width(scene), model_of(without_settings(scene)).resolution.contact_grid.length
+    flank = unit / values[FLANK]
+    spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
+    return Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * length, values[BODY], values[STEPS])
 
 
 def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
-    """All settings with their levels, the scene's own values among them."""
-    base, unit, values = fine(scene, quick), half_width(scene), QUICK if quick else FULL
-    found = {
-        "flank": (FLANK, [unit / each for each in values["flank elements"]]),
-        "spacing": (NODES, [unit / each for each in values["contact nodes"]]),
-        "body": (BODY, values["body elements"]),
-        "steps": (STEPS, values["steps"]),
-        "length": (LENGTH, [each * base.length for each in values["contact length"]]),
-        **{field: (field.replace("_", " "), options) for field, options in (QUICK_CHOICES if quick else CHOICES).items()},
-        "elastic_teeth": ("elastic teeth", (1, None)),
+    """All settings with their levels, the values of the scene and of the program's defaults among them."""
+    values, unit, orders = QUICK if quick else FULL, half_width(scene), expected_orders(scene)
+    orders[LENGTH] = (None, "nothing, once all that touches is inside")
+    whole_length = fine(scene, quick).length
+    sizes = {
+        FAMILY: [{"flank": unit / each, "spacing": NODE_SPACING * unit / each} for each in values[FAMILY]],
+        FLANK: [{"flank": unit / each} for each in values[FLANK]],
+        NODES: [{"spacing": unit / each} for each in values[NODES]],
+        BODY: [{"body": each} for each in values[BODY]],
+        STEPS: [{"steps": each} for each in values[STEPS]],
+        LENGTH: [{"length": each * whole_length} for each in values[LENGTH]],
+        **{field: [{field: each} for each in options] for field, options in (QUICK_CHOICES if quick else CHOICES).items()},
+        "elastic teeth": [{"elastic_teeth": each} for each in (1, None)],
     }
-    orders = {**expected_orders(scene), LENGTH: (None, "nothing, once all that touches is inside")}
-    all_of_them = [
-        Refinement(name, field, tuple(_level(base, field, each, unit) for each in levels), *orders.get(name, (None, "a choice")))
-        for field, (name, levels) in found.items()
-    ]
+    found = []
+    for name, levels in sizes.items():
+        base = _setting(scene, QUICK_FINE if quick else {**FINE, **BESIDE.get(name, {})})
+        expected = orders.get(name, (None, "a choice"))
+        found.append(Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base))
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
     if not quick and scene.coast_flanks is None and scene.corner_contact is None:
-        all_of_them.append(condensation(scene))
-    return tuple(_with_own(each, each.base or base, own_setting(scene), unit) for each in all_of_them)
+        found.append(condensation(scene))
+    mine = {SCENE: own_setting(scene), DEFAULT: own_setting(without_settings(scene))}
+    return tuple(_with_own(each, mine, unit) for each in found)
 
 
 def condensation(scene: Scene) -> Refinement:
     """Gears condensed once for all positions, and meshed anew at every one: another model, no finer one."""
-    parts, unit = REMESHED_FINE, half_width(scene)
-    base = replace(
-        fine(scene), flank=unit / parts["flank elements"], spacing=unit / parts["contact nodes"], body=parts["body elements"], steps=parts["steps"],
-    )  # fmt: skip
-    levels = tuple(Level(f"{each}, {parts['steps']} steps", replace(base, condensation=each)) for each in (EVERY_STEP, ONCE))
-    return Refinement("condensation", "condensation", levels, None, "another model", base)
-
-
-def _order_of_nodes(scene: Scene) -> tuple[float, str]:
-    """Hat functions with exact averages of the gap give h^2, except at the edge of a tip, where they give h.
-
-    A pair that enters or leaves contact touches with the tip's edge alone. The gap grows in proportion to the distance from it, and its average
-    over the half hat of width h at the edge is too large by a third of h times that slope. Relieved tips do not touch.
-    """
-    if scene.tip_relief is not None:
-        return 2.0, "hat functions, exact averages of the gap: h^2"
-    return 1.0, "a pair comes and goes with a tip's edge alone, where the gap's average over half a hat is off by a third of its slope times h: h"
+    base = _setting(scene, REMESHED_FINE)
+    levels = tuple(Level(f"{each}, {base.steps} steps", replace(base, condensation=each)) for each in (EVERY_STEP, ONCE))
+    return Refinement(CONDENSATION, ("condensation",), levels, None, "another model", base)
 
 
 def _order_in_time(scene: Scene) -> tuple[float, str]:
     model = model_of(scene)
-    if model.drivetrain.mass is None:
-        return 1.5, "straight lines across the kinks where pairs come and go: h^1.5 in L2"
-    return (2.0, "average acceleration: h^2") if model.time_scales.averages_acceleration else (1.0, "backward Euler: h")
+    if model.drivetrain.mass is not None and not model.time_scales.averages_acceleration:
+        return 1.0, "backward Euler: h"
+    if model.drivetrain.mass is not None:
+        return 2.0, "average acceleration: h^2"
+    if scene.friction is not None:
+        return 2.0, "the exact slip over a step in place of the rate of slip: h^2"
+    return 2.0, "no error at all: positions do not depend on one another"
 
 
-def _level(base: Setting, field: str, value, unit: float, own: bool = False) -> Level:
-    """The level at which a field of `base` has a value; what goes to zero is the size, or the length of a step."""
+def _level(base: Setting, values: dict, unit: float, own: str = "") -> Level:
+    """The level at which fields of `base` have other values; what goes to zero is the size, or the length of a step."""
+    field, value = next(iter(values.items()))
     size = 1.0 / value if field == "steps" else value if field in ("flank", "spacing", "body") else None
-    return Level(_label(field, value, unit), replace(base, **{field: value}), size, own)
+    return Level(_label(field, value, unit), replace(base, **values), size, own)
 
 
 def _label(field: str, value, unit: float) -> str:
     """A value in words; `unit`: the half-width in mm, in which sizes are given, too."""
     if field in ("flank", "spacing"):
         return f"{value:.3g} mm = {value / unit:.2g} half-widths"
-    words = {"length": f"{value:.3g} mm" if field == "length" else "", "body": f"default x {value}", "steps": f"{value}"}
+    words = {"length": f"{value:.3g} mm" if field == "length" else "", "body": f"default x {value:.3g}" if field == "body" else "", "steps": f"{value}"}
     return words.get(field, "all that can be loaded" if value is None else str(value))
 
 
-def _with_own(refinement: Refinement, base: Setting, mine: Setting, unit: float) -> Refinement:
-    """The refinement with the scene's own value as a level, where it is none: between coarser and finer ones, before choices."""
-    if refinement.level_of(mine) is not None:
-        return refinement
-    level = _level(base, refinement.field, getattr(mine, refinement.field), unit, own=True)
+def _with_own(refinement: Refinement, settings: dict[str, Setting], unit: float) -> Refinement:
+    """The refinement with the values of whole `settings` as levels, where they are none: between coarser and finer ones, before choices."""
 
-    def coarseness(each: Level) -> float:
-        return each.size or (-each.setting.length if refinement.field == "length" else float(each.own))
+    def coarseness(level: Level) -> float:
+        return level.size or (-level.setting.length if refinement.name == LENGTH else float(bool(level.own)))
 
-    return replace(refinement, levels=tuple(sorted((level, *refinement.levels), key=coarseness, reverse=True)))
+    for own, setting in settings.items():
+        if refinement.level_of(setting) is None:
+            level = _level(refinement.base, {field: getattr(setting, field) for field in refinement.fields}, unit, own)
+            refinement = replace(refinement, levels=tuple(sorted((level, *refinement.levels), key=coarseness, reverse=True)))
+    return refinement
 
 
 def _same(one, other) -> bool:

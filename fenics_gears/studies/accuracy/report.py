@@ -14,12 +14,12 @@ from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
-from fenics_gears.studies.accuracy.convergence import Limit, last_of, richardson, together
-from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, distance, distances, judged
-from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement, checked_model, fine, refinements
+from fenics_gears.studies.accuracy.convergence import LAST_TERMS, Limit, last_of, richardson, together
+from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, comparable, distance, distances, judged
+from fenics_gears.studies.accuracy.refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, checked_model, fine, refinements
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
-from fenics_gears.studies.accuracy.setting import Setting, own_setting
+from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
@@ -27,7 +27,7 @@ ROUNDS, QUICK_ROUNDS = 5, 1
 # Most seconds for repeating the runs of single settings to time them, unless the user gives another limit.
 SECONDS_ON_SINGLE = 60.0
 MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
-OWN = "the scene's own"
+OWN, DEFAULTS = "the scene's own", "the program's defaults"
 
 
 @dataclass(frozen=True)
@@ -95,6 +95,11 @@ class AccuracyReport:
         return next(each for each in self.settings if each.name == OWN)
 
     @property
+    def defaults(self) -> WholeResult | None:
+        """The program's default settings; None where the scene's own are these, or they did not run."""
+        return next((each for each in self.settings if each.name == DEFAULTS), None)
+
+    @property
     def front(self) -> tuple[WholeResult, ...]:
         """The Pareto front of the whole settings, the quickest first."""
         places = whole.pareto_front([(each.times.total, each.total_error) for each in self.settings])
@@ -146,18 +151,20 @@ class AccuracyStudy:
         if not self._run(self.base, "all settings fine"):
             raise ComputationError(f"the setting that all others are compared with does not run: {self.failures[-1][1]}")
         levels = [(f"{each.name} {level.label}", level.setting) for each in self.refinements for level in each.levels]
+        levels += [(f"the base of {each.name}", each.base) for each in self.refinements]
         for done, (name, setting) in enumerate(levels):
             self.progress.update(done, len(levels), name)
             self._run(setting, name)
         self._time_single_settings()
-        results = [self._result(each) for each in self.refinements]
+        results = [self._result(each) for each in self.refinements if each.base in self._known]
         return tuple(result for result in results if result.levels)
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
         base, value, uncertainty = self._known[self.base][0], {}, {}
+        moved = [(each.limits, self._known[each.refinement.base][0]) for each in results if each.refinement.name not in (*OF_FAMILY, CONDENSATION)]
         for name in base:
-            limit = together(base[name], [each.limits[name] for each in results])
+            limit = together(base[name], [(limits[name], own_base[name]) for limits, own_base in moved], name)
             value[name], scale = limit.value, float(np.linalg.norm(limit.value))
             uncertainty[name] = limit.uncertainty / scale if scale and name != DEFECT else 0.0
         return value, uncertainty
@@ -168,7 +175,10 @@ class AccuracyStudy:
         errors = {
             (each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels
         }
+        plain = without_settings(self.scene)
         chosen = {OWN: (own_setting(self.scene), self.scene)}
+        if plain != self.scene:
+            chosen[DEFAULTS] = own_setting(plain), plain
         for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting)):
             chosen[setting.words] = (setting, setting.of(self.scene))
         for name in MODELS:
@@ -234,16 +244,12 @@ class AccuracyStudy:
         return answers, times
 
     def _result(self, refinement: Refinement) -> RefinementResult:
-        """Errors of the levels from the limit of their setting, the others fine; a choice is compared with the base setting, for no choice is
-        the limit of the others."""
-        base = self._known[self.base][0]
+        """Errors of the levels from the limit of their setting; a choice is compared with its base, for no choice is the limit of the others."""
+        base = self._known[refinement.base][0]
         ran = [(level, *self._known[level.setting]) for level in refinement.levels if level.setting in self._known]
         regular = [(level, found) for level, found, _ in ran if not level.own or refinement.name == LENGTH]
         limits = {name: _limit(refinement, regular, base, name) for name in base}
-        zero = limits
-        if refinement.base in self._known:
-            zero = {name: Limit(value, None, 0.0) for name, value in self._known[refinement.base][0].items()}
-        levels = tuple(LevelResult(level, {name: _error(found, zero, name) for name in MEASURES}, times) for level, found, times in ran)
+        levels = tuple(LevelResult(level, {name: _error(found, limits, name) for name in MEASURES}, times) for level, found, times in ran)
         return RefinementResult(refinement, levels, limits)
 
 
@@ -266,8 +272,9 @@ def _error(found: Answer, limits: dict[str, Limit], name: str) -> float:
 
 def _limit(refinement: Refinement, ran: list, base: Answer, name: str) -> Limit:
     if len(ran) > 1 and (refinement.expected is not None or refinement.name == LENGTH):
-        values = [found[name] for _, found in ran]
-        return last_of(values) if refinement.expected is None else richardson(values, [level.size for level, _ in ran], refinement.expected)
+        last = ran[-LAST_TERMS:]
+        values = comparable([found[name] for _, found in last], name)
+        return last_of(values) if refinement.expected is None else richardson(values, [level.size for level, _ in last], refinement.expected)
     return Limit(base[name], None, 0.0)
 
 

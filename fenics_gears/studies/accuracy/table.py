@@ -7,6 +7,7 @@ from pathlib import Path
 
 from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.measures import MEASURES, judged
+from fenics_gears.studies.accuracy.refinement import CONDENSATION
 from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import STAGES, Times
 from fenics_gears.studies.machine import write_lines
@@ -18,8 +19,8 @@ UNITS = ("", "", *["%"] * len(MEASURES), "s", *[""] * len(ORDERED), "")
 WHOLE_HEADINGS = ("settings", "total error", *MEASURES, "meshing", "condensing", "time stepping", "time", "what limits it")
 WHOLE_UNITS = ("", "%", *["%"] * len(MEASURES), "s", "s", "s", "s", "")
 TARGETS = (0.01, 0.001)
-# An order further than this from the expected one gets a remark.
-ORDER_OFF = 0.5
+# An order further than this from the expected one gets a remark; a setting whose errors are all below this, relative, has no influence.
+ORDER_OFF, NO_INFLUENCE = 0.5, 1e-6
 
 
 def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
@@ -28,7 +29,7 @@ def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
     for result in report.refinements:
         for place, each in enumerate(result.levels):
             orders = _orders(result) if place == 0 else ("",) * (len(ORDERED) + 1)
-            label = each.level.label + (" (scene)" if each.level.own else "")
+            label = each.level.label + (f" ({each.level.own})" if each.level.own else "")
             rows.append((
                 result.refinement.name if place == 0 else "", label, *(percent(each.errors[name]) for name in MEASURES), seconds(each.times.total), *orders,
             ))  # fmt: skip
@@ -84,7 +85,10 @@ def in_one_sentence(report: AccuracyReport) -> str:
         costs = ". ".join(filter(None, (costs, unknown, _best(report) if len(missed) == len(TARGETS) else "")))
     mine = report.own
     worst = largest_part(mine.parts)
-    return f"{costs}. The scene's own settings have an error of {percent(mine.total_error)} %, of which {percent(mine.parts[worst])} % is due to the {worst}."
+    own = f"The scene's own settings have an error of {percent(mine.total_error)} %, of which {percent(mine.parts[worst])} % is due to the {worst}"
+    plain = report.defaults
+    default = f". The default settings have an error of {percent(plain.total_error)} % and cost {seconds(plain.times.total)} s" if plain else ""
+    return f"{costs}. {own}{default}."
 
 
 def _cost(report: AccuracyReport, target: float) -> str:
@@ -104,17 +108,20 @@ def remarks(report: AccuracyReport) -> list[str]:
     """Remarks on how to read the numbers."""
     found = [
         f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in T_E and T_EPP; smaller errors cannot be assessed",
-        "the error of a single setting is measured with all others fine; the total error is the sum of these errors, or the difference from the reference where that is larger",
+        "the error of a single setting is measured with all others fine; the total error is the sum of these errors, flank elements and contact nodes taken "
+        "together, or the difference from the reference where that is larger",
     ]
     for result in report.refinements:
         order = result.order("T_E")
         if result.refinement.expected is None:
             continue
-        if order is None:
+        if max(each.errors["T_E"] for each in result.levels) < NO_INFLUENCE:
+            found.append(f"{result.refinement.name}: T_E at the steps does not depend on it ({result.refinement.why}); T_EPP is located between the steps")
+        elif order is None:
             found.append(f"{result.refinement.name}: no order in T_E, expected {result.refinement.expected:g} ({result.refinement.why}); the error of its finest value is taken to be its last change")
         elif abs(order - result.refinement.expected) > ORDER_OFF:
             found.append(f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g} ({result.refinement.why})")
-    if any(result.refinement.base for result in report.refinements):
+    if any(result.refinement.name == CONDENSATION for result in report.refinements):
         found.append(
             'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their nodes in place of the base radius. '
             "Its difference was measured with coarser settings than the others; it does not vanish with refinement"
@@ -147,7 +154,7 @@ def _level_lines(report: AccuracyReport):
         orders = {f"order_{name.replace(' ', '_')}": result.order(name) for name in ORDERED} | {"order_expected": result.refinement.expected}
         for each in result.levels:
             yield {
-                "kind": "single setting", "name": result.refinement.name, "setting": each.level.label, "size": each.level.size, "own": int(each.level.own),
+                "kind": "single setting", "name": result.refinement.name, "setting": each.level.label, "size": each.level.size, "own": each.level.own,
                 **_errors(each.errors), **_times(each.times), **orders,
             }  # fmt: skip
 

@@ -7,14 +7,14 @@ with the others fine, or its own distance from the reference where that is large
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from functools import reduce
 from math import ceil
 
 from fenics_gears.model.cost import operator_bytes
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.convergence import largest_part
-from fenics_gears.studies.accuracy.refinement import LENGTH, Refinement
+from fenics_gears.studies.accuracy.refinement import LENGTH, OF_FAMILY, Refinement
 from fenics_gears.studies.accuracy.setting import Setting
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
@@ -31,8 +31,11 @@ def total_error(direct: float, parts: Mapping[str, float]) -> float:
 
 
 def parts_of(setting: Setting, refinements: Sequence[Refinement], errors: Errors) -> dict[str, float]:
-    """Error by setting of a whole setting all of whose values are levels; `errors` by setting and level."""
-    levels = {each.name: each.level_of(setting) for each in refinements}
+    """Error by setting of a whole setting all of whose values are levels; `errors` by setting and level.
+
+    Flank elements and contact nodes count together, not each.
+    """
+    levels = {each.name: each.level_of(setting) for each in refinements if each.name not in OF_FAMILY}
     return {name: errors[name, level] for name, level in levels.items() if level is not None and (name, level) in errors}
 
 
@@ -50,13 +53,12 @@ def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allow
 
     The path ends where that setting has no finer level that is `allowed`; its end is kept. Choices, such as the element, are those of `base`.
     """
-    moving = {each.name: each for each in refinements if each.expected is not None or each.name == LENGTH}
+    moving = {each.name: each for each in refinements if (each.expected is not None or each.name == LENGTH) and each.name not in OF_FAMILY}
     levels = {name: [place for place, level in enumerate(each.levels) if not level.own and (name, place) in errors] for name, each in moving.items()}
     at = {name: 0 for name, places in levels.items() if places}
 
     def setting() -> Setting:
-        values = {moving[name].field: getattr(moving[name].levels[levels[name][place]].setting, moving[name].field) for name, place in at.items()}
-        return replace(base, **values)
+        return reduce(lambda whole, name: moving[name].moved(whole, levels[name][at[name]]), at, base)
 
     found, last = [], float("inf")
     while at and allowed(setting()):
