@@ -24,7 +24,7 @@ from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 DEFAULT_ELEMENT = "P2"
-ELEMENTS_PER_HALF_WIDTH = 4.0
+ELEMENTS_PER_HALF_WIDTH = 2.0
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
 FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
 # Half of the rough stiffness of a pair bounds its deflection from above.
