@@ -74,7 +74,7 @@ class March:
 
 
 @cache
-def _thread_pools() -> ThreadpoolController:
+def thread_pools() -> ThreadpoolController:
     """The libraries with threads that are loaded as the first march begins: to find them takes milliseconds."""
     return ThreadpoolController()
 
@@ -107,7 +107,7 @@ class Marcher(Stepper):
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
-        with _thread_pools().limit(limits=1):
+        with thread_pools().limit(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
             return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged)
 

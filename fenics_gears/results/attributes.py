@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+# How extrema were found.
+SOLVED, CUBICS, STEPS = "positions solved between steps", "cubics through four steps where the curve is smooth", "steps"
 RUNG = "steps_by_rung: "
 ESTIMATED = "estimated_error: "
 
@@ -47,7 +49,10 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("settled_cycles", "1", "number of mesh cycles from `settled_from` to the end", WITH_STEPS),
     ResultAttribute("shown_cycles", "1", "number of mesh cycles at the end of the run that pictures show; for a speed ramp all"),
     ResultAttribute("mean_transmission_error", "rad", "mean over the settled steps, without the last step, which belongs to the next mesh cycle"),
-    ResultAttribute("peak_to_peak_transmission_error", "rad", "peak-to-peak value over the settled steps"),
+    ResultAttribute("peak_to_peak_transmission_error", "rad", "peak-to-peak value over the settled steps; its extremes may lie between steps"),
+    ResultAttribute("peak_to_peak_transmission_error_from", "", f"how the extremes were found: `{SOLVED}`, `{CUBICS}`, or `{STEPS}`", WITH_STEPS),
+    ResultAttribute("largest_transmission_error_mesh_phase", "1", "mesh phase of the largest transmission error", WITH_STEPS),
+    ResultAttribute("least_transmission_error_mesh_phase", "1", "mesh phase of the least transmission error", WITH_STEPS),
     ResultAttribute("base_radius_wheel", "mm", "base radius of the wheel, which converts the transmission error into a length along the line of action"),
     *(
         ResultAttribute(f"transmission_error_harmonic_{n}", "um", f"amplitude of the transmission error at {words} mesh frequency, along the line of action", OF_WHOLE_CYCLES)
@@ -58,6 +63,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("single_pair_stiffness", "N/(mm um)", "single stiffness c': largest `mesh_stiffness` while one tooth pair is loaded, per face width", WITH_TEETH + " and in some steps one pair is loaded"),
     ResultAttribute("largest_pair_force", "N", "largest normal force of a tooth pair", "the forces of the tooth pairs are determined and a pair is loaded"),
     ResultAttribute("largest_pair_force_mesh_phase", "1", "mesh phase of the largest normal force of a tooth pair", "the forces of the tooth pairs are determined and a pair is loaded"),
+    ResultAttribute("largest_pair_force_from", "", "how the largest normal force was found, as `peak_to_peak_transmission_error_from`", "the forces of the tooth pairs are determined and a pair is loaded"),
     ResultAttribute("peak_contact_pressure", "MPa", "peak contact pressure: maximum of `largest_contact_pressure`", WITH_CONTACT),
     ResultAttribute("peak_contact_pressure_time", "s", "time of the peak contact pressure", WITH_PRESSURE),
     ResultAttribute("peak_contact_pressure_mesh_phase", "1", "mesh phase of the peak contact pressure", WITH_PRESSURE),

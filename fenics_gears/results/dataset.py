@@ -20,6 +20,7 @@ from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.extrema import Extrema, largest_pair_force, peak_to_peak
 from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate, path_point_values
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.recorder import Recorder
@@ -138,7 +139,7 @@ def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int
     return attributes
 
 
-def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.Dataset) -> dict[str, float]:
+def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.Dataset) -> dict[str, float | str]:
     """The numbers of a run, of its settled steps `counted`."""
     if not recorder.steps:
         return {"contact_loss_count": 0}
@@ -146,13 +147,15 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
     error = counted["transmission_error"].values
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, recorder.model.clock)
-    numbers["peak_to_peak_transmission_error"] = float(np.ptp(error))
+    extrema = Extrema(recorder.model, recorder.cycle, counted["mesh_phase"].values, error)
+    numbers |= peak_to_peak(extrema, error)
     # The last step begins the next cycle.
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
     if len(error) > 1 and recorder.model.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
         numbers |= _friction_loss(counted)
     counted.attrs.update(numbers)
-    return numbers | key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
+    numbers |= key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
+    return numbers | (largest_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
 
 
 def _friction_loss(counted: xr.Dataset) -> dict[str, float]:

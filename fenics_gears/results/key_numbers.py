@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 
@@ -60,14 +62,19 @@ def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
 
 
 def _pair_force(settled: xr.Dataset) -> dict[str, float]:
-    """The largest normal force of a tooth pair, N, on drive or coast flanks; nothing where shares of rigid pairs are not
+    """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of rigid pairs are not
     determined, or nothing presses."""
-    names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in settled]
-    over_time = np.max([settled[name].values.max(axis=1, initial=0.0) for name in names], axis=0)
+    over_time = largest_force_over_time(settled)
     if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
         return {}
     place = first_largest(over_time)
     return {"largest_pair_force": float(over_time[place]), "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place])}
+
+
+def largest_force_over_time(curves: xr.Dataset | Mapping[str, np.ndarray]) -> np.ndarray:
+    """The largest normal force (time,), N, of a tooth pair, on drive or coast flanks."""
+    names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in curves]
+    return np.max([np.asarray(curves[name]).max(axis=1, initial=0.0) for name in names], axis=0)
 
 
 def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:

@@ -18,12 +18,13 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.results.extrema import Extrema, largest_pair_force
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.scene.data import Scene
 
 Peaks = tuple[float, float]
-LARGEST_STRESS, LARGEST_FORCE = ("root_stress_maximum", "root_stress_at_30_degrees"), ("pair_normal_force", "pair_coast_normal_force")
+LARGEST_STRESS = ("root_stress_maximum", "root_stress_at_30_degrees")
 DIFFERENT_CYCLES = "mesh cycles differ: [output] root_stress = true runs the scene without inertia beside"
 
 
@@ -59,8 +60,8 @@ def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float |
     if isinstance(peaks_still, str):
         return {"dynamic_factor_unknown": peaks_still}
     counted = settled_steps(result)
-    moving = {name: result[name].values[counted] for name in LARGEST_FORCE + LARGEST_STRESS if name in result}
-    (stress_moving, force_moving), (stress_still, force_still) = _peaks(moving), peaks_still
+    moving = {name: result[name].values[counted] for name in LARGEST_STRESS if name in result}
+    (stress_moving, force_moving), (stress_still, force_still) = _peaks(moving, result.attrs.get("largest_pair_force", 0.0)), peaks_still
     if not force_still:
         return {"dynamic_factor_unknown": "without inertia nothing touches"}
     factors = {"quasi_static_pair_normal_force": force_still, "dynamic_factor_by_force": force_moving / force_still}
@@ -90,14 +91,19 @@ def _peaks_still(still: Model, recorder: Recorder) -> Peaks | str:
     if march.interrupted:
         return "the quasi-static run was interrupted"
     reference.finish()
-    peaks = _peaks(reference.arrays)
+    peaks = _peaks(reference.arrays, _largest_force(reference))
     if shared:
         known[key] = peaks
     return peaks
 
 
-def _peaks(curves: Mapping[str, np.ndarray]) -> Peaks:
-    """Largest root stress (MPa) and largest normal force (N) of a tooth pair; 0 where there are none."""
-    return tuple(
-        max((float(np.nanmax(curves[name], initial=0.0)) for name in names if name in curves), default=0.0) for names in (LARGEST_STRESS, LARGEST_FORCE)
-    )
+def _largest_force(recorder: Recorder) -> float:
+    """Largest normal force, N, of a tooth pair of a quasi-static march, as its own result has it."""
+    curves = recorder.arrays
+    extrema = Extrema(recorder.model, recorder.cycle, curves["mesh_phase"], curves["transmission_error"])
+    return float(largest_pair_force(extrema, curves)["largest_pair_force"])
+
+
+def _peaks(curves: Mapping[str, np.ndarray], force: float) -> Peaks:
+    """Largest root stress (MPa) of curves, 0 where there is none, and the largest `force` (N) of a tooth pair."""
+    return max((float(np.nanmax(curves[name], initial=0.0)) for name in LARGEST_STRESS if name in curves), default=0.0), force

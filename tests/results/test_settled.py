@@ -64,7 +64,7 @@ def by_cycles():
 
 
 def test_numbers_are_of_all_cycles_that_were_run(by_cycles):
-    """Definition, and brute force over the longest run: each shorter one is its beginning, and T_EPP is the span of all of its steps."""
+    """Definition, and brute force over the longest run: each shorter one is its beginning, and T_EPP is the span of all of its steps or larger."""
     _, found = by_cycles
     whole = found[1081]["transmission_error"].values
     spans = {}
@@ -72,11 +72,20 @@ def test_numbers_are_of_all_cycles_that_were_run(by_cycles):
         part = whole[: 8 * cycles + 1]
         np.testing.assert_allclose(result["transmission_error"].values, part, rtol=1e-9)
         spans[cycles] = result.attrs["peak_to_peak_transmission_error"]
-        assert spans[cycles] == pytest.approx(np.ptp(part), rel=1e-9)
+        assert np.ptp(part) <= spans[cycles] < 1.05 * np.ptp(part)
         assert result.attrs["mean_transmission_error"] == pytest.approx(part[:-1].mean(), rel=1e-9)
         assert result.attrs["settled_cycles"] == pytest.approx(cycles)
     # The last two cycles alone, which numbers once were of, see a part of it.
     assert spans[1081] > spans[23] > 1.5 * np.ptp(whole[21 * 8 : 23 * 8 + 1])
+
+
+def test_extremes_lie_between_the_steps_also_where_cycles_differ_and_springs_jump(by_cycles):
+    """Brute force: of 512 steps a mesh cycle the samples span T_EPP within 1e-4; eight, at which the standard's springs jump unseen, miss 1.8 %."""
+    scene, found = by_cycles
+    fine = replace(scene, motion=replace(scene.motion, mesh_cycles=23), accuracy=replace(scene.accuracy, steps_per_mesh_cycle=512))
+    span = np.ptp(simulate(fine)["transmission_error"].values)
+    assert found[23].attrs["peak_to_peak_transmission_error"] == pytest.approx(span, rel=2e-4)
+    assert np.ptp(found[23]["transmission_error"].values) < 0.985 * span
 
 
 def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):

@@ -138,8 +138,6 @@ def _order_of_nodes(scene: Scene) -> tuple[float, str]:
 
 def _order_in_time(scene: Scene) -> tuple[float, str]:
     model = model_of(scene)
-    if scene.friction is not None:
-        return 1.0, "slip over a step stands for the rate of slip, and reverses a step late: h"
     if model.drivetrain.mass is None:
         return 1.5, "straight lines across the kinks where pairs come and go: h^1.5 in L2"
     return (2.0, "average acceleration: h^2") if model.time_scales.averages_acceleration else (1.0, "backward Euler: h")

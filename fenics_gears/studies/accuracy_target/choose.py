@@ -187,7 +187,7 @@ def _result(scene: Scene, runs: TrialRuns, sizes: Sizes, curves: list[ErrorCurve
 def _remark(curve: ErrorCurve, size: float) -> str:
     leading = curve.leading
     order = "no order" if leading.order is None else f"order {leading.order:.3g}"
-    # T_EPP jumps where a corner of the curve falls between steps; it is then given the order of the curve.
+    # T_EPP varies irregularly with ripples of the curve; it is then given the order of the curve.
     whose = " in T_EPP alone, which is taken to have T_E's" if leading.order is not None and leading.used > leading.order else ""
     return (
         f"{curve.name}: {order} observed{whose} where {curve.expected:g} was expected; its error at {SIZE_WORDS[curve.name].format(size)} is "
