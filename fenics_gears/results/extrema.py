@@ -30,8 +30,7 @@ from fenics_gears.results.numbers import SAME
 MOST_SOLVED, SOUGHT = 20, 1e-4
 # A position solved again is that of the march if it is as near as this part of what is sought.
 SAME_POSITION = 0.1
-# Lines are those beside the crest where both neighbours lie lower by up to so many times what is sought. A fall within less than this part of a
-# step is a jump, whose neighbours are never near.
+# How far down from the largest value a curve is followed, in parts of what is sought. What falls within less than this part of a step jumps.
 NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
 # A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth where the lower of the
 # parabolas from either side is above the steps by at least this part of the higher one.
@@ -148,8 +147,8 @@ def _largest_force_of_a_pair(record: Record) -> float:
 def highest(steps: np.ndarray, values: np.ndarray, value: Callable[[float], float], sought: float) -> tuple[float, float]:
     """Place and largest value of a curve given at `steps` (s,) by `values` (s,), and anywhere between them by `value`, which may be not a number.
 
-    Between the first two and the last two steps nothing is sought. Ends where no crossing of lines is higher by `sought` and both neighbours of
-    the largest value are NEAR it, so that lines are those beside the crest; or after MOST_SOLVED.
+    Between the first two and the last two steps nothing is sought. Ends where no crossing of lines is higher by `sought` and on either side of the
+    largest value the curve falls by NEAR times that in small parts, so that lines are those beside the crest; or after MOST_SOLVED.
     """
     for _ in range(MOST_SOLVED):
         bounds, places = _bounds(steps, values)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import functools
 import io
-import pickle
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import h5py
@@ -33,7 +33,7 @@ def write_netcdf(dataset: xr.Dataset, content) -> None:
     variables, attributes = cf_encoder(*encode_dataset_coordinates(dataset))
     values = {name: _as_stored(variable) for name, variable in variables.items()}
     layout = [(name, each.dtype.str, each.shape, variables[name].dims, variables[name].attrs) for name, each in values.items()]
-    without_values = _without_values(pickle.dumps((layout, dict(dataset.sizes))))
+    without_values = _without_values(Layout.of(layout, dict(dataset.sizes)))
     if dataset.nbytes > MOST_IN_MEMORY:
         content.write(without_values)
         with h5py.File(content, "r+") as file:
@@ -51,13 +51,28 @@ def _as_stored(variable: xr.Variable) -> np.ndarray:
     return values.astype(TEXT) if values.dtype.kind in "OU" else values
 
 
+@dataclass(frozen=True)
+class Layout:
+    """What a dataset has but its values: of each variable name, type, shape, dimensions and attributes, and the sizes of dimensions; equal in `words`."""
+
+    words: str
+    variables: list[tuple] = field(compare=False)
+    sizes: dict[str, int] = field(compare=False)
+
+    @classmethod
+    def of(cls, variables: list[tuple], sizes: dict[str, int]) -> Layout:
+        """With words that tell apart whatever files would."""
+        typed = [(*each, [str(getattr(value, "dtype", type(value))) for value in each[-1].values()]) for each in variables]
+        return cls(repr((typed, sizes)), variables, sizes)
+
+
 @functools.lru_cache(maxsize=4)
-def _without_values(pickled: bytes) -> bytes:
-    """A file that has all of a dataset but its values and its own attributes; pickled: the layout and the sizes, whatever types attributes have."""
-    content, (layout, sizes) = io.BytesIO(), pickle.loads(pickled)
-    dims = {name: dims for name, _, _, dims, _ in layout}
+def _without_values(layout: Layout) -> bytes:
+    """A file that has all of a dataset but its values and its own attributes."""
+    content, sizes = io.BytesIO(), layout.sizes
+    dims = {name: dims for name, _, _, dims, _ in layout.variables}
     with h5py.File(content, "w", track_order=True) as file:
-        written = {name: _made(file, name, kind, shape, labels) for name, kind, shape, _, labels in layout}
+        written = {name: _made(file, name, kind, shape, labels) for name, kind, shape, _, labels in layout.variables}
         scales = {name: written.get(name) or file.create_dataset(name, (size,), ">f4") for name, size in sizes.items()}
         for number, (name, scale) in enumerate(scales.items()):
             scale.make_scale(name if name in dims else f"This is a netCDF dimension but not a netCDF variable.{scale.size:10}")

@@ -25,7 +25,7 @@ CASES = {
     22: ("teeth that enter and leave; sharp tips", "the transmission error is continuous as time step and mesh are refined; a warning names sharp edges"),
     23: ("mesh frequencies from 0.01 Hz to 20 kHz", "0.01 Hz agrees with the quasi-static result to 1e-6; at 20 kHz the gears follow the mean motion; no vibration is left from the start"),
     24: ("time step up to 1000 times too long", "energy stays bounded; a warning names the highest resolved frequency"),
-    25: ("order of the time stepping", "order 2 while the contact status is unchanged, about 1 across changes"),
+    25: ("order of the time stepping", "order 2 while the contact status is unchanged and through stick, about 2 where nodes open and close"),
     26: ("wrong values in every field of a scene", "refused before any computation, with file, field, value, what is allowed and nearest name; exit code 2; nothing is written"),
     27: ("damaged cache entry, full disk, kill -9, two runs on one cache", "computed again or continued; never a wrong number or half a result under a valid name"),
     28: ("one rank of an MPI study fails", "its case is recorded as failed with the reason, the others finish, nothing hangs, exit code 3"),
