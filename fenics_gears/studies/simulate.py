@@ -52,9 +52,9 @@ def simulate(
     chosen = choose(scene, target, arguments["progress"])
     seconds = time.perf_counter() - begun
     result = simulation.simulate(with_settings(scene, chosen.accuracy), **arguments)
-    remarks = chosen.remarks + ((OTHER_SETTINGS,) if "accuracy." in result.attrs["warnings"] else ())
+    remark = OTHER_SETTINGS if "accuracy." in result.attrs["warnings"] else ""
     parts = {f"{ESTIMATED}{name}": part for name, part in chosen.parts.items()}
-    how = {"target_runs": chosen.runs, "target_remarks": "\n".join(remarks), "time_choose": seconds}
+    how = {"target_runs": chosen.runs, "target_remarks": remark, "time_choose": seconds}
     return result.assign_attrs({"target": target, "estimated_error": chosen.estimated_error, **parts, **how})
 
 
