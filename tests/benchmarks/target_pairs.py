@@ -1,15 +1,19 @@
-"""Five gear pairs on which `[accuracy] target` is judged: the paper's, equal, slow, of high contact ratio, of large profile shift.
+"""Gear pairs on which `[accuracy] target` is judged: the paper's, equal, slow, of high contact ratio, of large profile shift, and ten at random.
 
-All with tip relief, as such gears are made; the paper's own tips, whose sharp edges press, are the sixth.
+The first five have tip relief, as such gears are made, neither friction nor inertia; the paper's own tips, whose sharp edges press, follow, without
+friction, with friction, and at 200 Hz.
 """
 
 from dataclasses import replace
 from math import cos, radians, tan
 
+import numpy as np
 from scipy.optimize import brentq
 
+from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.relief import LINEAR, Relief
 from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Motion, Scene
 
@@ -21,6 +25,10 @@ LINE_LOAD = 300.0
 # Tip relief: depth in mm, from this part of a module below the tip diameter on.
 RELIEF, RELIEVED = 0.03, 0.9
 SHARP = "16/24, sharp tips"
+# Mesh cycles of a run with inertia, which then repeat.
+SETTLING = 30
+# Relief of the random pairs: as much as a rough tooth pair of so many N/(mm um) gives way.
+RELIEF_STIFFNESS = 12.0
 
 
 def rack_gear(module: float, teeth: int, shift: float, addendum: float = 1.0, dedendum: float = 1.25, rounding: float = 0.38) -> GearData:
@@ -39,8 +47,9 @@ def rack_pair(module: float, teeth: tuple[int, int], shifts=(0.0, 0.0), face_wid
 
 
 def pairs(paper: Scene) -> dict[str, Scene]:
-    """The scenes by name, quasi-static and without friction, with the paper's shafts and bearings, and defaults for all settings."""
-    plain = replace(paper, inertia=None, damping=None, friction=None, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))
+    """The scenes by name, with the paper's shafts and bearings, and defaults for all settings."""
+    dynamic = replace(paper, accuracy=Accuracy(), motion=Motion(200.0, SETTLING, 1), text="")
+    plain = _quasi_static(replace(dynamic, friction=None))
     material = paper.gears.material
     high = {"addendum": 1.35, "dedendum": 1.6, "rounding": 0.2}
     gears = {
@@ -49,17 +58,51 @@ def pairs(paper: Scene) -> dict[str, Scene]:
         "40/60, high contact ratio": rack_pair(3.0, (40, 60), material=material, **high),
         "14/30, shifts 0.6 and 0.5": rack_pair(4.0, (14, 30), (0.6, 0.5), material=material),
     }
-    relieved = replace(plain, tip_relief=_relief(plain.gears))
-    return {"16/24": relieved, **{name: _loaded(plain, data) for name, data in gears.items()}, SHARP: plain}
+    return {
+        "16/24": replace(plain, tip_relief=_relief(plain.gears)),
+        **{name: replace(_loaded(plain, data), tip_relief=_relief(data)) for name, data in gears.items()},
+        SHARP: plain,
+        f"{SHARP}, friction 0.1": _quasi_static(dynamic),
+        f"{SHARP}, friction 0.1, 200 Hz": dynamic,
+        **random_pairs(dynamic, 10),
+    }
 
 
-def _loaded(plain: Scene, gears: GearPairData) -> Scene:
-    torque = LINE_LOAD * gears.face_width * gear_pair(gears).wheel.base_radius
-    return replace(plain, gears=gears, load=replace(plain.load, wheel_torque=torque), tip_relief=_relief(gears))
+def random_pairs(dynamic: Scene, count: int, seed: int = 2026) -> dict[str, Scene]:
+    """Pairs at random: teeth, profile shifts, module, load, relief, friction, and a mesh frequency with the paper's inertia and damping."""
+    random, found = np.random.default_rng(seed), {}
+    while len(found) < count:
+        pinion = int(random.integers(14, 41))
+        teeth = pinion, int(random.integers(pinion, 91))
+        module = float(random.choice([1.5, 2.0, 3.0, 4.0, 6.0]))
+        shifts = tuple(round(float(each), 2) for each in (random.uniform(0.0, 0.5), random.uniform(-0.1, 0.4)))
+        line_load = round(random.uniform(20.0, 100.0) * module, -1)
+        relieved, friction, vibrates = bool(random.integers(2)), float(random.choice([0.0, 0.05, 0.1])), bool(random.integers(2))
+        frequency = float(random.choice([100.0, 200.0, 400.0]))
+        gears = rack_pair(module, teeth, shifts, 10.0 * module, dynamic.gears.material)
+        try:
+            scene = _loaded(dynamic, gears, line_load)
+        except GeometryError:
+            continue
+        relief = _relief(gears, round(1e-3 * line_load / RELIEF_STIFFNESS, 4)) if relieved else None
+        scene = replace(scene, tip_relief=relief, friction=Friction(friction) if friction else None, motion=Motion(frequency, SETTLING, 1))
+        words = [f"{teeth[0]}/{teeth[1]}, shifts {shifts[0]:g} and {shifts[1]:g}", f"{line_load:g} N/mm", "relief" if relieved else "sharp tips"]
+        words += [f"friction {friction:g}"] * bool(friction) + [f"{frequency:g} Hz"] * vibrates
+        found[", ".join(words)] = scene if vibrates else _quasi_static(scene)
+    return found
 
 
-def _relief(gears: GearPairData) -> TipRelief:
-    return TipRelief(*(Relief(RELIEF, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module) for gear in (gears.pinion, gears.wheel)))
+def _quasi_static(scene: Scene) -> Scene:
+    return replace(scene, inertia=None, damping=None, motion=Motion(200.0, 1, 1))
+
+
+def _loaded(scene: Scene, gears: GearPairData, line_load: float = LINE_LOAD) -> Scene:
+    torque = line_load * gears.face_width * gear_pair(gears).wheel.base_radius
+    return replace(scene, gears=gears, load=replace(scene.load, wheel_torque=torque))
+
+
+def _relief(gears: GearPairData, depth: float = RELIEF) -> TipRelief:
+    return TipRelief(*(Relief(depth, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module) for gear in (gears.pinion, gears.wheel)))
 
 
 def _involute(angle: float) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, inf, sqrt
 
 from fenics_gears.scene.data import Accuracy, Scene
@@ -11,18 +11,19 @@ from fenics_gears.studies.accuracy.setting import Setting
 from fenics_gears.studies.accuracy_target.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import Progress
 
-# Sizes at which errors are estimated first for a target of 1 %, and the coarsest: their errors are seldom above 1.5 % and 4 %.
-FIRST_MESH, FIRST_STEPS = 2.0, 60.0
-COARSEST_MESH, FEWEST_STEPS = 3.0, 40
+# Sizes at which errors are estimated first for a target of 1 %, the mesh also for larger ones, and the fewest steps.
+FIRST_MESH, FIRST_STEPS, FEWEST_STEPS = 2.5, 60.0, 40
 # Steps in a mesh cycle are multiples of this, so that curves of different runs have phases in common.
 ROUND_STEPS = 20
-# Ratio of neighbouring meshes in the search for the cheapest, and the finest in parts of the present one.
-RATIO, FINEST = 2.0 ** (1.0 / 6.0), 1.0 / 32.0
+# Ratio of neighbouring meshes in the search for the cheapest, and how many there are: down to 1/32 of the tried one.
+RATIO, MESHES = 2.0 ** (1.0 / 6.0), 31
 # Sizes finer by more than this factor than those of the trial runs are not trusted: new trial runs with sizes coarser by the second factor.
 EXTRAPOLATED, COARSER_FIRST = 2.5, 1.5
 MOST_ROUNDS = 6
 # The search ends where costs have risen by this factor above the least.
 DEARER = 1.5
+# Usual number of runs until settings are chosen, for the progress bar.
+USUAL_RUNS = 3
 # Where a target is not reached, larger ones are tried by this factor.
 REACHABLE = 1.2
 
@@ -61,21 +62,22 @@ def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
     """Trial runs that report their progress; there are three, unless the first are too coarse."""
-    at = [-1, 3, ""]
+    done, now = -1, ""
 
     def begun(words: str) -> None:
-        at[:] = at[0] + 1, max(at[0] + 2, at[1]), words
+        nonlocal done, now
+        done, now = done + 1, words
         tick()
 
     def tick() -> None:
-        progress.update(*at)
+        progress.update(done, max(done + 1, USUAL_RUNS), now)
 
     return TrialRuns(scene, begun, tick)
 
 
 def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
     """Estimate errors and choose; once more from finer sizes where the chosen ones are much finer."""
-    tried = first_sizes(target, runs.steps_matter)
+    tried = _within_limits(runs, first_sizes(target, runs.steps_matter))
     for _ in range(MOST_ROUNDS):
         errors = runs.errors(tried)
         sizes = _cheapest(runs, tried, errors, target)
@@ -89,7 +91,18 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
 def first_sizes(target: float, steps_matter: bool) -> Sizes:
     """Sizes of the first trial runs, somewhat coarser than those that will be chosen."""
     finer = sqrt(0.01 / target)
-    return Sizes(min(FIRST_MESH / finer, COARSEST_MESH), round_steps(FIRST_STEPS * finer if steps_matter else FEWEST_STEPS))
+    return Sizes(FIRST_MESH / max(finer, 1.0), round_steps(FIRST_STEPS * finer if steps_matter else FEWEST_STEPS))
+
+
+def _within_limits(runs: TrialRuns, sizes: Sizes) -> Sizes:
+    """These sizes, or a coarser mesh where they are beyond the limits; raises TargetNotReached where all are."""
+    try:
+        runs.cost(sizes)
+    except TargetNotReached:
+        if sizes.mesh >= FIRST_MESH:
+            raise
+        return _within_limits(runs, replace(sizes, mesh=COARSER_FIRST * sizes.mesh))
+    return sizes
 
 
 def round_steps(steps: float) -> int:
@@ -108,30 +121,29 @@ def _cheapest(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> S
     try:
         return search(runs, tried, errors, target)
     except TargetNotReached as reason:
-        for larger in (target * REACHABLE**times for times in range(1, 30)):
+        reachable = "nothing near it can be"
+        for larger in (target * REACHABLE**times for times in range(30, 0, -1)):
             with suppress(TargetNotReached):
                 search(runs, tried, errors, larger)
-                raise TargetNotReached(f"{reason}; {100.0 * larger:.2g} % can be reached") from None
-        raise TargetNotReached(f"{reason}; nothing near it can be") from None
+                reachable = f"{100.0 * larger:.2g} % can be reached"
+        raise TargetNotReached(f"{reason}; {reachable}") from None
 
 
 def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Sizes:
     """The sizes of least cost within the limits, none coarser than those tried; raises TargetNotReached."""
-    best, least, refused = None, inf, "no mesh is fine enough"
-    mesh = tried.mesh
-    while mesh >= FINEST * tried.mesh:
+    best, least, refused = None, inf, ""
+    for mesh in (tried.mesh / RATIO**place for place in range(MESHES)):
         left = target - errors[MESH] * (mesh / tried.mesh) ** 2
         if left > 0.0:
             sizes = Sizes(mesh, round_steps(tried.steps * max(1.0, sqrt(errors.get(STEPS, 0.0) / left))))
             try:
                 cost = runs.cost(sizes)
             except TargetNotReached as reason:
-                cost, refused = inf, str(reason)
+                cost, refused = inf, refused or str(reason)
             if cost > DEARER * least:
                 break
             if cost < least:
                 best, least = sizes, cost
-        mesh /= RATIO
     if best is None:
-        raise TargetNotReached(refused)
+        raise TargetNotReached(refused or "no mesh is fine enough")
     return best

@@ -1,0 +1,98 @@
+"""What a choice of settings rests on: errors of order 2 and the cheapest sizes, on errors and costs that are known."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from fenics_gears.studies.accuracy_target.choose import EXTRAPOLATED, FEWEST_STEPS, RATIO, ROUND_STEPS, _chosen, errors_at, first_sizes, round_steps, search
+from fenics_gears.studies.accuracy_target.trial_runs import MESH, STEPS, Sizes, TargetNotReached
+
+TRIED = Sizes(2.0, 60)
+MODULE = 4.5
+
+
+class KnownRuns:
+    """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the limits."""
+
+    def __init__(self, constants, powers=(2.0, 1.0), finest=0.0, order=2.0, steps_matter=True):
+        self.constants, self.powers, self.finest, self.order = constants, powers, finest, order
+        self.steps_matter, self.runs, self.tried = steps_matter, 0, []
+
+    def errors(self, sizes):
+        self.runs += 3
+        self.tried.append(sizes)
+        found = {MESH: self.constants[0] * sizes.mesh**self.order, STEPS: self.constants[1] / sizes.steps**self.order}
+        return found if self.steps_matter else {MESH: found[MESH]}
+
+    def cost(self, sizes):
+        if sizes.mesh < self.finest:
+            raise TargetNotReached("too fine")
+        return sizes.mesh ** -self.powers[0] * sizes.steps ** self.powers[1]
+
+    def setting(self, sizes):
+        return SimpleNamespace(sizes=sizes, words=str(sizes), accuracy=lambda module: (module, sizes))
+
+
+@pytest.mark.parametrize("target", [0.02, 0.005, 0.001])
+@pytest.mark.parametrize("powers", [(2.0, 1.0), (1.0, 1.0), (1.0, 2.0)])
+def test_the_cheapest_sizes_are_lagranges(target, powers):
+    """Exact: with errors of order 2 and a cost mesh^-a steps^b the least cost has errors as a to b (Lagrange's multiplier)."""
+    runs = KnownRuns((0.005, 0.02 * 60**2), powers)
+    errors = runs.errors(TRIED)
+    found = search(runs, TRIED, errors, target)
+    a, b = powers
+    best_mesh = (target * a / (a + b) / runs.constants[0]) ** 0.5
+    best_steps = (runs.constants[1] / (target * b / (a + b))) ** 0.5
+    assert sum(errors_at(TRIED, errors, found).values()) <= target
+    assert found.steps % ROUND_STEPS == 0
+    least = best_mesh**-a * best_steps**b
+    # Steps are rounded up; meshes are searched by their ratio.
+    assert least * (1.0 - 1e-9) <= runs.cost(found) <= least * RATIO**a * (1.0 + ROUND_STEPS / best_steps) ** b
+
+
+def test_sizes_are_never_coarser_than_those_tried():
+    """By definition: coarser ones would cost less than what was spent on choosing them, and order 2 need not hold there."""
+    assert search(KnownRuns((1e-6, 1e-6)), TRIED, {MESH: 1e-6, STEPS: 1e-6}, 0.01) == TRIED
+
+
+def test_without_steps_that_matter_their_number_stays():
+    """By definition."""
+    runs = KnownRuns((0.01, 0.0), steps_matter=False)
+    chosen = _chosen(runs, MODULE, 0.002)
+    assert chosen.setting.sizes.steps == FEWEST_STEPS and set(chosen.parts) == {MESH} and chosen.estimated_error <= 0.002
+    assert chosen.accuracy == (MODULE, chosen.setting.sizes)
+
+
+def test_errors_are_estimated_again_near_sizes_that_are_far_finer():
+    """By construction: the sizes chosen are at most so much finer than those that the last estimate is from."""
+    runs = KnownRuns((0.003, 4000.0))
+    chosen = _chosen(runs, MODULE, 0.002)
+    sizes, last = chosen.setting.sizes, runs.tried[-1]
+    assert len(runs.tried) == 2 and chosen.runs == 6
+    assert last.mesh <= EXTRAPOLATED * sizes.mesh and sizes.steps <= EXTRAPOLATED * last.steps
+    assert sum(runs.errors(sizes).values()) <= 0.002
+
+
+def test_errors_that_do_not_fall_are_refused():
+    """An error of order 0 is never below a target that it is above."""
+    with pytest.raises(TargetNotReached, match="do not fall"):
+        _chosen(KnownRuns((0.1, 0.1), order=0.0), MODULE, 0.002)
+
+
+def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_named():
+    """Exact: with the mesh's error alone the finest mesh allowed has the error that is named, up to the search's steps."""
+    runs = KnownRuns((0.01, 0.0), finest=0.99, steps_matter=False)
+    assert search(runs, TRIED, {MESH: 0.04}, 0.011).mesh >= 0.99
+    with pytest.raises(TargetNotReached, match=r"^too fine; 1 % can be reached$"):
+        _chosen(runs, MODULE, 0.002)
+    runs.finest = 100.0
+    with pytest.raises(TargetNotReached, match="^too fine$"):
+        _chosen(runs, MODULE, 0.002)
+
+
+@pytest.mark.parametrize("target", [0.5, 0.05, 0.01, 0.002, 0.0005])
+def test_first_sizes_go_with_the_root_of_the_target(target):
+    """Order 2; halves of the steps are whole numbers, at least the fewest without a warning."""
+    sizes, coarser = first_sizes(target, True), first_sizes(4.0 * target, True)
+    assert coarser.mesh <= 2.0 * sizes.mesh * (1.0 + 1e-12) and sizes.steps <= 2 * coarser.steps
+    assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS == round_steps(1)
