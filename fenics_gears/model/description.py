@@ -136,7 +136,7 @@ def _accuracy_rows(model: Model) -> Rows:
     ]
     condensation: Rows = [("condensation", resolution.condensation + origin(asked.condensation), "")]
     return [
-        *([("target", f"{asked.target:.3%}:", "a run chooses settings first, by six to twelve test runs; what follows is without a target")] if asked.target else []),
+        *([("target", f"{asked.target:.3%}:", "a run chooses settings first, by two or three coarse test runs; what follows is without a target")] if asked.target else []),
         *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
         *(elastic if model.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),

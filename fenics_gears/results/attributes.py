@@ -105,7 +105,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("target", "1", "the error allowed by `accuracy.target` (0.01 for 1 %)", WITH_TARGET),
     ResultAttribute("estimated_error", "1", "the larger of the estimated errors of the curve and of the peak-to-peak value of the transmission error", WITH_TARGET),
     ResultAttribute("target_runs", "1", "number of test runs by which the settings were chosen", WITH_TARGET),
-    ResultAttribute("target_remarks", "", "remarks on the choice, one on each line, such as settings whose error does not decrease with the expected order", WITH_TARGET),
+    ResultAttribute("target_remarks", "", "a remark on the choice, where a warning recommends other settings", WITH_TARGET),
     ResultAttribute("steps", "1", "number of time steps of the run"),
     ResultAttribute("newton_iterations_total", "1", "number of Newton iterations of the run"),
     ResultAttribute("time_choose", "s", "wall time of choosing settings", WITH_TARGET),

@@ -64,7 +64,7 @@ class Setting:
         teeth = "" if self.elastic_teeth is None else f", teeth {self.elastic_teeth}"
         collocated = "" if self.interpolation == AVERAGED else f", {self.interpolation}"
         remeshed = "" if self.condensation == ONCE else f", condensed {self.condensation}"
-        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:g}{collocated}{teeth}{remeshed}"
+        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:.3g}{collocated}{teeth}{remeshed}"
 
 
 def half_width(scene: Scene) -> float:
