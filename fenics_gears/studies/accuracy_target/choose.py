@@ -8,11 +8,11 @@ from math import ceil, inf, sqrt
 
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
+from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import Progress
 
-# Sizes at which errors are estimated first for a target of 1 %, the mesh also for larger ones, and the fewest steps.
-FIRST_MESH, FIRST_STEPS, FEWEST_STEPS = 2.5, 60.0, 40
+# Sizes at which errors are estimated first for a target of 1 %, the mesh also for larger ones.
+FIRST_MESH, FIRST_STEPS = 2.5, 60.0
 # Steps in a mesh cycle are multiples of this, so that curves of different runs have phases in common.
 ROUND_STEPS = 20
 # Ratio of neighbouring meshes in the search for the cheapest, and how many there are: down to 1/32 of the tried one.
@@ -77,7 +77,7 @@ def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
 
 def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
     """Estimate errors and choose; once more from finer sizes where the chosen ones are much finer."""
-    tried = _within_limits(runs, first_sizes(target, runs.steps_matter))
+    tried = _within_limits(runs, first_sizes(target, runs.fewest_steps, runs.steps_matter))
     for _ in range(MOST_ROUNDS):
         errors = runs.errors(tried)
         sizes = _cheapest(runs, tried, errors, target)
@@ -88,10 +88,10 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
     raise TargetNotReached(f"errors do not fall with order 2 down to {runs.setting(tried).words}")
 
 
-def first_sizes(target: float, steps_matter: bool) -> Sizes:
+def first_sizes(target: float, fewest_steps: int, steps_matter: bool) -> Sizes:
     """Sizes of the first trial runs, somewhat coarser than those that will be chosen."""
     finer = sqrt(0.01 / target)
-    return Sizes(FIRST_MESH / max(finer, 1.0), round_steps(FIRST_STEPS * finer if steps_matter else FEWEST_STEPS))
+    return Sizes(FIRST_MESH / max(finer, 1.0), round_steps(max(FIRST_STEPS * finer, fewest_steps) if steps_matter else fewest_steps))
 
 
 def _within_limits(runs: TrialRuns, sizes: Sizes) -> Sizes:

@@ -21,6 +21,8 @@ from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.work import Ticking
 
+# Fewest steps in a mesh cycle, and the most that are taken for the sake of vibrations: if these are still faster, the motion follows the static one.
+FEWEST_STEPS, MOST_STEPS = 40, 1280
 MESH, STEPS = "finite elements and contact nodes", "steps per mesh cycle"
 COARSER = 2
 # Errors are taken to be so many times what order 2 makes of the difference: at coarse sizes it falls more slowly, and signs of its parts differ.
@@ -65,6 +67,16 @@ class TrialRuns:
         """Sizes as a setting with the contact window in use."""
         default = self._default
         return replace(default, flank=sizes.mesh * default.flank, spacing=sizes.mesh * default.spacing, body=sizes.mesh, steps=sizes.steps)
+
+    @property
+    def fewest_steps(self) -> int:
+        """Fewest steps of a run beside one with half as many: both can represent the slowest vibration, where there is one that matters."""
+        steps = FEWEST_STEPS
+        while not self._model(Sizes(COARSER, steps // COARSER)).time_scales.averages_acceleration:
+            steps *= 2
+            if steps > MOST_STEPS:
+                return FEWEST_STEPS
+        return steps
 
     def errors(self, sizes: Sizes) -> dict[str, float]:
         """Estimated relative errors of a run, the larger of the judged measures, by setting. Raises ComputationError."""

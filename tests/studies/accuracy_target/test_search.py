@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from fenics_gears.studies.accuracy_target.choose import EXTRAPOLATED, FEWEST_STEPS, RATIO, ROUND_STEPS, _chosen, errors_at, first_sizes, round_steps, search
-from fenics_gears.studies.accuracy_target.trial_runs import MESH, STEPS, Sizes, TargetNotReached
+from fenics_gears.studies.accuracy_target.choose import EXTRAPOLATED, RATIO, ROUND_STEPS, _chosen, errors_at, first_sizes, round_steps, search
+from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
 MODULE = 4.5
@@ -13,6 +13,8 @@ MODULE = 4.5
 
 class KnownRuns:
     """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the limits."""
+
+    fewest_steps = FEWEST_STEPS
 
     def __init__(self, constants, powers=(2.0, 1.0), finest=0.0, order=2.0, steps_matter=True):
         self.constants, self.powers, self.finest, self.order = constants, powers, finest, order
@@ -93,6 +95,6 @@ def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_name
 @pytest.mark.parametrize("target", [0.5, 0.05, 0.01, 0.002, 0.0005])
 def test_first_sizes_go_with_the_root_of_the_target(target):
     """Order 2; halves of the steps are whole numbers, at least the fewest without a warning."""
-    sizes, coarser = first_sizes(target, True), first_sizes(4.0 * target, True)
+    sizes, coarser = (first_sizes(each, FEWEST_STEPS, True) for each in (target, 4.0 * target))
     assert coarser.mesh <= 2.0 * sizes.mesh * (1.0 + 1e-12) and sizes.steps <= 2 * coarser.steps
     assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS == round_steps(1)

@@ -136,6 +136,16 @@ def test_only_steps_with_a_past_have_an_error(scene):
     assert set(errors) == {MESH, STEPS} and rubbing.runs == 3 and errors[STEPS] > 0.0
 
 
+def test_test_runs_can_represent_the_slowest_vibration(paper_scene, scene):
+    """Nyquist: at least two steps in a period, also with half the steps. Where no usual number has them, and without inertia, few do."""
+    slow = replace(paper_scene, accuracy=Accuracy(), text="", motion=Motion(5.0, 2, 1))
+    fewest = TrialRuns(slow, lambda words: None).fewest_steps
+    slowest = model_of(slow).vibrations[0].frequency
+    assert 2.0 * slowest <= 5.0 * fewest / 2.0 < 4.0 * slowest
+    for other in (scene, replace(slow, motion=Motion(0.01, 2, 1)), replace(slow, motion=Motion(200.0, 2, 1))):
+        assert TrialRuns(other, lambda words: None).fewest_steps == trial_runs.FEWEST_STEPS
+
+
 def test_an_error_is_that_of_order_2_with_its_factor_of_safety(scene, monkeypatch):
     """Exact: where a run errs by C h^2 in one value, the estimate is SAFETY times C h^2."""
     runs = TrialRuns(replace(scene, friction=Friction(0.1)), lambda words: None)
