@@ -16,7 +16,7 @@ from fenics_gears.studies.accuracy.refinement import CONDENSATION
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 
-MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h")
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h", "<")
 LEAST_SHOWN = 1e-6
 
 

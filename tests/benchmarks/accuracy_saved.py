@@ -30,7 +30,7 @@ def saved_report(scene: Scene, file: Path) -> AccuracyReport:
     results = _single(scene, [line for line in lines if line["kind"] == "single setting"])
     errors = {(each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels}
     ran = [each.refinement for each in results]
-    known = {each.words: each for each in whole.path(fine(scene), ran, errors, lambda setting: whole.fits(scene, setting))}
+    known = {each.words: each for each in whole.path(fine(scene), ran, errors, lambda setting: whole.fits(scene, setting), whole.ENOUGH)}
     known |= {OWN: own_setting(scene), DEFAULTS: own_setting(without_settings(scene))}
     settings, models = [], []
     for line in lines:

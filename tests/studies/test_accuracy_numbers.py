@@ -168,6 +168,11 @@ def test_the_path_ends_at_what_is_not_allowed():
     assert found[-1] == replace(BASE, flank=0.08, steps=40)
 
 
+def test_the_path_ends_where_errors_are_small_enough():
+    """Authority: by hand; 0.08 + 0.05 is the first sum below 0.14."""
+    assert whole.path(BASE, [FLANK, STEPS], ERRORS, enough=0.14)[-1] == replace(BASE, flank=0.16, steps=40)
+
+
 def test_parts_are_those_of_the_settings_own_levels():
     """Authority: identity; and the largest names what limits."""
     for (i, flank), (j, steps) in itertools.product(enumerate((0.16, 0.08, 0.04)), enumerate((20, 40, 80, 160))):

@@ -179,7 +179,7 @@ class AccuracyStudy:
         chosen = {OWN: (own_setting(self.scene), self.scene)}
         if plain != self.scene:
             chosen[DEFAULTS] = own_setting(plain), plain
-        for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting)):
+        for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH):
             chosen[setting.words] = (setting, setting.of(self.scene))
         for name in MODELS:
             chosen[name] = (None, replace(self.scene, accuracy=_accuracy_of(self.scene, name)))

@@ -19,6 +19,8 @@ from fenics_gears.studies.accuracy.setting import Setting
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
 KEPT_PART, MOST_KEPT = 0.6, 9
+# What is more accurate than half of 0.1 % is not looked for.
+ENOUGH = 0.0005
 # Contact operators of a mesh cycle are held all at once; larger ones are not tried.
 MOST_BYTES = 1.8e9
 
@@ -48,10 +50,11 @@ def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
     return front
 
 
-def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True) -> list[Setting]:
+def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True, enough: float = 0.0) -> list[Setting]:
     """Whole settings from the coarsest on: from one to the next the setting with the largest error goes one level finer.
 
-    The path ends where that setting has no finer level that is `allowed`; its end is kept. Choices, such as the element, are those of `base`.
+    The path ends where the sum of errors is below `enough`, or where that setting has no finer level that is `allowed`; its end is kept. Choices, such
+    as the element, are those of `base`.
     """
     moving = {each.name: each for each in refinements if (each.expected is not None or each.name == LENGTH) and each.name not in OF_FAMILY}
     levels = {name: [place for place, level in enumerate(each.levels) if not level.own and (name, place) in errors] for name, each in moving.items()}
@@ -67,7 +70,7 @@ def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allow
             last = sum(parts.values())
             found.append(setting())
         worst = largest_part(parts)
-        if at[worst] + 1 == len(levels[worst]) or last == 0.0:
+        if at[worst] + 1 == len(levels[worst]) or sum(parts.values()) <= enough:
             break
         at[worst] += 1
     if found and found[-1] != setting() and allowed(setting()):
