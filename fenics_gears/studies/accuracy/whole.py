@@ -19,8 +19,8 @@ from fenics_gears.studies.accuracy.setting import Setting
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
 KEPT_PART, MOST_KEPT = 0.6, 9
-# What is more accurate than half of 0.1 % is not looked for.
-ENOUGH = 0.0005
+# What is well below 0.1 % is not looked for.
+ENOUGH = 0.0008
 # Contact operators of a mesh cycle are held all at once; larger ones are not tried.
 MOST_BYTES = 1.8e9
 
