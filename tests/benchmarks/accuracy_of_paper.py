@@ -2,7 +2,7 @@
 
 Runs what `gears accuracy` runs on demos/lundvall2004.toml quasi-static and at 200 Hz, with friction and without; writes each one's
 tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV; then, of all four together, a picture and
-a table into docs/performance.md. Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
+a table into docs/performance.md, and the orders of all four into docs/accuracy.md. Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from tests.benchmarks.accuracy_overview import TITLES, overview, overview_picture, overview_section
+from tests.benchmarks.accuracy_overview import TITLES, orders_section, overview, overview_picture, overview_section
 from tests.benchmarks.accuracy_saved import saved_report
 from tests.benchmarks.marked_section import write_section
 
@@ -88,12 +88,13 @@ def main() -> None:
 
 
 def write_overview() -> None:
-    """All scenes together, from what is saved of them, into docs/performance.md."""
+    """All scenes together, from what is saved of them, into docs/performance.md; the orders of all into docs/accuracy.md."""
     from fenics_gears.show.plots import save_figure
 
     found = {name: overview(PICTURES / f"accuracy_{name}.csv") for name in TITLES}
     save_figure(overview_picture(found), PICTURES / "accuracy.png")
     write_section(OVERVIEW, *markers("of the paper's scene"), overview_section(found))
+    write_section(PAGE, *markers("orders"), orders_section({name: PICTURES / f"accuracy_{name}.csv" for name in TITLES}))
 
 
 if __name__ == "__main__":
