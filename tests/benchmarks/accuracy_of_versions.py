@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator
 from tests.benchmarks.accuracy_of_paper import PAGE, PICTURES, markers, scenes
 from tests.benchmarks.accuracy_overview import TITLES
 from tests.benchmarks.marked_section import write_section
@@ -159,7 +159,9 @@ def picture(found: list[Point], floors: dict[str, float], where: dict[str, str])
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_ylim(1e-4, 0.3)
+        axes.xaxis.set_minor_locator(LogLocator(subs=(2, 5)))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.xaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
         axes.set_title(TITLES[name])
         axes.set_xlabel("Time of a run (s, median; meshing, condensing, time stepping)")
