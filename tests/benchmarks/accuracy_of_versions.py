@@ -41,7 +41,7 @@ from fenics_gears.system.progress import LineProgress
 HERE = Path(__file__).resolve().parents[2]
 FILE = PICTURES / "accuracy_versions"
 # Flank elements in a half-width, steps per mesh cycle; all with half the default contact window, in which all contact is.
-ELEMENTS, STEP_COUNTS, WINDOW = (1.0, 2.0, 4.0), (20, 40, 80, 160, 320, 640), 0.5
+ELEMENTS, STEP_COUNTS, WINDOW = (1.0, 2.0, 4.0), (20, 40, 80, 160, 320), 0.5
 TARGETS = (0.01, 0.005, 0.002, 0.001)
 OLD, NEW = "before", "now"
 # Runs in either checkout. Settings come by standard input; prints the curve (mm), T_EPP (mm) and the time (s) of each. The first run, which compiles, is not counted.
@@ -189,20 +189,25 @@ def section(found: list[Point], floors: dict[str, float], where: dict[str, str],
 
 
 def main() -> None:
-    """Measure, write picture, numbers and section."""
-    from fenics_gears.show.plots import save_figure
-
+    """Measure, write picture, numbers and section as soon as a scene is there."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("other", type=Path, help="checkout of the other version")
     parser.add_argument("names", nargs="*", default=["quasi_static_friction", "200_hz_friction"], help="of scenes")
     parser.add_argument("--rounds", type=int, default=5)
     options = parser.parse_args()
+    revision = subprocess.run(["git", "-C", options.other, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
     found, floors = [], {}
     for name in options.names:
         more, floors[name] = points(name, options.other.resolve(), options.rounds)
         found += more
+        write(found, floors, revision)
+
+
+def write(found: list[Point], floors: dict[str, float], revision: str) -> None:
+    """Picture, numbers and section of the scenes so far."""
+    from fenics_gears.show.plots import save_figure
+
     where = machine()
-    revision = subprocess.run(["git", "-C", options.other, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
     save_figure(picture(found, floors, where), FILE.with_suffix(".png"))
     with open(FILE.with_suffix(".csv"), "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, list(asdict(found[0])))
