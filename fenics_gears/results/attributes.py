@@ -45,7 +45,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
     ResultAttribute("stopped", "", "why the run is not complete: `interrupted`, `failed`, or `not ended` (killed or still running, read from `run.nc.part`)", "`complete` is 0"),
     ResultAttribute("warnings", "", "warnings, one on each line"),
-    ResultAttribute("settled_from", "s", "time from which on steps are settled: the vibration excited by the start has decreased to 1 %", WITH_STEPS),
+    ResultAttribute("settled_from", "s", "time from which on steps are settled: the vibration excited by the start has decreased to 0.1 %, in short runs to 1 %", WITH_STEPS),
     ResultAttribute("settled_cycles", "1", "number of mesh cycles from `settled_from` to the end", WITH_STEPS),
     ResultAttribute("shown_cycles", "1", "number of mesh cycles at the end of the run that pictures show; for a speed ramp all"),
     ResultAttribute("mean_transmission_error", "rad", "mean over the settled steps, without the last step, which belongs to the next mesh cycle"),

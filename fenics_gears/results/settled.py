@@ -16,8 +16,9 @@ from fenics_gears.model.model import Model
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
 
-# The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was.
-DIED_DOWN = 0.01
+# The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was; where the run is long enough, less
+# is left: at high speed the start may be twenty times as large as the settled motion.
+DIED_DOWN, QUIET = 0.01, 0.001
 
 
 @dataclass(frozen=True)
@@ -36,11 +37,11 @@ def settled(model: Model, steps: int) -> Settled:
     """
     a_cycle, period = model.resolution.steps_per_mesh_cycle, common_period(model.scene)
     rate, slowest = _slowest(model)
-    calm = _step_at(model, log(1.0 / DIED_DOWN) / rate if rate else inf, steps)
+    calm, quiet = (_step_at(model, log(1.0 / left) / rate if rate else inf, steps) for left in (DIED_DOWN, QUIET))
     if not isfinite(period):
         return Settled(calm) if calm < steps else Settled(0, _warning(slowest, rate, 1.0, None, steps > 0))
     least = (int(period) if period > 1 else model.scene.motion.recorded_cycles) * a_cycle
-    first = max(min(calm, steps - least), 0)
+    first = max(min(quiet, steps - least), 0)
     whole = (steps - first) // (int(period) * a_cycle)
     warning = ""
     if calm > first and steps:
