@@ -148,7 +148,7 @@ def cost(found: list[Point], name: str, version: str, target: float) -> str:
 @styled
 def picture(found: list[Point], floors: dict[str, float], where: dict[str, str]) -> Figure:
     """A panel for each scene: all settings and the Pareto front of both versions."""
-    figure = Figure(figsize=(7.2 * len(floors), 6.2), layout="constrained")
+    figure = Figure(figsize=(max(7.2 * len(floors), 10.5), 6.2), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12, rect=(0, 0.06, 1, 0.94))
     for axes, (name, floor) in zip(figure.subplots(1, len(floors), squeeze=False, sharey=True).ravel(), floors.items()):
         for version, colour, mark in ((OLD, GREY, "s"), (NEW, PALETTE[0], "o")):
