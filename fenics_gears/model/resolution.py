@@ -36,8 +36,9 @@ HALF_WIDTHS_BESIDE = 2.0
 LONGEST_WINDOW = 3.0
 # Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart.
 NODE_SPACING = 0.7
-# Where the mate's tip edge presses, along the flank from the start of its active profile, in modules: at 650 N/mm and 4.5 mm module no longer part helps.
-BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.15, 0.06
+# Where the mate's tip edge presses, along the flank from the start of its active profile, in modules. Of the paper's pair a longer part changes the
+# transmission error by 0.01 % at 144 and at 575 N/mm, by 0.04 % at 1700 N/mm; 0.15 below and 0.06 above would err by 0.01, 0.14 and 0.26 %.
+BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.03, 0.18
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
 # Between steps curves are seen as straight lines, 0.4 % off in L2 for the transmission error of the paper's pair; its extremes are located between them.
@@ -139,7 +140,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
 def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]:
     """Roll angles (rad) of pinion and wheel between which the mate's tip edge may press on the flank.
 
-    The edge comes to the flank's start of active profile, and under load slides on towards the root before it leaves.
+    The edge comes down the flank to the start of active profile and turns there. A loaded pair touches with the edge alone before it enters and after it
+    has left the path of contact, so that the edge presses above that point.
     """
     gears, ends = (pair.pinion, pair.wheel), (pair.path_start, pair.line_of_action_length - pair.path_end)
     found = []

@@ -16,7 +16,7 @@ from fenics_gears.studies.accuracy.refinement import CONDENSATION
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 
-MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h")
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h", "<")
 LEAST_SHOWN = 1e-6
 
 
@@ -57,7 +57,7 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
         axes.annotate(str(number), (each.times.total, each.total_error), xytext=(6, 5), textcoords="offset points", fontsize=11, color=PALETTE[0])
         lines.append(f"{number}  {each.setting.words if each.setting else each.name}; limited by {limits_it(each)}")
     axes.text(
-        0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=9.0, color=DARK, linespacing=1.5,
+        0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=8.0, color=DARK, linespacing=1.5,
         bbox={"facecolor": "white", "edgecolor": "#E3E3E3", "alpha": 0.9, "pad": 5.0},
     )  # fmt: skip
 

@@ -11,14 +11,14 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.studies.accuracy.report import OWN
+from fenics_gears.studies.accuracy.report import DEFAULTS, OWN
 from fenics_gears.studies.accuracy.table import percent, seconds
 
 TITLES = {
     "quasi_static_friction": "Quasi-static, with friction", "quasi_static_frictionless": "Quasi-static, without friction",
     "200_hz_friction": "200 Hz, with friction", "200_hz_frictionless": "200 Hz, without friction",
 }  # fmt: skip
-TARGETS = (0.05, 0.01, 0.005)
+TARGETS = (0.01, 0.003, 0.001)
 MODEL_MARKS = ("s", "^", "D")
 
 
@@ -53,6 +53,11 @@ class Overview:
         """The scene's own setting."""
         return next(each for each in self.points if each.name == OWN)
 
+    @property
+    def defaults(self) -> Point:
+        """The program's default settings."""
+        return next(each for each in self.points if each.name == DEFAULTS)
+
     def cheapest(self, target: float) -> Point | None:
         """What reaches a target in the shortest time; None where nothing does, or the reference cannot tell."""
         return next((each for each in self.front if each.error <= target), None) if target >= self.floor else None
@@ -75,11 +80,11 @@ def overview(file: Path) -> Overview:
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
     """The table of docs/performance.md."""
-    headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "their largest error"]
+    headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "their largest error", "the default settings", "their largest error"]
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
     for name, each in found.items():
-        own = f"{percent(each.own.error)} % in {seconds(each.own.time)} s"
-        lines.append(f"| {' | '.join([TITLES[name], *(_cost(each, target) for target in TARGETS), own, each.own.limited_by])} |")
+        given = [cell for point in (each.own, each.defaults) for cell in (f"{percent(point.error)} % in {seconds(point.time)} s", point.limited_by)]
+        lines.append(f"| {' | '.join([TITLES[name], *(_cost(each, target) for target in TARGETS), *given])} |")
     return lines
 
 
@@ -112,19 +117,20 @@ def overview_picture(found: dict[str, Overview]) -> Figure:
 
 
 def _panel(axes: Axes, found: Overview) -> None:
-    others = [each for each in found.points if not (each.pays or each.model or each.name == OWN)]
+    others = [each for each in found.points if not (each.pays or each.model or each.name in (OWN, DEFAULTS))]
     if others:
         axes.plot([each.time for each in others], [each.error for each in others], "o", color=GREY, markersize=5, label="other settings")
     front = found.front
     axes.plot([each.time for each in front], [each.error for each in front], "-o", color=PALETTE[0], label="Pareto front")
     axes.plot(found.own.time, found.own.error, "*", color=PALETTE[1], markersize=16, label="the scene's own")
+    axes.plot(found.defaults.time, found.defaults.error, "P", color=PALETTE[3], markersize=11, label="default settings")
     for mark, each in zip(MODEL_MARKS, (each for each in found.points if each.model)):
         axes.plot(each.time, each.error, mark, color=PALETTE[2], markersize=8, label=f"model: {each.name}")
     axes.axhspan(1e-6, found.floor, color=GREY, alpha=0.15, linewidth=0, label="less than the reference's uncertainty")
     axes.set_xscale("log")
     axes.set_yscale("log")
     # Errors of the models reach 100 %; above is room for the words.
-    axes.set_ylim(1e-3, 10.0)
+    axes.set_ylim(1e-4, 10.0)
     for target in TARGETS:
         axes.axhline(target, color=GREY, linestyle=":", linewidth=1.0, label="targets: " + ", ".join(f"{100 * each:g} %" for each in TARGETS))
     # The corner that a falling front leaves free.
@@ -141,6 +147,22 @@ def _words(found: Overview, target: float) -> str:
     if reached:
         return f"{100 * target:g} %: {seconds(reached.time)} s, limited by the {reached.limited_by}"
     return f"{100 * target:g} %: " + ("not reached by these settings" if target >= found.floor else "below the reference's uncertainty")
+
+
+def orders_section(files: dict[str, Path]) -> str:
+    """A table of the orders of T_E, and the error of T_E at the finest value, of each setting in each scene; `files`: their CSVs."""
+    cells: dict[str, dict[str, str]] = {}
+    for scene, file in files.items():
+        with open(file, encoding="utf-8", newline="") as opened:
+            lines = [line for line in csv.DictReader(opened) if line["kind"] == "single setting" and line["order_expected"]]
+        for line in lines:
+            # The finest value comes last.
+            error, order = float(line["error_T_E"]), line["order_T_E"]
+            cells.setdefault(line["name"], {})[scene] = f"{f'{float(order):.1f}' if order else 'none'}; {percent(error)}"
+            cells[line["name"]]["expected"] = f"{float(line['order_expected']):g}"
+    headings = ["setting", "expected", *(TITLES[scene] for scene in files)]
+    rows = [[name, row["expected"], *(row.get(scene, "-") for scene in files)] for name, row in cells.items()]
+    return "\n".join([f"|{'|'.join(row)}|" for row in (headings, ["---"] * len(headings), *rows)])
 
 
 def overview_section(found: dict[str, Overview]) -> str:

@@ -12,7 +12,7 @@ from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import Limit
 from fenics_gears.studies.accuracy.measures import MEASURES, judged
 from fenics_gears.studies.accuracy.refinement import fine, refinements
-from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, LevelResult, RefinementResult, WholeResult
+from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, SECONDS_ON_SINGLE, AccuracyReport, LevelResult, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import Times
 from fenics_gears.studies.accuracy.setting import own_setting, without_settings
 from fenics_gears.studies.accuracy.table import ORDERED
@@ -20,7 +20,7 @@ from fenics_gears.studies.accuracy.table import ORDERED
 MACHINE = ("processor", "load", "threads", "versions")
 
 
-def saved_report(scene: Scene, file: Path) -> AccuracyReport:
+def saved_report(scene: Scene, file: Path, seconds_on_single: float = SECONDS_ON_SINGLE) -> AccuracyReport:
     """A scene's report with the errors and median times of its CSV; limits have orders alone, times no stages.
 
     Raises ValueError where the program would refine the scene otherwise than the CSV did.
@@ -30,7 +30,7 @@ def saved_report(scene: Scene, file: Path) -> AccuracyReport:
     results = _single(scene, [line for line in lines if line["kind"] == "single setting"])
     errors = {(each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels}
     ran = [each.refinement for each in results]
-    known = {each.words: each for each in whole.path(fine(scene), ran, errors, lambda setting: whole.fits(scene, setting))}
+    known = {each.words: each for each in whole.path(fine(scene), ran, errors, lambda setting: whole.fits(scene, setting), whole.ENOUGH)}
     known |= {OWN: own_setting(scene), DEFAULTS: own_setting(without_settings(scene))}
     settings, models = [], []
     for line in lines:
@@ -46,7 +46,7 @@ def saved_report(scene: Scene, file: Path) -> AccuracyReport:
     rounds = max(each.times.rounds for each in settings)
     return AccuracyReport(
         scene, fine(scene), results, tuple(settings), tuple(models), _errors(reference), failures,
-        {name: reference[name] for name in MACHINE}, rounds, float("nan"),
+        {name: reference[name] for name in MACHINE}, rounds, seconds_on_single,
     )  # fmt: skip
 
 

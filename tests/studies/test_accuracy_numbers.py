@@ -157,7 +157,7 @@ ERRORS |= {("steps", place): error for place, error in enumerate((0.2, 0.05, 0.0
 
 
 def test_the_path_refines_what_limits_it():
-    """Authority: by hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.6 or below."""
+    """Authority: by hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.7 or below."""
     found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
     assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
 
@@ -166,6 +166,11 @@ def test_the_path_ends_at_what_is_not_allowed():
     """Authority: definition; steps beyond 40 do not fit."""
     found = whole.path(BASE, [FLANK, STEPS], ERRORS, allowed=lambda setting: setting.steps <= 40)
     assert found[-1] == replace(BASE, flank=0.08, steps=40)
+
+
+def test_the_path_ends_where_errors_are_small_enough():
+    """Authority: by hand; 0.08 + 0.05 is the first sum below 0.14."""
+    assert whole.path(BASE, [FLANK, STEPS], ERRORS, enough=0.14)[-1] == replace(BASE, flank=0.16, steps=40)
 
 
 def test_parts_are_those_of_the_settings_own_levels():

@@ -8,20 +8,21 @@ from tests.benchmarks.accuracy_saved import saved_report
 from fenics_gears.studies.accuracy.table import in_one_sentence
 
 OWN = Point("the scene's own", 0.03, 0.5, True, "steps per mesh cycle", False)
+PLAIN = Point("the program's defaults", 0.02, 0.7, False, "steps per mesh cycle", False)
 FINE = Point("P2 0.1 mm, 9 nodes, 40 steps, body x4", 0.004, 2.0, True, "flank element size", False)
 MODEL = Point("rigid teeth", 1.0, 0.1, False, "the model", True)
 
 
 def made_up(floor):
-    return Overview((MODEL, FINE, OWN), floor, {"processor": "a machine", "load": "0.1", "threads": "1", "versions": "0"})
+    return Overview((MODEL, FINE, OWN, PLAIN), floor, {"processor": "a machine", "load": "0.1", "threads": "1", "versions": "0"})
 
 
 def test_costs_are_those_of_the_quickest_that_reaches_a_target():
     """Authority: by hand; a cheaper model pays nothing, and what the reference cannot tell is not claimed."""
     sure = made_up(1e-4)
-    assert sure.cheapest(0.05) == OWN and sure.cheapest(0.01) == FINE and sure.cheapest(0.001) is None
+    assert sure.defaults == PLAIN and sure.cheapest(0.05) == OWN and sure.cheapest(0.01) == FINE and sure.cheapest(0.001) is None
     (row,) = table_lines({"200_hz_friction": sure})[2:]
-    assert "0.5 s (the scene's own)" in row and "2 s (P2 0.1 mm, 9 nodes, 40 steps)" in row and "3 % in 0.5 s" in row
+    assert "2 s (P2 0.1 mm, 9 nodes, 40 steps)" in row and "3 % in 0.5 s" in row and "2 % in 0.7 s" in row and "not reached" in row
     (row,) = table_lines({"200_hz_friction": made_up(0.008)})[2:]
     assert "unknown: the reference is uncertain by 0.8 %" in row
 

@@ -33,8 +33,8 @@ QUICK_FINE = {FLANK: 1.4, BODY: 1.0, LENGTH: 1.0, STEPS: 20}
 BESIDE = {FAMILY: {STEPS: 40, LENGTH: 0.75}, BODY: {FLANK: 2.0}, LENGTH: {FLANK: 8.0, STEPS: 40}, STEPS: {FLANK: 2.0}}
 # Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a coarser setting.
 REMESHED_FINE = {FLANK: 2.0, NODES: 2.0, BODY: 1.0, STEPS: 20}
-CHOICES = {"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)}
-QUICK_CHOICES = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
+CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)}
+QUICK_CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
 # Whose value a level has that stands between the others.
 SCENE, DEFAULT = "scene", "default"
 
@@ -120,7 +120,7 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     values, unit, orders = QUICK if quick else FULL, half_width(scene), expected_orders(scene)
     orders[LENGTH] = (None, "nothing, once all that touches is inside")
     whole_length = fine(scene, quick).length
-    sizes = {
+    sizes: dict[str, list[dict]] = {
         FAMILY: [{"flank": unit / each, "spacing": NODE_SPACING * unit / each} for each in values[FAMILY]],
         FLANK: [{"flank": unit / each} for each in values[FLANK]],
         NODES: [{"spacing": unit / each} for each in values[NODES]],

@@ -176,17 +176,16 @@ class AccuracyStudy:
             (each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels
         }
         plain = without_settings(self.scene)
-        chosen = {OWN: (own_setting(self.scene), self.scene)}
+        chosen: dict[str, Setting | None] = {OWN: own_setting(self.scene)}
         if plain != self.scene:
-            chosen[DEFAULTS] = own_setting(plain), plain
-        for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting)):
-            chosen[setting.words] = (setting, setting.of(self.scene))
-        for name in MODELS:
-            chosen[name] = (None, replace(self.scene, accuracy=_accuracy_of(self.scene, name)))
-        answers, times = self._in_turns({name: scene for name, (_, scene) in chosen.items()})
+            chosen[DEFAULTS] = own_setting(plain)
+        for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH):
+            chosen[setting.words] = setting
+        chosen |= dict.fromkeys(MODELS)
+        answers, times = self._in_turns({name: scene_of(self.scene, name, setting) for name, setting in chosen.items()})
         found = []
         for name in answers:
-            setting = chosen[name][0]
+            setting = chosen[name]
             parts = {} if setting is None else whole.parts_of(setting, ran, errors)
             found.append(WholeResult(name, setting, distances(answers[name], reference), parts, times[name]))
         if OWN not in answers:
@@ -251,6 +250,13 @@ class AccuracyStudy:
         limits = {name: _limit(refinement, regular, base, name) for name in base}
         levels = tuple(LevelResult(level, {name: _error(found, limits, name) for name in MEASURES}, times) for level, found, times in ran)
         return RefinementResult(refinement, levels, limits)
+
+
+def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
+    """The scene with a whole setting, or with the cheaper model of a name. Its own and the default settings are left as they are decided there."""
+    if setting is None:
+        return replace(scene, accuracy=_accuracy_of(scene, name))
+    return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)
 
 
 def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:

@@ -14,11 +14,15 @@ from fenics_gears.model.cost import operator_bytes
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.convergence import largest_part
-from fenics_gears.studies.accuracy.refinement import LENGTH, OF_FAMILY, Refinement
+from fenics_gears.studies.accuracy.refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
 from fenics_gears.studies.accuracy.setting import Setting
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
-KEPT_PART, MOST_KEPT = 0.6, 9
+KEPT_PART, MOST_KEPT = 0.7, 9
+# Halving flank elements and contact nodes costs most, so that it waits until this part of their error is the largest.
+WAITS = {FAMILY: 0.5}
+# What is well below 0.1 % is not looked for.
+ENOUGH = 0.0008
 # Contact operators of a mesh cycle are held all at once; larger ones are not tried.
 MOST_BYTES = 1.8e9
 
@@ -48,10 +52,11 @@ def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
     return front
 
 
-def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True) -> list[Setting]:
-    """Whole settings from the coarsest on: from one to the next the setting with the largest error goes one level finer.
+def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True, enough: float = 0.0) -> list[Setting]:
+    """Whole settings from the coarsest on: from one to the next the setting with the largest error, weighed by WAITS, goes one level finer.
 
-    The path ends where that setting has no finer level that is `allowed`; its end is kept. Choices, such as the element, are those of `base`.
+    The path ends where the sum of errors is below `enough`, or where that setting has no finer level that is `allowed`; its end is kept. Choices, such
+    as the element, are those of `base`.
     """
     moving = {each.name: each for each in refinements if (each.expected is not None or each.name == LENGTH) and each.name not in OF_FAMILY}
     levels = {name: [place for place, level in enumerate(each.levels) if not level.own and (name, place) in errors] for name, each in moving.items()}
@@ -66,8 +71,8 @@ def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allow
         if sum(parts.values()) <= KEPT_PART * last:
             last = sum(parts.values())
             found.append(setting())
-        worst = largest_part(parts)
-        if at[worst] + 1 == len(levels[worst]) or last == 0.0:
+        worst = largest_part({name: error * WAITS.get(name, 1.0) for name, error in parts.items()})
+        if at[worst] + 1 == len(levels[worst]) or sum(parts.values()) <= enough:
             break
         at[worst] += 1
     if found and found[-1] != setting() and allowed(setting()):
