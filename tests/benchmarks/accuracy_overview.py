@@ -130,7 +130,7 @@ def _panel(axes: Axes, found: Overview) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     # Errors of the models reach 100 %; above is room for the words.
-    axes.set_ylim(1e-4, 10.0)
+    axes.set_ylim(1e-4, 80.0)
     for target in TARGETS:
         axes.axhline(target, color=GREY, linestyle=":", linewidth=1.0, label="targets: " + ", ".join(f"{100 * each:g} %" for each in TARGETS))
     # The corner that a falling front leaves free.
