@@ -80,7 +80,7 @@ def step_residuals(run: Run, before, record) -> dict[str, float]:
     slip_before = None if before is None else _slip_before(operator, before)
     laws = law_residual(forces, displacement, operator.gap, slip_before, run.friction)
     load = float(np.abs(run.model.drivetrain.load).max())
-    force = max(float(np.abs(forces).max(initial=0.0)), load, 1e-3)
+    force = max(float(np.abs(forces).max(initial=0.0)), load, 5e-3)
     terms = (operator.gap, record.state.position, operator.compliance @ forces)
     length = max(float(np.abs(each).max(initial=0.0)) for each in terms)
     found = {
