@@ -99,7 +99,8 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     pair = flanks.pair
     place = corner_place(pair, corner, theoretical)
     gears, line = (pair.pinion, pair.wheel), place.line_in(pair)
-    offsets = offsets_between(*edge_limits(pair, corner, place), grid)
+    (tip_1, form_2), (form_1, tip_2) = edge_ends(pair, corner, place)
+    offsets = offsets_between(max(tip_1, form_2), min(form_1, tip_2), grid, (tip_1 >= form_2, tip_2 <= form_1))
     if not len(offsets):
         return None
     at, removals = INTERPOLATIONS[grid.interpolation].places(offsets), flanks.removal_at(place)
@@ -110,15 +111,15 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     return nodes_on_flanks(flanks, grid, place, offsets, (x_1, x_2), line.length - x_1 - x_2)
 
 
-def edge_limits(pair: GearPair, corner: CornerContact, place: Place) -> tuple[float, float]:
-    """Offsets (mm) between which both flanks exist, seen along the place's line: from tip edges' ends to form circles."""
+def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Offsets (mm) where the flanks end, seen along the place's line, as of `window.flank_ends`; tips at the far end of their edge."""
     line, ends = place.line_in(pair), []
     for gear, edge, roll, arm, sense in zip((pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.lever_arms, SENSES):
         tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
         form = flank_point(gear.base_radius, gear.form_roll_angle, roll)[1]
         ends.append((sense * (tip - arm), sense * (form - arm)))
     (pinion_tip, pinion_form), (wheel_tip, wheel_form) = ends
-    return max(pinion_tip, wheel_form), min(pinion_form, wheel_tip)
+    return (pinion_tip, wheel_form), (pinion_form, wheel_tip)
 
 
 def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
@@ -143,5 +144,5 @@ def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theor
         if beyond * (pair.pinion, pair.wheel)[tip].base_radius > grid.length:
             return False
     half = 0.5 * grid.length
-    lowest, highest = edge_limits(pair, corner, corner_place(pair, corner, theoretical))
-    return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
+    below, above = edge_ends(pair, corner, corner_place(pair, corner, theoretical))
+    return min(*above, half) - max(*below, -half) > 1e-9 * grid.length

@@ -18,7 +18,7 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.geometry.pair import GearPair
 
 # Sizes of the cells beside an edge, in spacings: whole spacings together, so that the other nodes do not jump where an edge enters the window.
-EDGE_CELLS = np.array([0.25, 0.25, 0.5])
+EDGE_CELLS, NO_CELLS = np.array([0.25, 0.25, 0.5]), np.empty(0)
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class ContactGrid:
     @cached_property
     def edge_cells(self) -> np.ndarray:
         """Sizes of the cells beside an edge, in spacings."""
-        return EDGE_CELLS if self.closer_at_edges else EDGE_CELLS[:0]
+        return EDGE_CELLS if self.closer_at_edges else NO_CELLS
 
     @cached_property
     def evenly(self) -> np.ndarray:
@@ -111,11 +111,15 @@ def node_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: Conta
 
     `contact_rolls` (rad): of either gear on the line of action.
     """
-    return offsets_between(*flank_limits(pair, contact_rolls), grid)
+    (tip_1, form_2), (form_1, tip_2) = flank_ends(pair, contact_rolls)
+    return offsets_between(max(tip_1, form_2), min(form_1, tip_2), grid, (tip_1 >= form_2, tip_2 <= form_1))
 
 
-def offsets_between(lowest: float, highest: float, grid: ContactGrid) -> np.ndarray:
-    """Offsets (n,), mm, increasing, of the contact nodes where the flanks exist between two offsets (mm)."""
+def offsets_between(lowest: float, highest: float, grid: ContactGrid, tips: tuple[bool, bool]) -> np.ndarray:
+    """Offsets (n,), mm, increasing, of the contact nodes where the flanks exist between two offsets (mm).
+
+    `tips`: whether it is a tip that ends them there, beside which nodes stand closer, and not a form circle.
+    """
     half = 0.5 * grid.length
     start, end = max(lowest, -half), min(highest, half)
     length = end - start
@@ -123,13 +127,12 @@ def offsets_between(lowest: float, highest: float, grid: ContactGrid) -> np.ndar
         return np.empty(0)
     cut_low, cut_high = lowest > -half, highest < half
     if cut_low and cut_high:
-        even = round(length / grid.spacing - 2.0 * grid.edge_cells.sum())
-        cells = np.ones(max(1, round(length / grid.spacing)))
-        if even >= 0:
-            cells = np.concatenate([grid.edge_cells, np.ones(even), grid.edge_cells[::-1]])
+        below, above = (grid.edge_cells if tip else NO_CELLS for tip in tips)
+        even = round(length / grid.spacing - below.sum() - above.sum())
+        cells = np.concatenate([below, np.ones(even), above[::-1]]) if even >= 0 else np.ones(max(1, round(length / grid.spacing)))
         return start + length / cells.sum() * np.concatenate([[0.0], np.cumsum(cells)])
     # As far as the window reaches, one cell at least; the tolerance keeps the node count of an uncut window whole in spite of round-off.
-    distances = grid.beside_an_edge if cut_low or cut_high else grid.evenly
+    distances = grid.beside_an_edge if cut_low and tips[0] or cut_high and tips[1] else grid.evenly
     distances = distances[: np.searchsorted(distances, length * (1.0 + 1e-12), "right")]
     if len(distances) == 1:
         distances = np.array([0.0, length])
