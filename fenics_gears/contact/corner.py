@@ -16,7 +16,7 @@ import numpy as np
 from fenics_gears.contact.flank_at_height import flank_at_height
 from fenics_gears.contact.interpolation import INTERPOLATIONS
 from fenics_gears.contact.tooth_pair import SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
-from fenics_gears.contact.window import ContactGrid, offsets_between
+from fenics_gears.contact.window import ContactGrid, Ends, node_offsets, window
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tip_edge import TipEdge, tip_edge
@@ -99,8 +99,7 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     pair = flanks.pair
     place = corner_place(pair, corner, theoretical)
     gears, line = (pair.pinion, pair.wheel), place.line_in(pair)
-    (tip_1, form_2), (form_1, tip_2) = edge_ends(pair, corner, place)
-    offsets = offsets_between(max(tip_1, form_2), min(form_1, tip_2), grid, (tip_1 >= form_2, tip_2 <= form_1))
+    offsets = node_offsets(edge_ends(pair, corner, place), grid)
     if not len(offsets):
         return None
     at, removals = INTERPOLATIONS[grid.interpolation].places(offsets), flanks.removal_at(place)
@@ -111,7 +110,7 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     return nodes_on_flanks(flanks, grid, place, offsets, (x_1, x_2), line.length - x_1 - x_2)
 
 
-def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> tuple[tuple[float, float], tuple[float, float]]:
+def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> Ends:
     """Offsets (mm) where the flanks end, seen along the place's line, as of `window.flank_ends`; tips at the far end of their edge."""
     line, ends = place.line_in(pair), []
     for gear, edge, roll, arm, sense in zip((pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.lever_arms, SENSES):
@@ -143,6 +142,4 @@ def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theor
         beyond = theoretical.contact_rolls[tip] - corner.edges[tip].flank_roll
         if beyond * (pair.pinion, pair.wheel)[tip].base_radius > grid.length:
             return False
-    half = 0.5 * grid.length
-    below, above = edge_ends(pair, corner, corner_place(pair, corner, theoretical))
-    return min(*above, half) - max(*below, -half) > 1e-9 * grid.length
+    return window(edge_ends(pair, corner, corner_place(pair, corner, theoretical)), grid) is not None

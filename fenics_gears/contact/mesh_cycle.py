@@ -17,7 +17,7 @@ from fenics_gears.contact.addresses import GAP, addresses
 from fenics_gears.contact.operator import CompliancePairing, ContactOperator, contact_operator, node_slices
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
 from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, coast_place, drive_place, tooth_pair
-from fenics_gears.contact.window import ContactGrid, flank_limits
+from fenics_gears.contact.window import ContactGrid, flank_ends, window
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
@@ -66,15 +66,13 @@ def pair_places(
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips touch by
     their edges too; places are theoretical ones all the same.
     """
-    half = 0.5 * grid.length
 
     def can_touch(place: Place) -> bool:
         if corner is not None:
             from fenics_gears.contact.corner import pair_reaches
 
             return pair_reaches(pair, grid, corner, place)
-        lowest, highest = flank_limits(pair, place.contact_rolls)
-        return min(highest, half) - max(lowest, -half) > 1e-9 * grid.length
+        return window(flank_ends(pair, place.contact_rolls), grid) is not None
 
     # Off the line of action a tip can touch up to the window's length before and after the path of contact.
     reach = 2 + int(np.ceil(grid.length / pair.base_pitch))

@@ -74,11 +74,11 @@ def node_pairs(
 
 def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
     """Offsets (mm) of the contact grid, without an end node that lies very near to an end of either flank."""
-    offsets = node_offsets(pair, contact_rolls, grid)
+    below, above = ends = flank_ends(pair, contact_rolls)
+    offsets = node_offsets(ends, grid)
     if len(offsets) < 3:
         return offsets
     near, exact = SMALLEST_REST * grid.spacing, 1e-9 * grid.spacing
-    below, above = flank_ends(pair, contact_rolls)
     first = int(any(exact < offsets[0] - end < near for end in below))
     last = len(offsets) - int(any(exact < end - offsets[-1] < near for end in above))
     return offsets[first:last]

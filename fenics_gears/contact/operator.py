@@ -279,12 +279,6 @@ def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarra
     return straight - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0])) - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
 
 
-def sliding_now(pairs: tuple[PairNodes, ...], base_radii: tuple[float, float]) -> np.ndarray:
-    """Sliding (n,), mm per rad of the pinion, of rigid gears at this position: x - (z1/z2) (L - x) of [12], zero at the pitch point."""
-    lines = lines_of(pairs, base_radii)
-    return lines.turn * (lines.friction_arms[0] - base_radii[0] / base_radii[1] * lines.friction_arms[1])
-
-
 def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
     """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
     offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms

@@ -18,7 +18,7 @@ from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
 from fenics_gears.contact.operator import ContactOperator, operator_on_lines, over_nodes
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
-from fenics_gears.contact.window import ContactGrid, node_offsets
+from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
 from fenics_gears.geometry.pair import GearPair
 
 # Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
@@ -78,7 +78,7 @@ class RigidCycle(Cycle):
         return unit
 
     def _pair(self, place: Place) -> PairNodes | None:
-        offsets = node_offsets(self.pair, place.contact_rolls, self.grid)
+        offsets = node_offsets(flank_ends(self.pair, place.contact_rolls), self.grid)
         if not len(offsets):
             return None
         if offsets[0] < 0.0 < offsets[-1]:

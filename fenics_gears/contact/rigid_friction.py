@@ -10,9 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.contact.operator import ContactOperator, sliding_now
+from fenics_gears.contact.operator import ContactOperator, lines_of
 from fenics_gears.contact.rigid_cycle import RigidCycle, pairs_that_touch
 from fenics_gears.contact.step_solver import StepProblem
+from fenics_gears.geometry.sliding import sliding_per_rotation
 
 
 class RigidFrictionCycle(RigidCycle):
@@ -26,7 +27,7 @@ class RigidFrictionCycle(RigidCycle):
 
     def _unit_forces(self, operator: ContactOperator, problem: StepProblem, touching: list[int]) -> np.ndarray:
         """Forces (2 n, t) per unit mesh force: even shares on the nearest node of each pair that touches with a leader, and their friction."""
-        count, sliding = len(problem.gap), np.sign(sliding_now(operator.pairs, operator.base_radii))
+        count, sliding = len(problem.gap), np.sign(self._sliding(operator))
         unit = np.zeros((2 * count, len(touching)))
         for column, leader in enumerate(touching):
             together = pairs_that_touch(operator, leader)
@@ -36,3 +37,8 @@ class RigidFrictionCycle(RigidCycle):
                 unit[node, column] = 1.0 / len(together)
                 unit[count + node, column] = problem.friction * sliding[node] / len(together)
         return unit
+
+    def _sliding(self, operator: ContactOperator) -> np.ndarray:
+        """Sliding (n,) of the nominal motion at this position, mm per rad of the pinion."""
+        lines = lines_of(operator.pairs, operator.base_radii)
+        return lines.turn * sliding_per_rotation(self.pair, lines.friction_arms[0])

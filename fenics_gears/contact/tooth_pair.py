@@ -9,7 +9,7 @@ import numpy as np
 
 from fenics_gears.contact.flank_at_height import flank_at_height
 from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, hat_integrals
-from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, node_offsets
+from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, flank_ends, node_offsets
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.pair import GearPair
 
@@ -134,7 +134,7 @@ def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None]
 
 def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | None:
     """The contact nodes of the flanks at a place, or None where their window is empty."""
-    offsets = node_offsets(flanks.pair, place.contact_rolls, grid)
+    offsets = node_offsets(flank_ends(flanks.pair, place.contact_rolls), grid)
     if not len(offsets):
         return None
     at = INTERPOLATIONS[grid.interpolation].places(offsets)

@@ -3,7 +3,7 @@
 A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows
 the moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with
 it: nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is. Nodes stand closer beside
-such an edge, whose contact pressure rises steeply towards it.
+a tip, towards whose edge the contact pressure rises steeply.
 """
 
 from __future__ import annotations
@@ -19,13 +19,15 @@ from fenics_gears.geometry.pair import GearPair
 
 # Sizes of the cells beside an edge, in spacings: whole spacings together, so that the other nodes do not jump where an edge enters the window.
 EDGE_CELLS, NO_CELLS = np.array([0.25, 0.25, 0.5]), np.empty(0)
+# Offsets (mm) where the flanks end below the line of action (pinion's tip, wheel's form circle), and above it (pinion's form circle, wheel's tip).
+Ends = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
 class ContactGrid:
     """Length of the contact window in mm, contact nodes in a whole window, and the name of their interpolation of the flanks.
 
-    `closer_at_edges`: nodes stand closer beside an edge that cuts the window.
+    `closer_at_edges`: nodes stand closer beside a tip that cuts the window.
     """
 
     length: float
@@ -79,8 +81,8 @@ def coast_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
     )
 
 
-def flank_ends(pair: GearPair, contact_rolls: tuple[float, float]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Offsets (mm) where the flanks end: below the line of action (pinion's tip, wheel's form circle), and above it (the others)."""
+def flank_ends(pair: GearPair, contact_rolls: tuple[float, float]) -> Ends:
+    """Offsets (mm) where the flanks end on the line of action of either gear's contact roll angle (rad)."""
     pinion, wheel = pair.pinion, pair.wheel
     roll_1, roll_2 = contact_rolls
 
@@ -100,39 +102,31 @@ def flank_ends(pair: GearPair, contact_rolls: tuple[float, float]) -> tuple[tupl
     return below, above
 
 
-def flank_limits(pair: GearPair, contact_rolls: tuple[float, float]) -> tuple[float, float]:
-    """Offsets (mm) between which both flanks exist: tips on one side, form circles on the other."""
-    below, above = flank_ends(pair, contact_rolls)
-    return max(below), min(above)
-
-
-def node_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
-    """Offsets `y` (n,), mm, increasing, of the contact nodes of a pair; empty when it cannot touch.
-
-    `contact_rolls` (rad): of either gear on the line of action.
-    """
-    (tip_1, form_2), (form_1, tip_2) = flank_ends(pair, contact_rolls)
-    return offsets_between(max(tip_1, form_2), min(form_1, tip_2), grid, (tip_1 >= form_2, tip_2 <= form_1))
-
-
-def offsets_between(lowest: float, highest: float, grid: ContactGrid, tips: tuple[bool, bool]) -> np.ndarray:
-    """Offsets (n,), mm, increasing, of the contact nodes where the flanks exist between two offsets (mm).
-
-    `tips`: whether it is a tip that ends them there, beside which nodes stand closer, and not a form circle.
-    """
+def window(ends: Ends, grid: ContactGrid) -> tuple[float, float] | None:
+    """Offsets (mm) between which flanks with these ends exist in the grid's window; None where they do not."""
     half = 0.5 * grid.length
-    start, end = max(lowest, -half), min(highest, half)
-    length = end - start
-    if length <= 1e-9 * grid.length:
+    start, end = max(*ends[0], -half), min(*ends[1], half)
+    return (start, end) if end - start > 1e-9 * grid.length else None
+
+
+def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
+    """Offsets `y` (n,), mm, increasing, of the contact nodes of flanks with these ends; empty where they cannot touch.
+
+    Nodes stand closer beside a tip that cuts the window, not beside a form circle.
+    """
+    inside = window(ends, grid)
+    if inside is None:
         return np.empty(0)
-    cut_low, cut_high = lowest > -half, highest < half
+    (start, end), ((tip_1, form_2), (form_1, tip_2)) = inside, ends
+    half, length = 0.5 * grid.length, end - start
+    cut_low, cut_high = start > -half, end < half
+    below, above = (grid.edge_cells if tip else NO_CELLS for tip in (tip_1 >= form_2, tip_2 <= form_1))
     if cut_low and cut_high:
-        below, above = (grid.edge_cells if tip else NO_CELLS for tip in tips)
         even = round(length / grid.spacing - below.sum() - above.sum())
         cells = np.concatenate([below, np.ones(even), above[::-1]]) if even >= 0 else np.ones(max(1, round(length / grid.spacing)))
         return start + length / cells.sum() * np.concatenate([[0.0], np.cumsum(cells)])
     # As far as the window reaches, one cell at least; the tolerance keeps the node count of an uncut window whole in spite of round-off.
-    distances = grid.beside_an_edge if cut_low and tips[0] or cut_high and tips[1] else grid.evenly
+    distances = grid.beside_an_edge if cut_low and len(below) or cut_high and len(above) else grid.evenly
     distances = distances[: np.searchsorted(distances, length * (1.0 + 1e-12), "right")]
     if len(distances) == 1:
         distances = np.array([0.0, length])

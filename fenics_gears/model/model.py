@@ -86,6 +86,11 @@ class Model:
         resolution = self.resolution
         return touching(self.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None, self.corner)
 
+    def transmission_error(self, position: np.ndarray) -> np.ndarray:
+        """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
+        gears = self.scene.gears
+        return self.drivetrain.value(position, "rotation_2") + gears.pinion.teeth / gears.wheel.teeth * self.drivetrain.value(position, "rotation_1")
+
     @property
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""

@@ -85,9 +85,7 @@ class Extrema:
 
     def transmission_error(self, record: Record) -> float:
         """The transmission error, rad, at a position."""
-        drivetrain, gears = self._model.drivetrain, self._model.scene.gears
-        first, second = (drivetrain.value(record.state.position, name) for name in ("rotation_1", "rotation_2"))
-        return float(second + gears.pinion.teeth / gears.wheel.teeth * first)
+        return float(self._model.transmission_error(record.state.position))
 
     def _marched(self, record: Record) -> bool:
         return not self._quasi_static or abs(self.transmission_error(record) - self._error[self._place(record.step)]) <= self._same

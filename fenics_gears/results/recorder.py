@@ -134,8 +134,7 @@ class Recorder:
             return np.stack([drivetrain.value(states, first), drivetrain.value(states, second)], axis=1)
 
         rotation = both("rotation_1", "rotation_2")
-        ratio = scene.gears.pinion.teeth / scene.gears.wheel.teeth
-        values = {"transmission_error": rotation[:, 1] + ratio * rotation[:, 0], "rotation": rotation}
+        values = {"transmission_error": self.model.transmission_error(states), "rotation": rotation}
         if scene.bearings is not None:
             values["centre_x"] = both("centre_x1", "centre_x2")
             values["centre_y"] = both("centre_y1", "centre_y2")

@@ -10,12 +10,12 @@ from fenics_gears.contact.interpolation import (
     node_average,
     quadrature_offsets,
 )
-from fenics_gears.contact.window import ContactGrid, contact_roll_angles, node_offsets
+from fenics_gears.contact.window import ContactGrid, contact_roll_angles, flank_ends, node_offsets
 
 
 def interpolation_at(pair, xi, order, grid=ContactGrid(2.0, 21), elements=50):
     pinion = pair.pinion
-    offsets, contact_roll = node_offsets(pair, contact_roll_angles(pair, xi), grid), xi / pinion.base_radius
+    offsets, contact_roll = node_offsets(flank_ends(pair, contact_roll_angles(pair, xi)), grid), xi / pinion.base_radius
     rolls = roll_angle_at_height(pinion.base_radius, contact_roll, pinion.base_radius - offsets)
     arc = np.linspace(pinion.form_roll_angle**2, pinion.tip_roll_angle**2, order * elements + 1)
     flank_rolls = np.sqrt(arc)

@@ -8,9 +8,10 @@ import pytest
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.corner import corner_contact
 from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places
-from fenics_gears.contact.operator import over_nodes, sliding_now
+from fenics_gears.contact.operator import over_nodes
 from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.geometry.sliding import sliding_per_rotation
 
 GRID = ContactGrid(length=2.5, nodes=26)
 STEPS = 12
@@ -119,7 +120,7 @@ def test_sliding_vanishes_at_the_pitch_point(cycle, paper_pair):
     for step in range(STEPS):
         operator = cycle.position(step).operator
         arm = over_nodes(operator.pairs, "pinion_lever_arm")
-        sliding = sliding_now(operator.pairs, operator.base_radii)
+        sliding = sliding_per_rotation(paper_pair, arm)
         assert sliding == pytest.approx((arm - paper_pair.pitch_point) * (1.0 + paper_pair.rotation_ratio), abs=1e-12)
 
 
