@@ -13,6 +13,7 @@ from fenics_gears.contact.face_pairing import FacePair, FacePairing
 from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position, pair_places
 from fenics_gears.contact.operator import operator_on_lines, turned
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair, flank_points, interpolations, tooth_pair
+from fenics_gears.contact.touching import Touching, touching_at
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
@@ -96,3 +97,11 @@ class FaceCycle(Cycle):
         compliance, earlier, dependent = self._pairing.compliance(pairs, before, turned(self.pair, advance))
         operator = operator_on_lines(self.pair, pairs, self._coordinates, compliance, earlier, advance, dependent, self.face)
         return Position(operator, carried)
+
+
+def touching_on_face(pair, grid: ContactGrid, face: Face, steps: int, coast_flanks: bool = False, corner=None) -> Touching:
+    """Where the pairs of a mesh cycle touch in any slice."""
+    ends = sorted({int(face.shifts.argmin()), int(face.shifts.argmax())})
+    # Slices between the outermost two touch between them.
+    outer = Face(face.positions[ends], face.widths[ends], face.slope, face.middles)
+    return touching_at(lambda step: face_places(pair, grid, outer, step / steps, coast_flanks, corner), steps, coast_flanks)

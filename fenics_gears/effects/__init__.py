@@ -28,7 +28,7 @@ from fenics_gears.effects import (
     tooth_elasticity,
     torque_ripple,
 )
-from fenics_gears.effects.effect import OF_PAIRS, OF_POINTS, Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
     tooth_elasticity.EFFECT,
@@ -71,6 +71,11 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS),
 )
 
+# What a run has besides where the flanks are resolved over the face.
+FACE_VARIABLES: tuple[ResultVariable, ...] = (
+    ResultVariable("line_load", "N/mm", "contact force of the tooth pair along the contact normal, per length of the face", dims=OF_SLICES),
+)
+
 # What only contact that is spread over nodes has.
 OVER_CONTACT_NODES = tuple(
     f"{side}contact_{name}" for side in ("", "coast_") for name in ("pressure", "traction", "offset", "roll_angle")
@@ -103,6 +108,8 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     on = effects_on(scene)
     named = {each.section for each in on}
     found = COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
+    if scene.three_dimensional:
+        found = tuple(replace(each, dims=(*OF_SLICES, "contact_node")) if each.dims == OF_NODES else each for each in (*found, *FACE_VARIABLES))
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     if not scene.motion.speed_given:
         left_out = (*left_out, "sliding_speed")

@@ -127,6 +127,11 @@ class Scene:
         return None if self.accuracy.model == RIGID_TEETH else self.gears.materials
 
     @property
+    def three_dimensional(self) -> bool:
+        """Whether the flanks are resolved over the face."""
+        return getattr(self, "forced", False)
+
+    @property
     def resolves_contact(self) -> bool:
         """Whether contact is spread over nodes of elastic flanks, so that there are pressures."""
         return self.tooth_elasticity is not None and self.accuracy.model in (None, ELASTIC)
