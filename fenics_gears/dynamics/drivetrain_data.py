@@ -73,11 +73,23 @@ class Support:
 
 
 @dataclass(frozen=True)
+class BearingPlaces:
+    """Places (mm) of the two bearings of the pinion's and of the wheel's shaft, along the axis from the gear's mid-width; a gear without does not tilt."""
+
+    pinion: tuple[float, ...] | None = None
+    wheel: tuple[float, ...] | None = None
+
+
+@dataclass(frozen=True)
 class Bearings(Support):
-    """Support of both shafts, and of `pinion` and `wheel` where they have their own."""
+    """Support of both shafts, and of `pinion` and `wheel` where they have their own.
+
+    `places`: of the bearings, each of which has half of the stiffness across the axis; without them gears neither tilt nor move axially.
+    """
 
     pinion: Support | None = None
     wheel: Support | None = None
+    places: BearingPlaces | None = None
 
     def of(self, gear: str, direction: str) -> float:
         """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"."""
