@@ -60,11 +60,13 @@ class Shafts:
 
 @dataclass(frozen=True)
 class Support:
-    """Translational stiffness of one shaft's support, N/mm: in every direction, along and across the line of action; None: as of both shafts."""
+    """Translational stiffness of one shaft's support, N/mm: in every direction across the axis, along and off the line of action, and along the
+    axis; None: as of both shafts."""
 
     stiffness: float | None = None
     stiffness_x: float | None = None
     stiffness_y: float | None = None
+    axial_stiffness: float | None = None
 
     def along(self, direction: str) -> float | None:
         """Stiffness in "x" or "y"; None where it is not given."""
@@ -73,17 +75,38 @@ class Support:
 
 
 @dataclass(frozen=True)
+class BearingPlaces:
+    """Places (mm) of the two bearings of the pinion's and of the wheel's shaft, along the axis from the gear's mid-width; a gear without does not tilt."""
+
+    pinion: tuple[float, ...] | None = None
+    wheel: tuple[float, ...] | None = None
+
+
+@dataclass(frozen=True)
 class Bearings(Support):
-    """Support of both shafts, and of `pinion` and `wheel` where they have their own."""
+    """Support of both shafts, and of `pinion` and `wheel` where they have their own.
+
+    `places`: of the bearings, each of which has half of the stiffness across the axis; without them gears neither tilt nor move axially.
+    """
 
     pinion: Support | None = None
     wheel: Support | None = None
+    places: BearingPlaces | None = None
 
     def of(self, gear: str, direction: str) -> float:
         """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"."""
         own = getattr(self, gear)
         stiffness = None if own is None else own.along(direction)
         return self.along(direction) if stiffness is None else stiffness
+
+    def axial(self, gear: str) -> float | None:
+        """Axial stiffness (N/mm) of the "pinion"'s or the "wheel"'s shaft; None where it is held."""
+        own = getattr(getattr(self, gear), "axial_stiffness", None)
+        return self.axial_stiffness if own is None else own
+
+    def places_of(self, gear: str) -> tuple[float, ...] | None:
+        """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft; None where that gear does not tilt."""
+        return getattr(self.places, gear, None)
 
 
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")

@@ -71,6 +71,13 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS),
 )
 
+# What every run over a face has besides: moments about the gears' mid-widths.
+OVER_THE_FACE: tuple[ResultVariable, ...] = (
+    ResultVariable("reaction_z", "N", "axial force of the gear on its shaft", dims=("time", "gear")),
+    ResultVariable("reaction_moment_x", "N mm", "moment of the gear on its shaft about the line of action, at mid-width", dims=("time", "gear")),
+    ResultVariable("reaction_moment_y", "N mm", "moment of the gear on its shaft off the line of action, at mid-width", dims=("time", "gear")),
+)
+
 # What only contact that is spread over nodes has.
 OVER_CONTACT_NODES = tuple(
     f"{side}contact_{name}" for side in ("", "coast_") for name in ("pressure", "traction", "offset", "roll_angle")
@@ -102,7 +109,9 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     """Every variable that the result of a scene has."""
     on = effects_on(scene)
     named = {each.section for each in on}
-    found = COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
+    common = (*COMMON_VARIABLES, *OVER_THE_FACE) if scene.three_dimensional else COMMON_VARIABLES
+    there = [(found, getattr(scene, each.section)) for each in on for found in each.variables if not found.needs or found.needs in named]
+    found = common + tuple(found for found, data in there if not found.field or getattr(data, found.field) is not None)
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     if not scene.motion.speed_given:
         left_out = (*left_out, "sliding_speed")

@@ -23,13 +23,14 @@ OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "cont
 @dataclass(frozen=True)
 class ResultVariable:
     """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without which it is not there;
-    ``dims``: its dimensions."""
+    ``dims``: its dimensions; ``field``: the field of the effect's own section without which it is not there."""
 
     name: str
     units: str
     long_name: str
     needs: str = ""
     dims: tuple[str, ...] = ("time",)
+    field: str = ""
 
 
 @dataclass(frozen=True)

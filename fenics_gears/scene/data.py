@@ -116,6 +116,11 @@ class Scene:
     speed_ramp: SpeedRamp | None = None
 
     @property
+    def three_dimensional(self) -> bool:
+        """Whether the flanks have a width: what happens along the axes is computed."""
+        return self.bearings is not None and self.bearings.places is not None
+
+    @property
     def mesh_frequencies(self) -> tuple[float, float]:
         """The lowest and the highest mesh frequency of the run, Hz."""
         ends = [self.motion.mesh_frequency] + ([self.speed_ramp.end_frequency] if self.speed_ramp is not None else [])

@@ -115,6 +115,6 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene, paper_pair):
     assert not [name for name in drivetrain(bare, paper_pair).coordinates if name.startswith("centre")]
     assert len(drivetrain(bare, paper_pair).stiffness) == 3
     gone = {variable.name for variable in effect_named("bearings").variables}
-    assert gone == {"centre_x", "centre_y", "energy_bearings"}
+    assert gone == {"centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "energy_bearings"}
     assert not gone & {variable.name for variable in result_variables(bare)}
     assert not gone & set(simulate(replace(quasi_static(coarse_scene(bare)))))
