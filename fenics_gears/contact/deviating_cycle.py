@@ -23,7 +23,7 @@ class DeviatingCycle(Cycle):
     def __init__(self, cycle: Cycle, deviations: Sequence[Deviation]):
         super().__init__(cycle.pair, cycle.grid, cycle.steps, cycle.coast_flanks, cycle.corner)
         self.cycle, self.deviations, self.traits = cycle, tuple(deviations), cycle.traits
-        self.kept = cycle.kept
+        self.kept, self.face = cycle.kept, cycle.face
 
     @property
     def base(self) -> Cycle:
@@ -52,7 +52,8 @@ class DeviatingCycle(Cycle):
         return self._deviating(step, self.cycle.between(step, before))
 
     def _deviating(self, step: float, position: Position) -> Position:
-        gap = position.operator.gap
+        gap, share = position.operator.gap, 1.0 if self.face is None else self.face.cosine
         for deviation in self.deviations:
-            gap = gap + deviation(step, position)
+            # Deviations are measured along the line of action, gaps along the normal.
+            gap = gap + share * deviation(step, position)
         return position.with_gap(gap)

@@ -22,6 +22,7 @@ from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.contact.corner import CornerContact
+    from fenics_gears.contact.face import Face
 
 
 @dataclass(frozen=True)
@@ -125,6 +126,8 @@ class Cycle:
     """
 
     traits = CycleTraits()
+    # Slices of the flanks along the axes (`contact.face`), where these are resolved.
+    face: Face | None = None
 
     def __init__(
         self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
@@ -297,5 +300,5 @@ def _closer(offsets: np.ndarray, spacing: float) -> set[int]:
     return {end for end, cell in ((0, offsets[1] - offsets[0]), (-1, offsets[-1] - offsets[-2])) if cell < 0.5 * spacing}
 
 
-def _key(pair: PairNodes) -> tuple[int, int]:
-    return pair.place.flank, pair.place.index
+def _key(pair: PairNodes) -> tuple[int, int, int]:
+    return pair.place.flank, pair.place.index, pair.place.slice

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 from math import cos, sin
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +19,9 @@ from fenics_gears.contact.compliance_product import compliance_product, directio
 from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, Place, ToothPair
 from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.face import Face
 
 # The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
 # coordinate is a length and every row a force, and no equation is scaled against another. The output shaft's end goes by its
@@ -40,7 +44,7 @@ class ContactOperator:
     the material points touching now had at the end of the step before is `previous_jacobian q - E p`. The last three are
     None without friction.
 
-    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`.
+    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: of pairs in slices; None in the plane.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -53,6 +57,7 @@ class ContactOperator:
     previous_compliance: np.ndarray | None
     previous_jacobian: np.ndarray | None
     dependent_rows: int = 0
+    face: Face | None = None
 
     @property
     def nodes(self) -> int:
@@ -126,8 +131,9 @@ def displacement_jacobian(
     normal_lever_arms: tuple[np.ndarray, np.ndarray],
     tangential: bool,
     lines: Lines | None = None,
+    face: Face | None = None,
 ) -> np.ndarray:
-    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm.
+    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm; over a `face` (m, 13).
 
     `lines`: of the nodes, where they are known.
     """
@@ -139,7 +145,11 @@ def displacement_jacobian(
     if tangential:
         rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * lines.friction_arms[0] / base_radii[0]
         rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * lines.friction_arms[1] / base_radii[1]
-    return rows
+    if face is None:
+        return rows
+    from fenics_gears.contact.face_jacobian import on_face
+
+    return on_face(rows, lines, face, base_radii)
 
 
 # A flank of a gear, by its tooth's place and its side; contact nodes as `compliance_product` takes them, and none of them.
@@ -151,9 +161,10 @@ NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
 class CompliancePairing:
     """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
 
-    def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None):
-        """`kept`: where blocks of either gear are kept; pairings of the same bodies may share it."""
-        self._widths, self._gears = flanks.pair.face_widths, flanks.compliance
+    def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None, widths: tuple[float, float] | None = None):
+        """`kept`: where blocks of either gear are kept; pairings of the same bodies may share it. `widths` (mm): over which a force spreads in
+        either body, its face width unless given."""
+        self._widths, self._gears = widths or flanks.pair.face_widths, flanks.compliance
         self._blocks = ({}, {}) if kept is None else kept
 
     def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> np.ndarray:
@@ -246,6 +257,7 @@ def operator_on_lines(
     previous_compliance: np.ndarray | None,
     advance: float,
     dependent_rows: int = 0,
+    face: Face | None = None,
 ) -> ContactOperator:
     """The contact equations of nodes whose normal forces act along their pair's line; `previous_compliance` None without friction.
 
@@ -258,12 +270,13 @@ def operator_on_lines(
         base_radii=radii,
         normal_lever_arms=lines.lever_arms,
         compliance=compliance,
-        jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines).take(coordinates, axis=1),
+        jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines, face).take(coordinates, axis=1),
         gap=over_nodes(pairs, "gap"),
         rigid_slip=slip_of_rigid_flanks(lines, turned(gears, advance)) if frictional else None,
         previous_compliance=previous_compliance,
-        previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance)).take(coordinates, axis=1) if frictional else None,
+        previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance), face).take(coordinates, axis=1) if frictional else None,
         dependent_rows=dependent_rows,
+        face=face,
     )
 
 
@@ -282,8 +295,8 @@ def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarra
     return straight - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0])) - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
 
 
-def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned: tuple[float, float]) -> np.ndarray:
-    """Tangential rigid displacement (n, 7) of the points touching now, per centre coordinate one step before."""
+def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned: tuple[float, float], face: Face | None = None) -> np.ndarray:
+    """Tangential rigid displacement (n, 7), over a `face` (n, 13), of the points touching now, per centre coordinate one step before."""
     offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms
     height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
     tangent, turn = lines.tangent, lines.turn
@@ -291,4 +304,8 @@ def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
     rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cos(turned[0]) - turn * height_1 * sin(turned[0])) / radii[0]
     rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cos(turned[1]) - turn * height_2 * sin(turned[1])) / radii[1]
-    return rows
+    if face is None:
+        return rows
+    from fenics_gears.contact.face_jacobian import earlier_tangents_on_face
+
+    return earlier_tangents_on_face(rows, lines, face, radii)

@@ -51,6 +51,7 @@ class Place:
     Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of action's
     direction and the one across it in space, `turn` the sign of rotations. `line`: another line than the
     theoretical line of action, of a tip edge (`contact.corner`); its direction is in `axes`, and `contact_rolls` are measured from it.
+    `slice`, `height` (mm): of the face, and where its middle is along the axes; both 0 in the plane.
     """
 
     index: int
@@ -59,6 +60,8 @@ class Place:
     axes: tuple[tuple[float, float], tuple[float, float]] = ((1.0, 0.0), (0.0, 1.0))
     turn: float = 1.0
     line: Line | None = None
+    slice: int = 0
+    height: float = 0.0
 
     def line_in(self, pair: GearPair) -> Line:
         """The line of action of the flanks: the theoretical one but for tip edges."""
@@ -158,20 +161,11 @@ def nodes_on_flanks(
     `distances`: of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`, mm, where the interpolation wants them.
     """
     view, line = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair)
-    gears, rolls = (flanks.pair.pinion, flanks.pair.wheel), flank_points(flanks.pair, place, offsets)[0]
+    rolls = flank_points(flanks.pair, place, offsets)[0]
     # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that action and
     # reaction leave no torque.
     meeting = 0.5 * (view.seen(offsets, distances[0] - distances[1]) + line.length)
-    interpolation = tuple(
-        view.of_flank(
-            # Offsets from the line at the gear's own base radius.
-            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense,
-            flank.rolls_of(place.ahead(number)), flank.element_order,
-        )
-        for number, (gear, own, roll, arm, sense, flank) in enumerate(
-            zip(gears, rolls, place.contact_rolls, line.lever_arms, SENSES, flanks.compliance)
-        )
-    )  # fmt: skip
+    interpolation = interpolations(flanks, grid, place, offsets, rolls)
     return ToothPair(
         place=place,
         offsets=offsets,
@@ -182,3 +176,21 @@ def nodes_on_flanks(
         pinion_roll=rolls[0],
         interpolation=interpolation,
     )
+
+
+def interpolations(
+    flanks: Flanks, grid: ContactGrid, place: Place, offsets: np.ndarray, rolls: tuple[np.ndarray, np.ndarray]
+) -> tuple[FlankInterpolation, FlankInterpolation]:
+    """How contact nodes at `offsets` (n,), mm, see the nodes of either flank; `rolls` (rad): their roll angles on pinion and wheel."""
+    view, line, gears = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair), (flanks.pair.pinion, flanks.pair.wheel)
+    first, second = (
+        view.of_flank(
+            # Offsets from the line at the gear's own base radius.
+            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense,
+            flank.rolls_of(place.ahead(number)), flank.element_order,
+        )
+        for number, (gear, own, roll, arm, sense, flank) in enumerate(
+            zip(gears, rolls, place.contact_rolls, line.lever_arms, SENSES, flanks.compliance)
+        )
+    )  # fmt: skip
+    return first, second

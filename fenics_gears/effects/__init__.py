@@ -28,7 +28,7 @@ from fenics_gears.effects import (
     tooth_elasticity,
     torque_ripple,
 )
-from fenics_gears.effects.effect import OF_PAIRS, OF_POINTS, Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, Effect, ResultVariable
 
 EFFECTS: tuple[Effect, ...] = (
     tooth_elasticity.EFFECT,
@@ -71,8 +71,9 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS),
 )
 
-# What every run over a face has besides: moments about the gears' mid-widths.
-OVER_THE_FACE: tuple[ResultVariable, ...] = (
+# What a run has besides where the flanks are resolved over the face. Moments are about the gears' mid-widths.
+FACE_VARIABLES: tuple[ResultVariable, ...] = (
+    ResultVariable("line_load", "N/mm", "contact force of the tooth pair along the contact normal, per length of the face", dims=OF_SLICES),
     ResultVariable("reaction_z", "N", "axial force of the gear on its shaft", dims=("time", "gear")),
     ResultVariable("reaction_moment_x", "N mm", "moment of the gear on its shaft about the line of action, at mid-width", dims=("time", "gear")),
     ResultVariable("reaction_moment_y", "N mm", "moment of the gear on its shaft off the line of action, at mid-width", dims=("time", "gear")),
@@ -109,9 +110,10 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     """Every variable that the result of a scene has."""
     on = effects_on(scene)
     named = {each.section for each in on}
-    common = (*COMMON_VARIABLES, *OVER_THE_FACE) if scene.three_dimensional else COMMON_VARIABLES
     there = [(found, getattr(scene, each.section)) for each in on for found in each.variables if not found.needs or found.needs in named]
-    found = common + tuple(found for found, data in there if not found.field or getattr(data, found.field) is not None)
+    found = COMMON_VARIABLES + tuple(found for found, data in there if not found.field or getattr(data, found.field) is not None)
+    if scene.three_dimensional:
+        found = tuple(replace(each, dims=(*OF_SLICES, "contact_node")) if each.dims == OF_NODES else each for each in (*found, *FACE_VARIABLES))
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     if not scene.motion.speed_given:
         left_out = (*left_out, "sliding_speed")

@@ -18,6 +18,8 @@ from fenics_gears.inputs.problem import Problem
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are stored.
 OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)
+# The same over the slices of a face.
+OF_SLICES = ("contact_time", "slot", "face_position")
 
 
 @dataclass(frozen=True)

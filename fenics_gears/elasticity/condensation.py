@@ -17,8 +17,9 @@ from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space,
 class CondensedBody:
     """Stiffness of a body on named groups of boundary nodes, Young's modulus 1 MPa, unit thickness.
 
-    points: coordinates (k, 2) of each group's nodes, mm. stiffness: (2 K, 2 K), N/mm per mm, over the groups in the order of
-    ``points``, dofs interleaved x, y, in the mesh's own frame. timings: seconds and unknowns.
+    points: coordinates (k, 2) of each group's nodes, mm; (k, 3) of a body in three dimensions. stiffness: (2 K, 2 K), N/mm per mm, over the
+    groups in the order of ``points``, dofs interleaved x, y, in the mesh's own frame; (3 K, 3 K), N/mm, interleaved x, y, z, in three
+    dimensions. timings: seconds and unknowns.
     """
 
     points: dict[str, np.ndarray]
@@ -28,8 +29,8 @@ class CondensedBody:
     def dofs(self, name: str) -> np.ndarray:
         """Rows of a group's dofs."""
         names = list(self.points)
-        first = 2 * sum(len(self.points[other]) for other in names[: names.index(name)])
-        return np.arange(first, first + 2 * len(self.points[name]))
+        first = sum(self.points[other].size for other in names[: names.index(name)])
+        return np.arange(first, first + self.points[name].size)
 
     def between(self, row: str, column: str) -> np.ndarray:
         """Stiffness block of two groups."""
@@ -74,9 +75,9 @@ def _nodes(space, points: dict[str, np.ndarray], cells_of: dict[str, np.ndarray]
     return np.concatenate([nodes[name] if name in nodes else nodes_in_cells(space, points[name], cells_of[name]) for name in points])
 
 
-def dofs_of(nodes: np.ndarray) -> np.ndarray:
-    """Dofs (2 k,) of nodes (k,)."""
-    return (2 * np.asarray(nodes)[:, None] + [0, 1]).ravel()
+def dofs_of(nodes: np.ndarray, components: int = 2) -> np.ndarray:
+    """Dofs (2 k,) of nodes (k,); of nodes with three components (3 k,)."""
+    return (components * np.asarray(nodes)[:, None] + np.arange(components)).ravel()
 
 
 def by_radius(points: np.ndarray) -> np.ndarray:

@@ -68,11 +68,11 @@ def _coordinate_element(cell_name):
     return ufl.VectorElement("Lagrange", cell_name, 1)
 
 
-def vector_space(mesh, order: int):
-    """Continuous Lagrange space of plane displacements."""
+def vector_space(mesh, order: int, components: int = 2):
+    """Continuous Lagrange space of displacements in a plane mesh, in its plane (two components) or also out of it (three)."""
     if _HAS_FUNCTIONSPACE:
-        return fem.functionspace(mesh, ("Lagrange", order, (2,)))
-    return fem.VectorFunctionSpace(mesh, ("Lagrange", order), dim=2)
+        return fem.functionspace(mesh, ("Lagrange", order, (components,)))
+    return fem.VectorFunctionSpace(mesh, ("Lagrange", order), dim=components)
 
 
 def cell_space(mesh, order: int, components: int):
@@ -94,7 +94,7 @@ def cell_nodes(space) -> np.ndarray:
 
 
 def node_coordinates(space) -> np.ndarray:
-    """Coordinates of the space's nodes, (nodes, 2); node i carries dofs 2 i and 2 i + 1."""
+    """Coordinates of the space's nodes, (nodes, 2); node i carries its components one after the other: of two, dofs 2 i and 2 i + 1."""
     return space.tabulate_dof_coordinates()[:, :2]
 
 

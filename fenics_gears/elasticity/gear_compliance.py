@@ -34,7 +34,7 @@ def flank_compliance(
     """
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)
-    _check(gear, material, reach)
+    check_inputs(gear, material, reach)
     similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
     coupled = _coupled(reach, discretisation.elastic_teeth)
     inputs = {
@@ -88,7 +88,8 @@ def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankComplianc
     return padded
 
 
-def _check(gear: Gear, material: Material, reach: Reach) -> None:
+def check_inputs(gear: Gear, material: Material, reach: Reach) -> None:
+    """Raise SceneError for a reach or a material that a gear cannot have."""
     if not 0 <= reach.farthest < gear.teeth:
         raise SceneError(f"reach is {reach.farthest}, must lie between 0 and {gear.teeth - 1}, the gear's other teeth")
     if not -1.0 < material.poissons_ratio < 0.5:

@@ -39,12 +39,14 @@ def check_congruent(sector: CondensedBody, teeth: int) -> None:
     """Raise ComputationError unless the upper cut is the lower cut turned by one pitch, node for node."""
     lower, upper = sector.points["lower"], sector.points["upper"]
     scale = np.abs(lower).max()
-    if lower.shape != upper.shape or np.abs(lower @ rotation(2.0 * np.pi / teeth).T - upper).max() > 1e-9 * scale:
+    if lower.shape != upper.shape or np.abs(lower @ rotation(2.0 * np.pi / teeth, lower.shape[1]).T - upper).max() > 1e-9 * scale:
         raise ComputationError("ring of sectors: the two radial cuts of the sector do not match node for node")
 
 
 def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
+
+    Of sectors in three dimensions (offsets + 1, 3n, 3n): they may twist along z, as a pitch still turns one cut into the other.
 
     With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]`` with
     ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its inverse's flank block is
@@ -71,7 +73,8 @@ def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarr
     """
     check_congruent(sector, teeth)
     lower, upper = sector.dofs("lower"), sector.dofs("upper")
-    return np.concatenate([lower, upper]), block_diag(np.eye(len(lower)), turned_nodes(teeth, len(upper) // 2))
+    components = sector.points["upper"].shape[1]
+    return np.concatenate([lower, upper]), block_diag(np.eye(len(lower)), turned_nodes(teeth, len(upper) // components, components))
 
 
 def sector_response(joint: CutResponse, offset: int) -> np.ndarray:
@@ -136,11 +139,13 @@ def centre_motion(points: np.ndarray, frame_angle: float = 0.0) -> np.ndarray:
     return motion.reshape(-1, 3)
 
 
-def rotation(angle: float) -> np.ndarray:
-    """Counter-clockwise rotation (2, 2) by an angle (rad)."""
-    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+def rotation(angle: float, components: int = 2) -> np.ndarray:
+    """Counter-clockwise rotation (2, 2) by an angle (rad); with three components (3, 3), about z."""
+    turn = np.eye(components)
+    turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return turn
 
 
-def turned_nodes(teeth: int, nodes: int) -> np.ndarray:
-    """Rotation (2n, 2n) of the displacements of n nodes by one pitch."""
-    return np.kron(np.eye(nodes), rotation(2.0 * np.pi / teeth))
+def turned_nodes(teeth: int, nodes: int, components: int = 2) -> np.ndarray:
+    """Rotation (2n, 2n) of the displacements of n nodes by one pitch; with three components (3n, 3n)."""
+    return np.kron(np.eye(nodes), rotation(2.0 * np.pi / teeth, components))

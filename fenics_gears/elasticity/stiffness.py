@@ -20,10 +20,10 @@ def stress(displacement, poissons_ratio):
 
 
 def stress_of_strain(strain, poissons_ratio):
-    """UFL stress sigma = lambda tr(eps) I + 2 mu eps in plane strain, Young's modulus 1."""
+    """UFL stress sigma = lambda tr(eps) I + 2 mu eps, in plane strain (strain 2 by 2) or in three dimensions, Young's modulus 1."""
     shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
     first_lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
-    return first_lame * ufl.tr(strain) * ufl.Identity(2) + 2.0 * shear_modulus * strain
+    return first_lame * ufl.tr(strain) * ufl.Identity(strain.ufl_shape[0]) + 2.0 * shear_modulus * strain
 
 
 def stiffness_matrix(space, element: Element, poissons_ratio: float):

@@ -26,6 +26,7 @@ from fenics_gears.model.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
 if TYPE_CHECKING:
+    from fenics_gears.contact.face import Face
     from fenics_gears.dynamics.frequencies import Vibration
 
 
@@ -84,7 +85,20 @@ class Model:
     def touching(self) -> Touching:
         """Which tooth pairs can touch: how far apart loaded teeth are (`reach`), and how many pairs there are at once (`slots`)."""
         resolution = self.resolution
+        if self.face is not None:
+            from fenics_gears.contact.face_cycle import touching_on_face
+
+            return touching_on_face(self.pair, resolution.contact_grid, self.face, resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None, self.corner)
         return touching(self.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None, self.corner)
+
+    @cached_property
+    def face(self) -> Face | None:
+        """The slices of the common face; None of a plane scene."""
+        if not self.scene.three_dimensional:
+            return None
+        from fenics_gears.model.face_resolution import face_of
+
+        return face_of(self.scene, self.pair)
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
@@ -94,7 +108,8 @@ class Model:
     @property
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
-        size = sizes(self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.most_nodes)
+        slices = 0 if self.face is None else self.face.slices
+        size = sizes(self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.most_nodes, slices)
         return counted_bytes(stored_arrays(self.scene, size), size)
 
     @cached_property

@@ -23,9 +23,10 @@ CONTACT_COORDINATES = {"contact_time": ("contact_time",), "contact_mesh_phase": 
 Arrays = Mapping[str, tuple[tuple[str, ...], np.dtype]]
 
 
-def sizes(steps: int, contact_steps: int, slots: int, nodes: int) -> dict[str, int]:
-    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored."""
+def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 0) -> dict[str, int]:
+    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored; `slices` of a face, if it has any."""
     return {
+        "face_position": slices,
         "time": steps, "contact_time": contact_steps, "slot": slots, "contact_node": nodes,
         "gear": 2, "fillet": 2, "fillet_point": 2 * FILLET_POINTS,
     }  # fmt: skip

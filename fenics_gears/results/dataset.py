@@ -99,6 +99,9 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
                 ("contact_time", "slot"), arrays["contact_pair_number"], numbered | {"long_name": "pair_number at the times of the contact fields"},
             ),
         }  # fmt: skip
+    if recorder.cycle.face is not None:
+        words = "distance along the axes from the middle of the common face, towards the end from which the pinion is seen to turn counter-clockwise"
+        coordinates["face_position"] = ("face_position", recorder.cycle.face.positions, {"units": "mm", "long_name": words})
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
 
 

@@ -36,6 +36,11 @@ def _stiffness(table, starts, kinds, positions, forces, status):
     return found
 
 
+def _together(parts: np.ndarray) -> np.ndarray:
+    """Values of tooth pairs, or of their slices, one after the other at each step."""
+    return parts.reshape(len(parts), -1)
+
+
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curves:
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
@@ -50,11 +55,13 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curv
         place = fields[f"{side}contact_roll_angle"]
         pressure = read_off(fields[f"{side}contact_pressure"], place)
         node = pressure.argmax(axis=-1)[..., None]
-        highest.append(np.take_along_axis(pressure, node, -1)[..., 0])
-        rolls.append(np.take_along_axis(place, node, -1)[..., 0])
-        at_edge.append(nodes.by_slot(pressed_edge & (nodes.drive == drive)) > 0)
+        by_part = nodes.by_slot if nodes.cycle.face is None else nodes.by_slice
+        highest.append(_together(np.take_along_axis(pressure, node, -1)[..., 0]))
+        rolls.append(_together(np.take_along_axis(place, node, -1)[..., 0]))
+        at_edge.append(_together(by_part(pressed_edge & (nodes.drive == drive)) > 0))
     pressure, edge = np.concatenate(highest, axis=1), np.concatenate(at_edge, axis=1)
-    numbers = np.concatenate([nodes.pair_number] * len(highest), axis=1)
+    repeated = np.repeat(nodes.pair_number, highest[0].shape[1] // nodes.pair_number.shape[1], axis=1)
+    numbers = np.concatenate([repeated] * len(highest), axis=1)
     off_edge = np.where(edge, 0.0, pressure)
     at = np.arange(len(pressure)), off_edge.argmax(axis=1)
     touching = off_edge[at] > 0.0

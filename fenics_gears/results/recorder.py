@@ -47,7 +47,7 @@ class Recorder:
         self.loads = model.loads if loads is None else loads
         ways = touching_at(lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks)
         self.first_number, self.slots = 1 + ways.latest, ways.slots
-        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.most_nodes)
+        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.most_nodes, 0 if cycle.face is None else cycle.face.slices)
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
         self.kept: Kept = self._room
@@ -112,6 +112,11 @@ class Recorder:
         watched = watched_contact(nodes)
         if scene.resolves_contact:
             fields |= node_variables(scene, nodes)
+            if cycle.face is not None:
+                from fenics_gears.results.face_variables import face_variables, in_transverse_plane
+
+                fields |= face_variables(nodes)
+                values |= in_transverse_plane(values, nodes)
             values |= pressure_curves(nodes, fields)
         if self.stress is not None:
             stresses = self.stress.values(nodes)

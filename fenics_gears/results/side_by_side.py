@@ -33,7 +33,12 @@ class Layout:
         self.node = np.concatenate([np.arange(count) for count in counts] or [np.empty(0, dtype=int)])
         self.drive = per_node(pairs, np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool))
         self.area, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
-        self.area = self.area * cycle.pair.face_width
+        if operator.face is None:
+            self.area = self.area * cycle.pair.face_width
+        else:
+            from fenics_gears.contact.face_jacobian import areas, node_slices_of_face
+
+            self.area, self.slice = areas(pairs, operator.face), node_slices_of_face(pairs)
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
         self.on_tip = _on_tips(cycle, pairs, counts) if cycle.traits.has_pressure else None
         rows, nodes = _reaction_rows(operator, tangential), operator.nodes
@@ -54,7 +59,7 @@ def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
 
 def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
     """-G^T of all coordinates of both centres, rotations as torques."""
-    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential).T
+    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential, face=operator.face).T
     units = np.concatenate([[1.0, 1.0, radius] for radius in operator.base_radii])
     if len(rows) > len(CENTRE_COORDINATES):
         rows = rows[[name != "shaft_twist" for name in COORDINATES]]
@@ -163,15 +168,25 @@ class SideBySide:
         return np.bincount(self._slots, values, minlength=len(self.steps) * self.slots).reshape(len(self.steps), self.slots)
 
     def over_nodes(self, values: np.ndarray, drive: bool, absent: float) -> np.ndarray:
-        """Values (N,) of drive or coast flanks by step, slot and contact node of the pair; `absent` where there is no node."""
-        field = np.full((len(self.steps), self.slots, self.cycle.grid.most_nodes), absent)
-        places = self._slots * self.cycle.grid.most_nodes + self.of("node")
+        """Values (N,) of drive or coast flanks by step, slot, slice of the face if there are any, and contact node; `absent` where there is no node."""
+        slices = () if self.cycle.face is None else (self.cycle.face.slices,)
+        field = np.full((len(self.steps), self.slots, *slices, self.cycle.grid.most_nodes), absent)
+        places = (self._slots if not slices else self._slices) * self.cycle.grid.most_nodes + self.of("node")
         if drive and self.drive.all():
             field.reshape(-1)[places] = values
         else:
             chosen = self.drive == drive
             field.reshape(-1)[places[chosen]] = values[chosen]
         return field
+
+    def by_slice(self, values: np.ndarray) -> np.ndarray:
+        """Sum of values (N,) over the nodes of each tooth pair in each slice of the face (steps, slots, slices)."""
+        shape = len(self.steps), self.slots, self.cycle.face.slices
+        return np.bincount(self._slices, values, minlength=np.prod(shape)).reshape(shape)
+
+    @cached_property
+    def _slices(self) -> np.ndarray:
+        return self._slots * self.cycle.face.slices + self.of("slice")
 
     @cached_property
     def _slots(self) -> np.ndarray:

@@ -116,11 +116,6 @@ class Scene:
     speed_ramp: SpeedRamp | None = None
 
     @property
-    def three_dimensional(self) -> bool:
-        """Whether the flanks have a width: what happens along the axes is computed."""
-        return self.bearings is not None and self.bearings.places is not None
-
-    @property
     def mesh_frequencies(self) -> tuple[float, float]:
         """The lowest and the highest mesh frequency of the run, Hz."""
         ends = [self.motion.mesh_frequency] + ([self.speed_ramp.end_frequency] if self.speed_ramp is not None else [])
@@ -130,6 +125,11 @@ class Scene:
     def tooth_elasticity(self) -> tuple[Material, Material] | None:
         """What makes the flanks of pinion and wheel elastic; None for rigid ones."""
         return None if self.accuracy.model == RIGID_TEETH else self.gears.materials
+
+    @property
+    def three_dimensional(self) -> bool:
+        """Whether the flanks are resolved over the face."""
+        return getattr(self, "forced", False) or (self.bearings is not None and self.bearings.places is not None)
 
     @property
     def resolves_contact(self) -> bool:

@@ -1,0 +1,52 @@
+"""The face of a gear pair, cut into slices across the axes: where a slice stands, and how far its mesh is ahead of the middle one's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """Slices of the common face: `positions` of their middles and `widths` (S,), mm; z runs along the axes from the middle of the common face.
+
+    `slope`: mm along the path of contact per mm of z: the tangent of the base helix angle, positive for a right-hand pinion. `middles` (mm): of the
+    faces of pinion and wheel.
+    """
+
+    positions: np.ndarray
+    widths: np.ndarray
+    slope: float = 0.0
+    middles: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def slices(self) -> int:
+        """Number of slices."""
+        return len(self.positions)
+
+    @cached_property
+    def cosine(self) -> float:
+        """Cosine of the base helix angle: between the contact normal and the transverse plane."""
+        return 1.0 / sqrt(1.0 + self.slope**2)
+
+    @cached_property
+    def shifts(self) -> np.ndarray:
+        """Distance (S,), mm, along the path of contact by which each slice is ahead of the middle of the face."""
+        return self.slope * self.positions
+
+    def axial_share(self, gear: int, turn: float) -> float:
+        """Axial component of the contact normal of the pinion (0) or the wheel (1) in that gear's own tooth frame; `turn`: as of a Place."""
+        return -turn * (1.0, -1.0)[gear] * self.slope * self.cosine
+
+
+def even_slices(width: float, slices: int) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and widths (S,), mm, of slices of one width over a face.
+
+    >>> even_slices(3.0, 3)[0].tolist()
+    [-1.0, 0.0, 1.0]
+    """
+    size = width / slices
+    return size * (np.arange(slices) - 0.5 * (slices - 1)), np.full(slices, size)

@@ -1,0 +1,107 @@
+"""The contact operators of a mesh cycle of pairs whose flanks are resolved over the face: a slice is a spur mesh at another phase."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from math import floor
+
+import numpy as np
+
+from fenics_gears.contact.face import Face
+from fenics_gears.contact.face_pairing import FacePair, FacePairing
+from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position, pair_places
+from fenics_gears.contact.operator import operator_on_lines, turned
+from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair, flank_points, interpolations, tooth_pair
+from fenics_gears.contact.touching import Touching, touching_at
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+
+
+def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks: bool = False, corner=None) -> list[Place]:
+    """Every pair of flanks in every slice whose window is not empty at `phase` (0 <= phase < 1), as `pair_places` has it; by pair, then slice."""
+    found = []
+    for number, (height, shift) in enumerate(zip(face.positions.tolist(), (face.shifts / pair.base_pitch).tolist())):
+        passed = floor(phase + shift)
+        places = pair_places(pair, grid, phase + shift - passed, coast_flanks, corner)
+        # A slice that is a whole mesh cycle ahead has the next pair where the middle has this one.
+        found += [replace(place, index=place.index - passed, slice=number, height=height) for place in places]
+    return sorted(found, key=lambda place: (place.flank, place.index, place.slice))
+
+
+class FaceCycle(Cycle):
+    """Contact nodes in the slices of a `face`, that see the gears' `bodies` in three dimensions and their flanks through fine plane sections.
+
+    `opening` (S,), mm: what modifications along the face and misalignment open the flanks in each slice, along the line of action. Other arguments as of MeshCycle.
+    """
+
+    traits = CycleTraits(divisible=True)
+
+    def __init__(
+        self,
+        flanks: Flanks,
+        bodies: tuple[FaceCompliance, FaceCompliance],
+        face: Face,
+        opening: np.ndarray,
+        grid: ContactGrid,
+        steps: int,
+        coordinates: list[int],
+        tangential: bool,
+        corner=None,
+    ):
+        super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2, corner=corner)
+        self.face, self.flanks, self.opening = face, flanks, opening
+        self._bodies, self._coordinates, self._tangential = bodies, coordinates, tangential
+
+    @property
+    def bodies(self) -> tuple:
+        """Flank compliance of the fine sections of pinion and wheel."""
+        return self.flanks.compliance
+
+    @cached_property
+    def _pairing(self) -> FacePairing:
+        return FacePairing(self.flanks, self._bodies, self.face)
+
+    def _pairs_of(self, index: float) -> tuple[FacePair, ...]:
+        found, alike = [], {}
+        for place in face_places(self.pair, self.grid, self.face, index / self.steps, self.coast_flanks, self.corner):
+            # Slices of a spur pair are all alike.
+            key = place.flank, place.index, self.face.shifts[place.slice]
+            if key not in alike:
+                alike[key] = self._pair(place)
+            if alike[key] is not None:
+                found.append(self._in_slice(alike[key], place))
+        return tuple(found)
+
+    def _pair(self, place: Place) -> FacePair | None:
+        """The contact nodes of a tooth pair in a slice, with the gap of flanks that are not modified along the face, along the line of action."""
+        pair = self._plane_pair(place)
+        if pair is None:
+            return None
+        rolls = flank_points(self.pair, pair.place, pair.offsets)[0]
+        return FacePair(**vars(pair), coarse=interpolations(self._pairing.sections, self.grid, pair.place, pair.offsets, rolls))
+
+    def _plane_pair(self, place: Place) -> ToothPair | None:
+        if self.corner is not None:
+            from fenics_gears.contact.corner import corner_pair
+
+            return corner_pair(self.flanks, self.grid, self.corner, place)
+        return tooth_pair(self.flanks, self.grid, place)
+
+    def _in_slice(self, pair: FacePair, place: Place) -> FacePair:
+        gap = self.face.cosine * (pair.gap + self.opening[place.slice])
+        return replace(pair, place=replace(pair.place, slice=place.slice, height=place.height), gap=gap)
+
+    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
+        before = previous if self._tangential else None
+        compliance, earlier, dependent = self._pairing.compliance(pairs, before, turned(self.pair, advance))
+        operator = operator_on_lines(self.pair, pairs, self._coordinates, compliance, earlier, advance, dependent, self.face)
+        return Position(operator, carried)
+
+
+def touching_on_face(pair, grid: ContactGrid, face: Face, steps: int, coast_flanks: bool = False, corner=None) -> Touching:
+    """Where the pairs of a mesh cycle touch in any slice."""
+    ends = sorted({int(face.shifts.argmin()), int(face.shifts.argmax())})
+    # Slices between the outermost two touch between them.
+    outer = Face(face.positions[ends], face.widths[ends], face.slope, face.middles)
+    return touching_at(lambda step: face_places(pair, grid, outer, step / steps, coast_flanks, corner), steps, coast_flanks)

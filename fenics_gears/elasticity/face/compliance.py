@@ -1,0 +1,109 @@
+"""Flank compliance of a gear over its face: sweep one tooth sector, condense it, join the ring; or read it from the cache."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+from time import perf_counter
+
+import numpy as np
+
+from fenics_gears.elasticity.cache import Cache, kept
+from fenics_gears.elasticity.compliance import FlankCompliance, Reach
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS, check_inputs
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_data import Material
+from fenics_gears.geometry.outline import centreline_angle
+
+# To be raised by one whenever the same inputs give other numbers.
+FACE_VERSION = 1
+# Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
+ORDER = 2
+
+
+def face_compliance(
+    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None
+) -> FaceCompliance:
+    """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end faces free.
+
+    gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs follow the drive
+    flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are.
+    Raises SceneError for an impossible size, ComputationError when a stage fails.
+    """
+    check_inputs(gear, material, reach)
+    discretisation.check()
+    similar, scaled = gear.of_module_one, discretisation.in_modules_of(gear)
+    farthest, both = reach.farthest, reach.across is not None
+    inputs = {
+        "version": [ALGORITHM_VERSION, FACE_VERSION],
+        "gear": asdict(similar),
+        "poissons_ratio": material.poissons_ratio,
+        "face": asdict(scaled),
+        "sizes": asdict(scaled.sizes(both)),
+        "farthest": farthest,
+    }
+    arrays, timings = kept(cache, inputs, lambda: _computed(similar, scaled, material.poissons_ratio, farthest, both))
+    # In place: the arrays are large, and nothing else refers to them.
+    arrays["blocks"] *= 1.0 / (material.youngs_modulus * gear.module)
+    arrays["plane"] *= 1.0 / material.youngs_modulus
+    counts = {name: int(arrays[name]) for name in COUNTS}
+    rolls, flanks = arrays["roll_angle"], 2 if both else 1
+    return FaceCompliance(
+        roll_angle=rolls,
+        element_order=ORDER,
+        heights=gear.module * arrays["heights"],
+        blocks=arrays["blocks"],
+        plane=FlankCompliance(rolls, ORDER, arrays["plane"], flanks=flanks),
+        timings={**counts, **timings},
+        flanks=flanks,
+    )
+
+
+def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool) -> tuple[dict, dict]:
+    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
+    # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from fenics_gears.elasticity.condensation import by_radius
+    from fenics_gears.elasticity.element_nodes import node_roll_angles
+    from fenics_gears.elasticity.face.condensed import condensed_swept_sector
+    from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
+    from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+    from fenics_gears.elasticity.sector_mesh import sector_mesh
+
+    clock = perf_counter()
+    mesh = sector_mesh(gear, face.sizes(both))
+    meshed = perf_counter()
+    sides = ("flank", "coast") if both else ("flank",)
+    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, sides)
+    condensed = perf_counter()
+    blocks = _in_mirrored_frame(ring_compliance(sector, gear.teeth, farthest), gear, both)
+    joined = perf_counter()
+    flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in sides])
+    section = condensed_sector(mesh, ELEMENT, poissons_ratio, flank)
+    plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
+    rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
+    timings = {
+        **sector.timings,
+        "time_mesh": meshed - clock,
+        "time_ring": joined - condensed,
+        "time_plane": perf_counter() - joined,
+        "time_condense": perf_counter() - meshed - sector.timings["time_compile"],
+    }
+    arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
+    return {**arrays, **{name: np.array(sector.timings[name]) for name in COUNTS}}, timings
+
+
+def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: int = 3) -> np.ndarray:
+    """Blocks (k, d, d) with the coast flank's dofs, the second half of them, in the tooth's frame mirrored at its centreline."""
+    if not both:
+        return blocks
+    angle = centreline_angle(gear)
+    axis, mirror = np.array([np.cos(angle), np.sin(angle)]), np.eye(components)
+    mirror[:2, :2] = 2.0 * np.outer(axis, axis) - np.eye(2)
+    half = blocks.shape[1] // 2
+    for block in blocks:
+        coast = block[half:].reshape(-1, components, 2 * half)
+        block[half:] = np.einsum("ab,nbk->nak", mirror, coast).reshape(half, -1)
+        coast = block[:, half:].reshape(2 * half, -1, components)
+        block[:, half:] = (coast @ mirror).reshape(2 * half, half)
+    return blocks

@@ -1,0 +1,56 @@
+"""How a gear's body is divided into finite elements in three dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.face.layers import Sweep, even_layers
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
+
+# Rad, of a layer: its nodes' heights stand on a helix, and parabolas are between them.
+LARGEST_TURN = 0.5
+
+
+@dataclass(frozen=True)
+class FaceDiscretisation:
+    """A section of elements, second order, that is swept along the face in layers.
+
+    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: of the same thickness, over the face.
+    face_width: mm. twist: rad/mm, of the section along z, counter-clockwise positive.
+    """
+
+    section_size: float
+    layers: int
+    face_width: float
+    twist: float = 0.0
+
+    def sizes(self, both_flanks: bool = False) -> ElementSizes:
+        """Element sizes (mm) of the section; both_flanks: the coast flank works too."""
+        size = self.section_size
+        return ElementSizes(flank=size, fillet=0.6 * size, coast=1.5 * size, body=2.0 * size, depth=1.0, growth=0.5, both_flanks=both_flanks)
+
+    @property
+    def sweep(self) -> Sweep:
+        """Layers and twist of the body."""
+        return Sweep(even_layers(self.layers, self.face_width), self.twist)
+
+    def in_modules_of(self, gear: Gear) -> FaceDiscretisation:
+        """The same with lengths as multiples of a gear's module."""
+        size, width = gear.in_modules(self.section_size, self.face_width)
+        return replace(self, section_size=size, face_width=width, twist=round(self.twist * gear.module, DECIMALS_IN_MODULES))
+
+    def check(self) -> None:
+        """Raise SceneError for a value that has no meaning."""
+        for name, value in (("section_size", self.section_size), ("face_width", self.face_width)):
+            if not (np.isfinite(value) and value > 0.0):
+                raise SceneError(f"{name} is {value} mm, must be positive and finite")
+        if self.layers < 1:
+            raise SceneError(f"layers is {self.layers}, must be 1 or more")
+        turned = abs(self.twist) * self.face_width / self.layers
+        if not turned <= LARGEST_TURN:
+            least = int(np.ceil(abs(self.twist) * self.face_width / LARGEST_TURN))
+            raise SceneError(f"layers = {self.layers}: a layer would turn by {turned:.3g} rad, at most {LARGEST_TURN} is accurate; take {least} or more")

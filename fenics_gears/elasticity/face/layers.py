@@ -1,0 +1,45 @@
+"""The layers that a section is swept through along the face, and the polynomials of a layer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+# Gauss's rule of three points on (-1, 1): exact to the fifth power, which the patch test of a twisted layer needs.
+POINTS = (-sqrt(0.6), 0.0, sqrt(0.6))
+WEIGHTS = (5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0)
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """How a section becomes a body: boundaries of the layers (layers + 1,), mm, increasing, and the twist, rad/mm, counter-clockwise along z."""
+
+    boundaries: np.ndarray
+    twist: float = 0.0
+
+    @property
+    def heights(self) -> np.ndarray:
+        """z (2 layers + 1,), mm, of the nodes: boundaries and middles of the layers."""
+        nodes = np.empty(2 * len(self.boundaries) - 1)
+        nodes[::2] = self.boundaries
+        nodes[1::2] = 0.5 * (self.boundaries[1:] + self.boundaries[:-1])
+        return nodes
+
+    @property
+    def thicknesses(self) -> np.ndarray:
+        """Thickness (layers,), mm; layers that differ by round-off have the same one."""
+        thick = np.diff(self.boundaries)
+        return np.round(thick / thick.max(), 12) * thick.max()
+
+
+def even_layers(layers: int, face_width: float) -> np.ndarray:
+    """Boundaries (layers + 1,), mm from mid-width, of layers of the same thickness; the one is the exact opposite of the other."""
+    return 0.5 * face_width / layers * np.arange(-layers, layers + 1, 2)
+
+
+def shapes(place: float) -> tuple[np.ndarray, np.ndarray]:
+    """Second-order shape functions (3,) of a layer's lower, middle and upper node at a place in (-1, 1), and their derivatives."""
+    values = np.array([0.5 * place * (place - 1.0), 1.0 - place**2, 0.5 * place * (place + 1.0)])
+    return values, np.array([place - 0.5, -2.0 * place, place + 0.5])

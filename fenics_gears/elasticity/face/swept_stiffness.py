@@ -1,0 +1,120 @@
+"""Stiffness of a section swept along a gear's face: wedges, products of the section's triangles and of layers, second order in both.
+
+A section's point X (a complex number X + iY) stands at ``x = w(z) X`` at height z, where ``w`` interpolates ``exp(i twist z_k)`` between the
+three heights z_k of a layer's nodes: the element is isoparametric, so that rigid motions and uniform strains are exact. The displacement is
+``sum_k N_k(z) u_k(X)``. Its gradient has the columns ``grad_X(u) W^-1`` and ``sum_k N_k'(z) u_k - grad_X(u) V X``, where W and V multiply by ``w`` and
+``w'/w``: at a height, forms over the plane section, whose products with N and N' give the layer. Layers of one thickness are alike but for a rotation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+import ufl
+from scipy import sparse
+
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.condensation import dofs_of
+from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.face.layers import POINTS, WEIGHTS, Sweep, shapes
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.stiffness import nodes_at, stress_of_strain
+
+ELEMENT = ELEMENTS["P2"]
+# Of the section's coordinates times a gradient, squared.
+QUADRATURE_DEGREE = 4
+
+
+class SectionForms:
+    """Bilinear forms of a section's displacements (n nodes of `nodes`, three components), Young's modulus 1 MPa."""
+
+    def __init__(self, mesh: BodyMesh, poissons_ratio: float):
+        self.nodes: ElementNodes = element_nodes(mesh, ELEMENT)
+        space = adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells), ELEMENT.order, components=3)
+        self._order = dofs_of(nodes_at(space, self.nodes.points), 3)
+        self._turn, self._sweep = ([adapter.constant(space.mesh, value) for value in (1.0, 0.0)] for _ in range(2))
+        self._forms = _forms(space, adapter.constant(space.mesh, poissons_ratio), self._turn, self._sweep)
+
+    def at(self, turn: complex, sweep: complex) -> tuple[sparse.csr_matrix, ...]:
+        """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and dv/dz."""
+        for constants, value in ((self._turn, 1.0 / turn), (self._sweep, sweep)):
+            constants[0].value, constants[1].value = value.real, value.imag
+        return tuple(self._assembled(form) for form in self._forms)
+
+    def _assembled(self, form) -> sparse.csr_matrix:
+        matrix = adapter.assemble_matrix(form)
+        starts, columns, values = matrix.getValuesCSR()
+        assembled = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
+        matrix.destroy()
+        return assembled[self._order][:, self._order]
+
+
+def _forms(space, poisson, inverse, sweep):
+    trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+    (a, b), (c, d) = inverse, sweep
+    inverse, sweep = ufl.as_matrix([[a, -b], [b, a]]), ufl.as_matrix([[c, -d], [d, c]])
+
+    def along_section(u):
+        plane, axial = ufl.dot(ufl.grad(u), inverse), -ufl.dot(ufl.grad(u), ufl.dot(sweep, ufl.SpatialCoordinate(space.mesh)))
+        return ufl.sym(ufl.as_matrix([[plane[i, 0], plane[i, 1], axial[i]] for i in range(3)]))
+
+    def along_height(u):
+        return ufl.sym(ufl.as_matrix([[0.0 * u[i], 0.0 * u[i], u[i]] for i in range(3)]))
+
+    section = ufl.dx(metadata={"quadrature_degree": QUADRATURE_DEGREE})
+    pairs = ((along_section, along_section), (along_section, along_height), (along_height, along_height))
+    return [adapter.compile_form(ufl.inner(stress_of_strain(of_trial(trial), poisson), of_test(test)) * section) for of_trial, of_test in pairs]
+
+
+@cache
+def compile_ahead() -> None:
+    """Compile the forms, on one triangle, so that what follows takes no compile time; once in a process."""
+    triangle = BodyMesh(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]), np.arange(3)[None], {})
+    with adapter.quiet_compiler():
+        adapter.with_compiled(lambda: SectionForms(triangle, 0.3).at(1.0, 0.0))
+
+
+def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
+    """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the section's frame turned with it."""
+    heights = 2 * len(sweep.thicknesses) + 1
+    rows: list[list] = [[None] * heights for _ in range(heights)]
+    for layer, blocks in enumerate(_layers(section, sweep)):
+        for (low, high), block in blocks.items():
+            row, column = 2 * layer + low, 2 * layer + high
+            known = rows[row][column]
+            rows[row][column] = block if known is None else known + block
+    return sparse.bmat(rows, format="csr")
+
+
+def _layers(section: SectionForms, sweep: Sweep) -> Iterator[dict]:
+    known: dict[float, dict] = {}
+    for thickness in sweep.thicknesses.tolist():
+        if thickness not in known:
+            known[thickness] = layer_stiffness(section, thickness, sweep.twist)
+        yield known[thickness]
+
+
+def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> dict[tuple[int, int], sparse.csr_matrix]:
+    """Blocks (3n, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own height."""
+    angles = 0.5 * twist * thickness * np.array([-1.0, 0.0, 1.0])
+    found: dict = {}
+    for place, weight in zip(POINTS, WEIGHTS):
+        values, slopes = shapes(place)
+        slopes = slopes / (0.5 * thickness)
+        turn = complex(values @ np.exp(1j * angles))
+        change = complex(slopes @ np.exp(1j * angles))
+        own, mixed, axial = section.at(turn, change / turn)
+        volume = 0.5 * thickness * weight * abs(turn) ** 2
+        for i in range(3):
+            for j in range(3):
+                part = volume * (
+                    values[i] * values[j] * own + slopes[i] * values[j] * mixed + values[i] * slopes[j] * mixed.T + slopes[i] * slopes[j] * axial
+                )
+                found[i, j] = found[i, j] + part if (i, j) in found else part
+    nodes = len(section.nodes.points)
+    frames = [sparse.kron(sparse.eye(nodes), rotation(angle, 3), format="csr") for angle in angles]
+    return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in found.items()}

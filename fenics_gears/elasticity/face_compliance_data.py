@@ -1,0 +1,34 @@
+"""The flank compliance of a gear over its face: all that contact and dynamics need to know of its body in three dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fenics_gears.elasticity.compliance import FlankCompliance
+
+
+@dataclass(frozen=True)
+class FaceCompliance:
+    """Displacement of drive-flank nodes per unit force on drive-flank nodes over a gear's face, hub held.
+
+    roll_angle: (n,), rad, increasing, of the flank nodes of a section. element_order: of the displacement along a flank element, and along the face.
+    heights: (h,), mm from the gear's mid-width, increasing: of the nodes of the layers, with second order also between the layers' ends.
+    blocks: (offsets + 1, 3 n h, 3 n h), mm/N. blocks[m] is the displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs by
+        height, then flank node, then component (x, y, z) in the tooth's own frame at that height.
+    plane: the plane-strain compliance of the section's mesh.
+    """
+
+    roll_angle: np.ndarray
+    element_order: int
+    heights: np.ndarray
+    blocks: np.ndarray
+    plane: FlankCompliance
+    timings: dict = field(default_factory=dict, compare=False)
+    flanks: int = 1
+
+    @property
+    def offsets(self) -> int:
+        """Largest distance, in pitches, between two teeth whose interaction is known."""
+        return len(self.blocks) - 1

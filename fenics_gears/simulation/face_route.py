@@ -1,0 +1,59 @@
+"""The route of flanks resolved over the face: plane sections as on the fast route, over bodies in three dimensions."""
+
+from __future__ import annotations
+
+from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+from fenics_gears.model.face_resolution import face_discretisation
+from fenics_gears.model.model import Model
+from fenics_gears.simulation.deviations import deviating
+from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
+from fenics_gears.system.progress import Progress
+
+Bodies = tuple[FaceCompliance, FaceCompliance]
+
+
+def face_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[tuple, Cycle]:
+    """Flank compliance of both gears' sections, their bodies, and the contact operators of a mesh cycle on them."""
+    sections = gear_compliances(model, progress, cache)
+    bodies = gear_bodies(model, progress, cache)
+    return (*sections, *bodies), face_cycle(model, sections, bodies)
+
+
+def gear_bodies(model: Model, progress: Progress, cache: Cache | None) -> Bodies:
+    """Compliance of pinion and wheel over their faces."""
+    bodies = []
+    for name in ("pinion", "wheel"):
+        progress.stage(f"condense {name}'s body")
+        bodies.append(gear_body(model, name, model.touching.reach, cache))
+    return bodies[0], bodies[1]
+
+
+def gear_body(model: Model, name: str, reach: Reach, cache: Cache | None) -> FaceCompliance:
+    """Compliance of the "pinion" or the "wheel" over its face, from the cache where it is there."""
+    # Imported here: plane scenes have none.
+    from fenics_gears.elasticity.face.face_compliance import face_compliance
+
+    number = ("pinion", "wheel").index(name)
+    gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
+    return face_compliance(gear, material, face_discretisation(model, number), reach, cache)
+
+
+def face_cycle(model: Model, sections: Compliances, bodies: Bodies) -> Cycle:
+    """The contact operators of one mesh cycle over the face."""
+    cycle = FaceCycle(
+        Flanks(model.pair, sections, model.removal),
+        bodies,
+        model.face,
+        model.face_opening(model.face.positions),
+        model.resolution.contact_grid,
+        model.resolution.steps_per_mesh_cycle,
+        model.drivetrain.indices,
+        tangential=model.scene.friction is not None,
+        corner=model.corner,
+    )
+    return deviating(model, cycle)
