@@ -111,7 +111,10 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     on = effects_on(scene)
     named = {each.section for each in on}
     there = [(found, getattr(scene, each.section)) for each in on for found in each.variables if not found.needs or found.needs in named]
-    found = COMMON_VARIABLES + tuple(found for found, data in there if not found.field or getattr(data, found.field) is not None)
+    found = COMMON_VARIABLES + tuple(
+        found for found, data in there
+        if (not found.field or getattr(data, found.field) is not None) and (scene.three_dimensional or not found.over_face)
+    )  # fmt: skip
     if scene.three_dimensional:
         found = tuple(replace(each, dims=(*OF_SLICES, "contact_node")) if each.dims == OF_NODES else each for each in (*found, *FACE_VARIABLES))
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
