@@ -123,7 +123,7 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         mass = _mass(names, supports.inertia, supports.gears)
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
-    if mass is not None and (getattr(pair, "slope", 0.0) or not set(names).isdisjoint(FACE_COORDINATES)):
+    if mass is not None and (pair.slope or not set(names).isdisjoint(FACE_COORDINATES)):
         from fenics_gears.dynamics.tilting import mesh_over_face
 
         mesh = mesh_over_face(pair, names)

@@ -55,9 +55,8 @@ def mesh_over_face(pair: GearPair, names: tuple[str, ...]) -> MeshOverFace:
     """How coordinates move the contact of flanks that touch at the pitch point in the middle of the common face; coordinates as arc lengths (mm)."""
     # Gauss points: two springs at +- b/(2 sqrt 3) have the second moment of an even one over b.
     heights = np.array([-1.0, 1.0]) * pair.face_width / (2.0 * sqrt(3.0))
-    slope = getattr(pair, "slope", 0.0)
-    normal = np.array([1.0, 0.0, -slope]) / sqrt(1.0 + slope**2)
-    normals = [moved(pair, names, (pair.pitch_point + slope * height, height), normal) for height in heights]
+    normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
+    normals = [moved(pair, names, (pair.pitch_point + pair.slope * height, height), normal) for height in heights]
     return MeshOverFace(np.array(normals), moved(pair, names, (pair.pitch_point, 0.0), np.array([0.0, 1.0, 0.0]))[None, :])
 
 
@@ -66,7 +65,7 @@ def moved(pair: GearPair, names: tuple[str, ...], place: tuple[float, float], di
 
     The pinion approaches along the direction, the wheel against it. A rotation theta moves the point at r by theta x r, along n by theta . (r x n).
     """
-    (along, height), (middle_1, middle_2), by_name = place, getattr(pair, "gear_middles", (0.0, 0.0)), {}
+    (along, height), (middle_1, middle_2), by_name = place, pair.gear_middles, {}
     gears = (
         ("1", 1.0, pair.pinion.base_radius, (along, -pair.pinion.base_radius, height - middle_1)),
         ("2", -1.0, pair.wheel.base_radius, (along - pair.line_of_action_length, pair.wheel.base_radius, height - middle_2)),

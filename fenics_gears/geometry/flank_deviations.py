@@ -66,7 +66,7 @@ def _of_gear(
 ) -> FlankDeviations:
     tolerance = None
     if errors.tolerance_class is not None:
-        tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.module, errors.tolerance_class)
+        tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, errors.tolerance_class)
 
     def draws(kind: int) -> np.ndarray:
         return np.random.default_rng((errors.seed, number, kind)).uniform(-1.0, 1.0, gear.teeth)

@@ -1,10 +1,10 @@
-"""One spur gear: its circles, tooth thickness and the rack that cuts it."""
+"""One gear in its transverse section: its circles, tooth thickness and the rack that cuts it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import cos, pi, sin, tan
+from math import atan, cos, pi, sin, tan
 
 import numpy as np
 
@@ -17,9 +17,11 @@ DECIMALS_IN_MODULES = 12
 
 @dataclass(frozen=True)
 class Gear:
-    """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, pressure angle in rad.
+    """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, angles in rad.
 
-    The rack's addendum, which cuts the gear's dedendum, follows from root radius and profile shift.
+    Module, pressure angle and profile shift are those of the transverse section; `helix_angle` at the reference cylinder, without sign. The rack's
+    rounding has `rack_tip_radius` in its normal section; the transverse section sees it stretched along the pitch line by 1/cos(helix angle), as an
+    ellipse. The rack's addendum, which cuts the gear's dedendum, follows from root radius and profile shift.
     """
 
     teeth: int
@@ -30,6 +32,22 @@ class Gear:
     root_radius: float
     bore_radius: float
     rack_tip_radius: float
+    helix_angle: float = 0.0
+
+    @property
+    def normal_module(self) -> float:
+        """Module (mm) of the rack's normal section."""
+        return self.module * cos(self.helix_angle)
+
+    @cached_property
+    def normal_pressure_angle(self) -> float:
+        """Pressure angle (rad) of the rack's normal section."""
+        return atan(tan(self.pressure_angle) * cos(self.helix_angle)) if self.helix_angle else self.pressure_angle
+
+    @property
+    def rack_stretch(self) -> float:
+        """Length along the pitch line in the transverse section over that in the rack's normal section: 1/cos(helix angle)."""
+        return 1.0 / cos(self.helix_angle)
 
     @property
     def reference_radius(self) -> float:
@@ -83,15 +101,16 @@ class Gear:
 
         A negative distance means that the rounding does not fit on the rack's tip.
         """
-        alpha, radius = self.pressure_angle, self.rack_tip_radius
-        half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(alpha)
-        return half_tip_land - radius * (1.0 - sin(alpha)) / cos(alpha), self.rack_depth - radius
+        alpha, radius = self.normal_pressure_angle, self.rack_tip_radius
+        half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
+        return half_tip_land - self.rack_stretch * radius * (1.0 - sin(alpha)) / cos(alpha), self.rack_depth - radius
 
     @property
     def largest_rack_tip_radius(self) -> float:
         """Tip radius (mm) at which the rack's two roundings meet; negative when the rack ends in a point before."""
-        half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
-        return half_tip_land * cos(self.pressure_angle) / (1.0 - sin(self.pressure_angle))
+        alpha = self.normal_pressure_angle
+        half_tip_land = (0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)) / self.rack_stretch
+        return half_tip_land * cos(alpha) / (1.0 - sin(alpha))
 
     @cached_property
     def form_roll_angle(self) -> float:
@@ -101,7 +120,7 @@ class Gear:
         of action, ``c/sin(alpha)`` before the pitch point.
         """
         alpha = self.pressure_angle
-        flank_end = self.rack_depth - self.rack_tip_radius * (1.0 - sin(alpha))
+        flank_end = self.rack_depth - self.rack_tip_radius * (1.0 - sin(self.normal_pressure_angle))
         return tan(alpha) - flank_end / (self.reference_radius * sin(alpha) * cos(alpha))
 
     @property

@@ -33,7 +33,7 @@ def refuse(name: str, message: str) -> NoReturn:
 
 def _check_numbers(gear: Gear, name: str) -> None:
     positive = {
-        "gears.module": gear.module,
+        "gears.module": gear.normal_module,
         f"gears.{name}.tip_diameter": 2.0 * gear.tip_radius,
         f"gears.{name}.root_diameter": 2.0 * gear.root_radius,
         f"gears.{name}.bore_diameter": 2.0 * gear.bore_radius,
@@ -44,11 +44,11 @@ def _check_numbers(gear: Gear, name: str) -> None:
     if gear.teeth != int(gear.teeth) or gear.teeth < 3:
         refuse(name, f"{gear.teeth} teeth; at least 3 are needed: change gears.{name}.teeth")
     if not 0.0 < gear.pressure_angle < 0.25 * pi:
-        refuse(name, f"gears.pressure_angle = {in_degrees(gear.pressure_angle)}; it must lie between 0 and 45 deg")
+        refuse(name, f"gears.pressure_angle = {in_degrees(gear.normal_pressure_angle)}; it must lie between 0 and 45 deg")
     if not isfinite(gear.profile_shift):
         refuse(name, f"gears.{name}.profile_shift must be a finite number, not {gear.profile_shift}")
     if not (isfinite(gear.rack_tip_radius) and gear.rack_tip_radius >= 0.0):
-        refuse(name, f"gears.{name}.rack_tip_radius must be zero or a positive number, not {gear.rack_tip_radius / gear.module:.4g}")
+        refuse(name, f"gears.{name}.rack_tip_radius must be zero or a positive number, not {gear.rack_tip_radius / gear.normal_module:.4g}")
 
 
 def _check_circles(gear: Gear, name: str) -> None:
@@ -67,7 +67,7 @@ def _check_circles(gear: Gear, name: str) -> None:
             f"no flank: tip diameter {tip:.6g} mm, base circle {base:.6g} mm, and the involute exists outside the base "
             f"circle only: raise gears.{name}.tip_diameter, or check gears.module and gears.{name}.teeth",
         )
-    largest_bore = root - 2.0 * LEAST_RIM * gear.module
+    largest_bore = root - 2.0 * LEAST_RIM * gear.normal_module
     if bore > largest_bore:
         refuse(
             name,
@@ -83,32 +83,32 @@ def _check_rack(gear: Gear, name: str) -> None:
         refuse(
             name,
             f"no dedendum: root diameter {2.0 * gear.root_radius:.6g} mm, but {gear.teeth} teeth with profile shift "
-            f"{gear.profile_shift:.4g} need a root below {limit:.6g} mm: lower gears.{name}.root_diameter, or check "
+            f"{gear.profile_shift * gear.rack_stretch:.4g} need a root below {limit:.6g} mm: lower gears.{name}.root_diameter, or check "
             f"gears.{name}.teeth, gears.{name}.profile_shift and gears.module",
         )
     if gear.largest_rack_tip_radius < 0.0:
         refuse(
             name,
-            f"dedendum too deep: {gear.dedendum / gear.module:.4g} modules, but the rack's tooth ends in a point at "
+            f"dedendum too deep: {gear.dedendum / gear.normal_module:.4g} modules, but the rack's tooth ends in a point at "
             f"{_deepest_dedendum(gear):.4g} modules: raise gears.{name}.root_diameter or lower gears.{name}.profile_shift",
         )
     if gear.rack_tip_centre[0] < -ROUNDING:
         refuse(
             name,
-            f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / gear.module:.4g} modules, but "
-            f"the rack's tip has room for {gear.largest_rack_tip_radius / gear.module:.4g} (full radius) at this dedendum of "
-            f"{gear.dedendum / gear.module:.4g} modules: lower gears.{name}.rack_tip_radius or raise gears.{name}.root_diameter",
+            f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / gear.normal_module:.4g} modules, but "
+            f"the rack's tip has room for {gear.largest_rack_tip_radius / gear.normal_module:.4g} (full radius) at this dedendum of "
+            f"{gear.dedendum / gear.normal_module:.4g} modules: lower gears.{name}.rack_tip_radius or raise gears.{name}.root_diameter",
         )
 
 
 def _check_undercut(gear: Gear, name: str) -> None:
     if gear.form_roll_angle < 0.0:
-        sine = sin(gear.pressure_angle)
+        sine = sin(gear.normal_pressure_angle)
         lowest_root = 2.0 * (gear.reference_radius * cos(gear.pressure_angle) ** 2 - gear.rack_tip_radius * (1.0 - sine))
         refuse(
             name,
             f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm the rack removes involute near the base "
-            f"circle; {gear.teeth} teeth with a rack tip radius of {gear.rack_tip_radius / gear.module:.4g} modules are free of "
+            f"circle; {gear.teeth} teeth with a rack tip radius of {gear.rack_tip_radius / gear.normal_module:.4g} modules are free of "
             f"undercut from root diameter {lowest_root:.6g} mm up: raise gears.{name}.root_diameter together with "
             f"gears.{name}.profile_shift, or gears.{name}.teeth",
         )
@@ -131,7 +131,7 @@ def _check_tip(gear: Gear, name: str) -> None:
 
 
 def _deepest_dedendum(gear: Gear) -> float:
-    return 0.25 * pi * cos(gear.pressure_angle) / sin(gear.pressure_angle)
+    return 0.25 * pi * cos(gear.normal_pressure_angle) / sin(gear.normal_pressure_angle)
 
 
 def in_degrees(angle: float) -> str:

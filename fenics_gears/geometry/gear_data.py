@@ -31,7 +31,9 @@ class GearData:
 class GearPairData:
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
-    `face_width`, mm: over which both gears meet, the smaller of their own. `material`: of gears that have none of their own.
+    `face_width`, mm: over which both gears meet. `material`: of gears that have none of their own.
+    `helix_angle`, rad, at the reference cylinder, 0 for spur gears; module, pressure angle and what is given in modules are then those of the normal
+    section. `pinion_hand`: "right" or "left", the wheel has the other. `axial_offsets`, mm: of the mid-widths of pinion and wheel from a common place.
     """
 
     module: float
@@ -41,6 +43,9 @@ class GearPairData:
     pinion: GearData
     wheel: GearData
     material: Material | None
+    helix_angle: float = 0.0
+    pinion_hand: str = "right"
+    axial_offsets: tuple[float, float] = (0.0, 0.0)
 
     @property
     def materials(self) -> tuple[Material, Material] | None:

@@ -1,4 +1,9 @@
-"""The outline of one tooth: rack-generated fillet and involute, in the tooth's body frame (see involute.py)."""
+"""The outline of one tooth in its transverse section: rack-generated fillet and involute, in the tooth's body frame (see involute.py).
+
+The rounding of the rack's tip is an ellipse in the transverse section of a helical gear, of semi-axes k rho along the pitch line and rho in depth, with
+rho = rack_tip_radius and k = 1/cos(helix angle). Where its normal has the angle t from the depth direction and D = sqrt(1 + (k^2 - 1) sin(t)^2), its point
+is (k^2 sin(t), cos(t)) rho/D from its centre and its radius of curvature k^2 rho/D^3. A spur gear has k = D = 1, a circle.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +58,7 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
 
     parameter: (...), rad, angle of the rack rounding's normal from the tooth depth direction; 0 (root circle) to
     ``fillet_end`` (form circle). The point is cut when that normal passes through the pitch point, which is
-    ``l = rack_tip_radius + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied
+    ``l = rack_tip_radius/D + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied
     Theory, ch. 6).
     """
     angle = np.asarray(parameter, dtype=float)
@@ -72,9 +77,10 @@ def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
 def fillet_speed(gear: Gear, parameter) -> np.ndarray:
     """Length (mm) of fillet per rad of its parameter: rolling on the rack's rounding plus sliding."""
     angle = np.asarray(parameter, dtype=float)
-    depth = gear.rack_tip_centre[1]
-    turning = depth / (gear.reference_radius * np.cos(angle) ** 2)
-    return gear.rack_tip_radius + _distance_from_pitch_point(gear, angle) * turning
+    depth, excess, flattening = gear.rack_tip_centre[1], _excess(gear), _flattening(gear, angle)
+    turning = depth / (gear.reference_radius * np.cos(angle) ** 2) - excess * np.cos(angle) / (gear.reference_radius * flattening**3)
+    curvature_radius = gear.rack_stretch**2 * gear.rack_tip_radius / flattening**3
+    return curvature_radius + _distance_from_pitch_point(gear, angle) * turning
 
 
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
@@ -104,7 +110,17 @@ def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
 
 def _distance_from_pitch_point(gear: Gear, angle):
     """Distance (mm) along the normal from the pitch point to the point being cut."""
-    return gear.rack_tip_radius + gear.rack_tip_centre[1] / np.cos(angle)
+    return gear.rack_tip_radius / _flattening(gear, angle) + gear.rack_tip_centre[1] / np.cos(angle)
+
+
+def _excess(gear: Gear) -> float:
+    """(k^2 - 1) rho, mm, zero for a circle."""
+    return (gear.rack_stretch**2 - 1.0) * gear.rack_tip_radius
+
+
+def _flattening(gear: Gear, angle):
+    """D of the ellipse at an angle (rad, any shape) of its normal: 1 for a circle."""
+    return np.sqrt(1.0 + (gear.rack_stretch**2 - 1.0) * np.sin(angle) ** 2)
 
 
 def _body_angle(gear: Gear, angle):
@@ -113,7 +129,9 @@ def _body_angle(gear: Gear, angle):
     The space lies over the rack's tooth at first; the gear has then rolled the rack's travel over its reference radius.
     """
     across, depth = gear.rack_tip_centre
-    rolled = (across - depth * np.tan(angle)) / gear.reference_radius
+    # Where the normal meets the pitch line: from the ellipse's centre it is aside of a circle's.
+    aside = _excess(gear) * np.sin(angle) / _flattening(gear, angle)
+    rolled = (across + aside - depth * np.tan(angle)) / gear.reference_radius
     return 0.5 * gear.angular_pitch - gear.tooth_half_angle_at_base - rolled
 
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import acos, floor, sqrt, tan
+from math import acos, atan, cos, floor, pi, sin, sqrt, tan
+from typing import TYPE_CHECKING
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import check_gear
@@ -16,14 +17,18 @@ from fenics_gears.geometry.gear_data import GearData, GearPairData
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 from fenics_gears.geometry.pair_checks import check_pair
 
+if TYPE_CHECKING:
+    from fenics_gears.geometry.helix import Helix
+
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
 class GearPair:
-    """Two gears in mesh; lengths in mm, angles in rad. Built and checked by ``gear_pair``.
+    """Two gears in mesh, in their transverse section; lengths in mm, angles in rad. Built and checked by ``gear_pair``.
 
     `face_width`: over which they meet; `own_face_widths`: of pinion and wheel, None where both have that width.
+    `helix`: None for spur gears; `axial_offsets`: mid-widths of pinion and wheel along the axis, from a common place.
     """
 
     pinion: Gear
@@ -31,11 +36,48 @@ class GearPair:
     centre_distance: float
     face_width: float
     own_face_widths: tuple[float, float] | None = None
+    helix: Helix | None = None
+    axial_offsets: tuple[float, float] = (0.0, 0.0)
 
     @property
     def face_widths(self) -> tuple[float, float]:
         """Width (mm) of the pinion and of the wheel, over which a line load spreads in its body."""
         return self.own_face_widths or (self.face_width, self.face_width)
+
+    @property
+    def common_face(self) -> tuple[float, float]:
+        """Ends z (mm) of the common face, where both gears are: the left one, negative, and the right one; 0 is its middle."""
+        return -0.5 * self.face_width, 0.5 * self.face_width
+
+    @property
+    def gear_middles(self) -> tuple[float, float]:
+        """Places z (mm) of the mid-widths of pinion and wheel, from the middle of the common face."""
+        ends = [(offset - 0.5 * width, offset + 0.5 * width) for offset, width in zip(self.axial_offsets, self.face_widths)]
+        middle = 0.5 * (max(low for low, _ in ends) + min(high for _, high in ends))
+        return self.axial_offsets[0] - middle, self.axial_offsets[1] - middle
+
+    @cached_property
+    def slope(self) -> float:
+        """tau = d xi/dz of a contact line: tan(base helix angle), negative for a left-hand pinion, 0 for spur gears.
+
+        The section at z is the middle one turned by tau z/rb1 (pinion) and -tau z/rb2 (wheel).
+        """
+        return 0.0 if self.helix is None else self.helix.sign * tan(self.helix.angle) * cos(self.pinion.pressure_angle)
+
+    @cached_property
+    def cosine(self) -> float:
+        """Cosine of the base helix angle: the contact normal is (cosine, 0, -cosine slope) in the line of action, across it and along the axis."""
+        return 1.0 / sqrt(1.0 + self.slope**2)
+
+    @property
+    def overlap_ratio(self) -> float:
+        """Common face width in axial pitches: b sin(beta)/(pi m_n) (ISO 21771); 0 for spur gears."""
+        return 0.0 if self.helix is None else self.face_width * sin(self.helix.angle) / (pi * self.pinion.normal_module)
+
+    @property
+    def total_contact_ratio(self) -> float:
+        """Transverse contact ratio plus overlap ratio."""
+        return self.contact_ratio + self.overlap_ratio
 
     @property
     def rotation_ratio(self) -> float:
@@ -79,7 +121,7 @@ class GearPair:
 
     @cached_property
     def contact_ratio(self) -> float:
-        """Length of the path of contact in base pitches."""
+        """Length of the path of contact in transverse base pitches: the transverse contact ratio."""
         return (self.path_end - self.path_start) / self.base_pitch
 
     @property
@@ -160,19 +202,31 @@ def gear_pair(data: GearPairData) -> GearPair:
     pinion, wheel = _gear(data, data.pinion), _gear(data, data.wheel)
     check_gear(pinion, "pinion")
     check_gear(wheel, "wheel")
-    pair = GearPair(pinion, wheel, data.centre_distance, data.face_width, data.face_widths)
+    pair = GearPair(pinion, wheel, data.centre_distance, data.face_width, data.face_widths, _helix(data), data.axial_offsets)
     check_pair(pair)
     return pair
 
 
+def _helix(data: GearPairData) -> Helix | None:
+    if not data.helix_angle:
+        return None
+    # Imported here: spur pairs have none.
+    from fenics_gears.geometry.helix import Helix
+
+    return Helix(data.helix_angle, data.pinion_hand)
+
+
 def _gear(data: GearPairData, gear: GearData) -> Gear:
+    """The gear's transverse section. The tangent of the pressure angle stretches with the pitch line, as the module does (ISO 21771)."""
+    stretch = 1.0 / cos(data.helix_angle)
     return Gear(
         teeth=gear.teeth,
-        module=data.module,
-        pressure_angle=data.pressure_angle,
-        profile_shift=gear.profile_shift,
+        module=data.module * stretch,
+        pressure_angle=atan(tan(data.pressure_angle) * stretch) if data.helix_angle else data.pressure_angle,
+        profile_shift=gear.profile_shift / stretch,
         tip_radius=0.5 * gear.tip_diameter,
         root_radius=0.5 * gear.root_diameter,
         bore_radius=0.5 * gear.bore_diameter,
         rack_tip_radius=gear.rack_tip_radius * data.module,
+        helix_angle=data.helix_angle,
     )

@@ -36,10 +36,10 @@ def design_warnings(pair: GearPair) -> list[str]:
     found = []
     for name, _ in NAMES:
         gear = getattr(pair, name)
-        if gear.tip_thickness < THIN_TIP * gear.module:
+        if gear.tip_thickness < THIN_TIP * gear.normal_module:
             found.append(
                 f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
-                f"= {THIN_TIP * gear.module:.4g} mm; lower gears.{name}.tip_diameter or profile_shift"
+                f"= {THIN_TIP * gear.normal_module:.4g} mm; lower gears.{name}.tip_diameter or profile_shift"
             )
     return found
 
@@ -51,6 +51,14 @@ def _check_centres(pair: GearPair) -> None:
             "pair",
             f"centre distance {pair.centre_distance:.6g} mm, but the base circles overlap below {bases:.6g} mm: "
             "raise gears.centre_distance, or check gears.module and the teeth",
+        )
+    if pair.axial_offsets != (0.0, 0.0) and pair.face_width <= 0.0:
+        first, second = pair.axial_offsets
+        refuse(
+            "pair",
+            f"the gears do not overlap axially: pinion {pair.face_widths[0]:.6g} mm wide at axial offset {first:.6g} mm, wheel {pair.face_widths[1]:.6g} mm "
+            f"wide at {second:.6g} mm; their middles may be less than {0.5 * sum(pair.face_widths):.6g} mm apart: change gears.pinion.axial_offset or "
+            "gears.wheel.axial_offset",
         )
     if not (isfinite(pair.face_width) and pair.face_width > 0.0):
         refuse("pair", f"gears.face_width must be a positive length, not {pair.face_width}")

@@ -100,6 +100,12 @@ class Model:
 
         return face_of(self.scene, self.pair)
 
+    def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
+        """What lead modifications and misalignment open along the line of action at places z (k,), mm, on the face; see `geometry.face`."""
+        from fenics_gears.geometry.face import face_opening
+
+        return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
+
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
         gears = self.scene.gears

@@ -15,6 +15,7 @@ from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.geometry.eccentricity_data import Eccentricity
+from fenics_gears.geometry.face_data import LeadModifications, Misalignment
 from fenics_gears.geometry.flank_error_data import FlankErrors
 from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
@@ -60,6 +61,7 @@ class Accuracy:
     """How the scene is computed; where a value is None the program chooses it.
 
     ``elastic_teeth``: teeth this many pitches apart and further do not deform each other; None: all that can be loaded together do.
+    ``slices`` of the common face and ``layers`` of elements over a gear's face: of three-dimensional scenes only.
     ``target``: relative error for which a run chooses all settings by measuring; no other field is given beside it.
     """
 
@@ -74,6 +76,8 @@ class Accuracy:
     elastic_teeth: int | None = None
     model: str | None = None
     target: float | None = None
+    slices: int | None = None
+    layers: int | None = None
 
 
 @dataclass(frozen=True)
@@ -108,6 +112,8 @@ class Scene:
     friction: Friction | None = None
     tip_relief: TipRelief | None = None
     root_relief: RootRelief | None = None
+    lead_modifications: LeadModifications | None = None
+    misalignment: Misalignment | None = None
     flank_errors: FlankErrors | None = None
     eccentricity: Eccentricity | None = None
     coast_flanks: CoastFlanks | None = None
@@ -128,8 +134,9 @@ class Scene:
 
     @property
     def three_dimensional(self) -> bool:
-        """Whether the flanks are resolved over the face."""
-        return getattr(self, "forced", False) or (self.bearings is not None and self.bearings.places is not None)
+        """Whether the flanks are resolved over the face: where the scene names what has no meaning in a plane."""
+        leaning = self.bearings is not None and self.bearings.places is not None
+        return self.gears.helix_angle > 0.0 or self.lead_modifications is not None or self.misalignment is not None or leaning
 
     @property
     def resolves_contact(self) -> bool:

@@ -123,15 +123,19 @@ def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
 
 def _gears(gears: schema.Gears) -> data.GearPairData:
     widths = [own.face_width or gears.face_width for own in (gears.pinion, gears.wheel)]
-    alike = widths[0] == widths[1]
+    offsets = tuple(float(own.axial_offset or 0.0) for own in (gears.pinion, gears.wheel))
+    # Where both ends are apart by as much, and so where there is no offset, the smaller width is the common one, to the last digit.
+    apart = abs(offsets[0] - offsets[1])
+    common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
+    alike = widths[0] == widths[1] == common
     pinion, wheel = (
         same_names(
-            data.GearData, own, face_width=None if alike else width, material=tooth_elasticity.own_material(own.material, gears.material)
+            data.GearData, own, ("axial_offset",), face_width=None if alike else width, material=tooth_elasticity.own_material(own.material, gears.material)
         )
         for own, width in zip((gears.pinion, gears.wheel), widths)
     )
     material = tooth_elasticity.EFFECT.from_text(gears.material)
-    return same_names(data.GearPairData, gears, face_width=min(widths), pinion=pinion, wheel=wheel, material=material)
+    return same_names(data.GearPairData, gears, face_width=common, pinion=pinion, wheel=wheel, material=material, axial_offsets=offsets)
 
 
 def _motion(checked) -> data.Motion:

@@ -39,14 +39,28 @@ class Gear(Section):
         0.38, meaning="tip radius of the generating rack, in modules; it shapes the fillet", lowest=0, highest=2, default=0.38
     )
     face_width: Optional[float] = _face_width("face width of this gear", "that of `[gears]`")
+    axial_offset: Optional[float] = quantity(
+        "-100 m", "100 m", "2 mm", meaning="mid-width of this gear along the axis, from a place common to both gears, positive to the right", otherwise="0 mm"
+    )
     material: Optional[OwnMaterialText] = None
 
 
 class Gears(Section):
     """``[gears]``: what both gears share."""
 
-    module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module, in the plane of rotation")
-    pressure_angle: float = quantity("10 deg", "35 deg", "20 deg", meaning="pressure angle of the generating rack")
+    module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module: with `helix_angle` the normal module, without it that of the plane of rotation")
+    pressure_angle: float = quantity("10 deg", "35 deg", "20 deg", meaning="pressure angle of the generating rack: with `helix_angle` in its normal section")
+    helix_angle: Optional[float] = quantity(
+        "1e-3 deg",
+        "45 deg",
+        "15 deg",
+        meaning="helix angle at the reference cylinder, without sign; what is given in modules then counts in normal modules (ISO 21771)",
+        otherwise="spur gears",
+        below="For spur gears, leave it out.",
+    )
+    pinion_hand: Optional[Literal["right", "left"]] = choice(
+        "right", "left", meaning="hand of the pinion's helix; the wheel has the other", otherwise="`right`; has no meaning without `helix_angle`"
+    )
     centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the axes")
     face_width: Optional[float] = _face_width("face width of both gears; gears of unequal width mesh over the smaller one, centred", "each gear has its own `face_width`")
     pinion: Gear
@@ -170,6 +184,12 @@ class Accuracy(Section):
         100,
         meaning="time steps of a mesh cycle",
         otherwise="200; with `[inertia]` as many as give the highest natural frequency 20 steps per period, at most 1000; with `[inertia]` and rigid flanks 1000",
+    )
+    slices: Optional[int] = whole_number(
+        2, 1000, 40, meaning="slices of the common face in which contact is resolved; of three-dimensional scenes", otherwise="a width of a quarter of the module"
+    )
+    layers: Optional[int] = whole_number(
+        1, 1000, 12, meaning="layers of elements over the face of a gear; of three-dimensional scenes", otherwise="a thickness of 0.6 modules"
     )
     condensation: Optional[Literal["once", "every step"]] = choice(
         "once",

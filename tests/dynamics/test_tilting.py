@@ -11,6 +11,7 @@ from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, GearI
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.dynamics.gear_inertia import LumpedGear
 from fenics_gears.dynamics.tilting import mesh_over_face, moved
+from fenics_gears.geometry.helix import Helix
 from fenics_gears.model.drivetrain import drivetrain
 
 # Places and stiffnesses that no mistake of sign, axis or gear leaves alone.
@@ -21,16 +22,16 @@ BEARINGS = Bearings(
 )  # fmt: skip
 
 
-class Helical:
-    """The pair with a helix: 10 degrees at the base cylinder, and faces whose middles are 3 mm and -2 mm from that of the common face."""
+# Mid-widths from the middle of the common face.
+MIDDLES = (2.5, -2.5)
 
-    slope, gear_middles = np.tan(np.deg2rad(10.0)), (3.0, -2.0)
 
-    def __init__(self, pair):
-        self._pair = pair
-
-    def __getattr__(self, name):
-        return getattr(self._pair, name)
+@pytest.fixture(scope="module")
+def helical(paper_pair):
+    """The pair with a helix, its sections as they are, and gears that are not opposite each other."""
+    pair = replace(paper_pair, helix=Helix(np.deg2rad(10.0)), axial_offsets=(3.0, -2.0))
+    assert pair.gear_middles == MIDDLES
+    return pair
 
 
 @pytest.fixture(scope="module")
@@ -47,14 +48,14 @@ def displaced(shafts, forces):
     return {name: float(shafts.value(states, name)) for name in shafts.coordinates}
 
 
-@pytest.mark.parametrize(("number", "gear", "middle"), [("1", "pinion", 3.0), ("2", "wheel", -2.0)])
-def test_bearings_carry_a_force_as_the_lever_rule_says(on_bearings, paper_pair, number, gear, middle):
+@pytest.mark.parametrize(("number", "gear", "middle"), [("1", "pinion", MIDDLES[0]), ("2", "wheel", MIDDLES[1])])
+def test_bearings_carry_a_force_as_the_lever_rule_says(on_bearings, helical, number, gear, middle):
     """Exact: six balances of either gear under a force along a leaning normal at a point of the mesh.
 
     Two supports are statically determinate: each carries the force across the axis, and the moment of the axial force, by the distance from the other one.
     """
-    pair, force, (xi, height) = Helical(paper_pair), 5000.0, (11.0, 4.0)
-    shafts = drivetrain(on_bearings, paper_pair)
+    pair, force, (xi, height) = helical, 5000.0, (11.0, 4.0)
+    shafts = drivetrain(on_bearings, pair)
     normal = np.array([1.0, 0.0, -pair.slope]) / sqrt(1.0 + pair.slope**2)
     found = displaced(shafts, -force * moved(pair, shafts.coordinates, (xi, height), normal))
     sense = -1.0 if gear == "pinion" else 1.0
@@ -76,13 +77,13 @@ def test_bearings_carry_a_force_as_the_lever_rule_says(on_bearings, paper_pair, 
     assert torsion * found[f"rotation_{number}"] == pytest.approx(moment[2], rel=1e-12)
 
 
-def test_a_displacement_of_rigid_gears_is_that_of_their_points(on_bearings, paper_pair):
+def test_a_displacement_of_rigid_gears_is_that_of_their_points(helical):
     """Finite differences: rotation matrices move the points that touch, and the difference of both gears' motions along a direction is the row."""
-    pair, place, step = Helical(paper_pair), (11.0, 4.0), 1e-5
+    pair, place, step = helical, (11.0, 4.0), 1e-5
     direction = np.array([0.6, -0.5, 0.3])
     row = moved(pair, COORDINATES, place, direction)
     point = np.array([place[0], -pair.pinion.base_radius, place[1]])
-    centres = {"1": np.array([0.0, 0.0, 3.0]), "2": np.array([pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, -2.0])}
+    centres = {"1": np.array([0.0, 0.0, MIDDLES[0]]), "2": np.array([pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, MIDDLES[1]])}
     axes = {"centre_x": 0, "centre_y": 1, "axial_": 2, "tilt_x": 0, "tilt_y": 1, "rotation_": 2}
     for name, found in zip(COORDINATES, row):
         if name == "shaft_twist":
@@ -98,9 +99,9 @@ def test_a_displacement_of_rigid_gears_is_that_of_their_points(on_bearings, pape
         assert found == pytest.approx((1.0 if number == "1" else -1.0) * motion @ direction, abs=1e-9)
 
 
-def test_two_springs_are_a_mesh_spread_over_the_face(on_bearings, paper_pair):
+def test_two_springs_are_a_mesh_spread_over_the_face(on_bearings, helical):
     """Quadrature: the stiffness of the two springs is that of many along the contact line, each at its own height; exact up to the square of the path."""
-    pair, names = Helical(paper_pair), drivetrain(on_bearings, paper_pair).coordinates
+    pair, names = helical, drivetrain(on_bearings, helical).coordinates
     rows = mesh_over_face(pair, names).normals
     heights = (np.arange(2000) + 0.5) / 2000.0 * pair.face_width - 0.5 * pair.face_width
     normal = np.array([1.0, 0.0, -pair.slope]) / sqrt(1.0 + pair.slope**2)

@@ -88,6 +88,14 @@ start = "HPSTC"
 depth = "10 um"
 start = "LPSTC"
 """,
+    "lead_modifications": """
+[lead_modifications.pinion]
+crowning = "6 um"
+""",
+    "misalignment": """
+[misalignment]
+in_plane = "12 um"
+""",
     "flank_errors": """
 [flank_errors]
 tolerance_class = 6

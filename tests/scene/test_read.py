@@ -32,16 +32,17 @@ def numbers(section):
             [4.5, math.pi / 9, 91.5, 15.0]
             + [16, 0.196, 82.64, 62.5, 30.0, 0.38, None, None]
             + [24, 0.125, 118.64, 98.37, 40.0, 0.38, None, None]
-            + [2.06e5, 0.3],
+            + [2.06e5, 0.3]
+            + [0.0, "right", (0.0, 0.0)],
         ),
         ("load", [0.437e6]),
         ("motion", [200.0, 30, 2, False, True]),
         ("shafts", [0.203e9, None, None]),
-        ("bearings", [0.155e6, None, None, None, None]),
+        ("bearings", [0.155e6, None, None, None, None, None]),
         ("inertia", [4.9e-3, 24.5, None, None, None, None]),
         ("damping", [0.4e-3, 0.5e-3, None, None, ()]),
         ("friction", [0.1]),
-        ("accuracy", ["P2", 0.08, 1.5, 20, 100, "once", None, None, None, None, None]),
+        ("accuracy", ["P2", 0.08, 1.5, 20, 100, "once", None, None, None, None, None, None, None]),
     ],
 )
 def test_the_demo_has_the_papers_numbers(section, by_hand):

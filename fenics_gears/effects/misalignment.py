@@ -1,0 +1,34 @@
+"""``[misalignment]``: axes that are not parallel (``geometry.face``)."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+from fenics_gears.effects.effect import Effect
+from fenics_gears.geometry.face_data import Misalignment
+from fenics_gears.inputs.fields import Section, quantity
+
+
+def _deviation(example: str, meaning: str):
+    return quantity("-100 mm", "100 mm", example, meaning=meaning, otherwise="0 um")
+
+
+class MisalignmentText(Section):
+    """``[misalignment]``: departure of the wheel's axis from parallel (ISO/TR 10064-3), as lengths over the common face width."""
+
+    in_plane: Optional[float] = _deviation(
+        "12 um", "in the plane of action: positive where the right end of the wheel's axis moves away from the pinion along the line of action"
+    )
+    out_of_plane: Optional[float] = _deviation(
+        "0 um", "perpendicular to the plane of action: positive where the right end of the wheel's axis moves towards the side of the pinion's axis"
+    )
+
+
+EFFECT = Effect(
+    section="misalignment",
+    description="axes that are not parallel",
+    absent="parallel axes",
+    text=MisalignmentText,
+    data=Misalignment,
+    terms=("gaps between the flanks that vary along the face",),
+)

@@ -1,0 +1,67 @@
+"""What lead modifications and misalignment open between the flanks along the face.
+
+Amounts are lengths in the transverse section along the line of action, as a measuring machine has them (ISO 1328-1: in the base tangent plane, in the
+transverse section); along the contact normal an opening is ``GearPair.cosine`` times as long. z (mm) runs along the axis from the middle of the common
+face; `left` is -z, `right` is +z.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.geometry.face_data import BOTH, LEFT, RIGHT, LeadModification, LeadModifications, Misalignment
+from fenics_gears.geometry.pair import GearPair
+
+
+def face_opening(
+    pair: GearPair, lead_modifications: LeadModifications | None, misalignment: Misalignment | None, z, position=None
+) -> np.ndarray:
+    """What opens the flanks along the line of action at places z (mm, any shape) on the face.
+
+    Not negative where material is removed; misalignment has either sign. `position` (mm from T1, of z's shape): of the contact on the line of action,
+    of which the misalignment of helical gears depends; the pitch point unless given.
+    """
+    z = np.asarray(z, dtype=float)
+    opening = np.zeros_like(z)
+    if lead_modifications is not None:
+        gears = zip((lead_modifications.pinion, lead_modifications.wheel), pair.gear_middles, pair.face_widths)
+        opening += sum(lead_removal(own, z - middle, width) for own, middle, width in gears if own is not None)
+    if misalignment is not None:
+        opening += misalignment_opening(pair, misalignment, z, pair.pitch_point if position is None else position)
+    return opening
+
+
+def lead_removal(modification: LeadModification, place, face_width: float) -> np.ndarray:
+    """Material (mm, along the line of action) that a lead modification removes from a gear at places (mm, any shape) from its mid-width.
+
+    Over the gear's own face width b (ISO 21771): crowning is the parabola C (2 z/b)^2; the helix slope grows in proportion to z, from nothing at the
+    left end (the right end where it is negative); end relief grows as the square of the distance from its start, to its depth at the end. Beyond the
+    ends all three go on as they are.
+    """
+    share = np.asarray(place, dtype=float) / face_width
+    removed = modification.crowning * (2.0 * share) ** 2
+    removed += modification.helix_slope * share + 0.5 * abs(modification.helix_slope)
+    relief = modification.end_relief
+    if relief is not None:
+        for side, sign in ((LEFT, -1.0), (RIGHT, 1.0)):
+            if relief.sides in (side, BOTH):
+                beyond = sign * share * face_width - (0.5 * face_width - relief.length)
+                removed += relief.depth * (np.maximum(beyond, 0.0) / relief.length) ** 2
+    return removed
+
+
+def misalignment_opening(pair: GearPair, misalignment: Misalignment, z, position) -> np.ndarray:
+    """What a tilted axis of the wheel opens (mm, along the line of action) at places z on the face and positions (mm from T1) of the contact.
+
+    The wheel turns by small angles about the point of its axis in the middle of the common face, by which the point of contact, at
+    (position - T1T2, rb2, z) from there, is displaced. Along the contact normal (c, 0, -c tau) that is
+
+    * c (z + tau (position - T1T2)) for an angle of 1 in the plane of action: the axis moves by z along the line of action,
+    * c tau rb2 for an angle of 1 out of it: the axis moves by z across the line of action, in the tangent planes of the flanks; what opens them is that
+      the point of contact, rb2 off the axis, moves along the axis. This is alike at all z and nothing for a spur pair.
+
+    Both angles are the scene's amounts over the common face width. Terms of second order (an angle times the flanks' own curvature) are left out.
+    """
+    leaning = pair.slope * (np.asarray(position, dtype=float) - pair.line_of_action_length)
+    in_plane, out_of_plane = misalignment.in_plane / pair.face_width, misalignment.out_of_plane / pair.face_width
+    return in_plane * (np.asarray(z, dtype=float) + leaning) + out_of_plane * pair.slope * pair.wheel.base_radius

@@ -1,0 +1,20 @@
+"""The helix of a pair of helical gears on parallel axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+RIGHT, LEFT = "right", "left"
+
+
+@dataclass(frozen=True)
+class Helix:
+    """`angle`, rad, at the reference cylinders, positive; `pinion_hand`: "right" or "left", the wheel has the other."""
+
+    angle: float
+    pinion_hand: str = RIGHT
+
+    @property
+    def sign(self) -> float:
+        """1 for a right-hand pinion, -1 for a left-hand one."""
+        return 1.0 if self.pinion_hand == RIGHT else -1.0
