@@ -27,13 +27,15 @@ Ends = tuple[tuple[float, float], tuple[float, float]]
 class ContactGrid:
     """Length of the contact window in mm, contact nodes in a whole window, and the name of their interpolation of the flanks.
 
-    `closer_at_edges`: nodes stand closer beside a tip that cuts the window.
+    `closer_at_edges`: nodes stand closer beside a tip that cuts the window. `inner_length` (mm): where no edge is near, nodes further than half of it from
+    the line of action are left out, since flanks touch far from the line at edges alone; None: none are.
     """
 
     length: float
     nodes: int
     interpolation: str = AVERAGED
     closer_at_edges: bool = False
+    inner_length: float | None = None
 
     @property
     def spacing(self) -> float:
@@ -117,6 +119,18 @@ def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
     inside = window(ends, grid)
     if inside is None:
         return np.empty(0)
+    offsets = _in_window(inside, ends, grid)
+    if grid.inner_length is None:
+        return offsets
+    # Beside an edge within the window: as far beyond it, or beyond the line.
+    near, half = 0.5 * grid.inner_length, 0.5 * grid.length
+    low = inside[0] if inside[0] > -half else min(-near, inside[1] - near)
+    high = inside[1] if inside[1] < half else max(near, inside[0] + near)
+    return offsets[(offsets >= low - 1e-9 * half) & (offsets <= high + 1e-9 * half)]
+
+
+def _in_window(inside: tuple[float, float], ends: Ends, grid: ContactGrid) -> np.ndarray:
+    """Offsets (n,), mm, of contact nodes between the ends of a window."""
     (start, end), ((tip_1, form_2), (form_1, tip_2)) = inside, ends
     half, length = 0.5 * grid.length, end - start
     cut_low, cut_high = start > -half, end < half

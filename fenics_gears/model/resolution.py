@@ -32,6 +32,9 @@ FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
 # Half of the rough stiffness of a pair bounds its deflection from above.
 LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
 HALF_WIDTHS_BESIDE = 2.0
+# Over a face: elements in a half-width, of which there are many, and length of the window where no edge is near. Three times the mean line load widens contact
+# by 1.7.
+ELEMENTS_PER_HALF_WIDTH_ON_FACE, INNER_HALF_WIDTHS = 2.0, 6.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
 # Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart.
@@ -117,17 +120,21 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     line_load = abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
     half_width = hertz_half_width(line_load, smallest, plane_contact_modulus(scene))
+    elements = ELEMENTS_PER_HALF_WIDTH_ON_FACE if scene.three_dimensional else ELEMENTS_PER_HALF_WIDTH
     size = asked.flank_element_size or float(
-        np.clip(half_width / ELEMENTS_PER_HALF_WIDTH, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
+        np.clip(half_width / elements, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
     )
     length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
     condensation = asked.condensation or ONCE
+    inner = None
+    if scene.three_dimensional:
+        inner = INNER_HALF_WIDTHS * hertz_half_width(line_load, _widest(pair), plane_contact_modulus(scene)) + 2.0 * spacing
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
-        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED, closer_at_edges=condensation == ONCE),
+        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED, closer_at_edges=condensation == ONCE, inner_length=inner),
         steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
         half_width=half_width,
         condensation=condensation,
@@ -164,10 +171,14 @@ def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
 def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: float, size: float) -> float:
     """Window (mm) outside which nothing touches: there the flanks' own curvature opens more than the teeth deflect."""
     deflection = line_load / (LEAST_PAIR_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity))
-    middle = 0.5 * pair.line_of_action_length
-    widest = max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end)))
-    wanted = 2.0 * (sqrt(2.0 * widest * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
+    wanted = 2.0 * (sqrt(2.0 * _widest(pair) * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
     return min(wanted, LONGEST_WINDOW * scene.gears.module)
+
+
+def _widest(pair: GearPair) -> float:
+    """The largest relative radius (mm) on the path of contact."""
+    middle = 0.5 * pair.line_of_action_length
+    return max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end)))
 
 
 def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:

@@ -33,16 +33,25 @@ class Layout:
         self.node = np.concatenate([np.arange(count) for count in counts] or [np.empty(0, dtype=int)])
         self.drive = per_node(pairs, np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool))
         self.area, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
+        self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
         if operator.face is None:
             self.area = self.area * cycle.pair.face_width
         else:
             from fenics_gears.contact.face_jacobian import areas, node_slices_of_face
 
             self.area, self.slice = areas(pairs, operator.face), node_slices_of_face(pairs)
-        self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
+            self.at_end |= _at_inner_end(cycle, pairs, self.offsets)
         self.on_tip = _on_tips(cycle, pairs, counts) if cycle.traits.has_pressure else None
         rows, nodes = _reaction_rows(operator, tangential), operator.nodes
         self.rows_of_normals, self.rows_of_tangents = rows[:, :nodes], rows[:, nodes:]
+
+
+def _at_inner_end(cycle: Cycle, pairs, offsets: np.ndarray) -> np.ndarray:
+    """Nodes (n,) that stand first or last in a window that is not cut by an edge, and shorter than the whole one."""
+    outermost = np.zeros(len(offsets), dtype=bool)
+    for nodes in node_slices(pairs):
+        outermost[[nodes.start, nodes.stop - 1]] = True
+    return outermost & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
 
 
 def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:

@@ -36,7 +36,7 @@ def gear_bodies(model: Model, progress: Progress, cache: Cache | None) -> Bodies
 def gear_body(model: Model, name: str, reach: Reach, cache: Cache | None) -> FaceCompliance:
     """Compliance of the "pinion" or the "wheel" over its face, from the cache where it is there."""
     # Imported here: plane scenes have none.
-    from fenics_gears.elasticity.face.face_compliance import face_compliance
+    from fenics_gears.elasticity.face.compliance import face_compliance
 
     number = ("pinion", "wheel").index(name)
     gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
