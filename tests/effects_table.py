@@ -31,6 +31,8 @@ def page() -> str:
     for each in EFFECTS:
         for found in each.variables:
             beside = f", only with `[{effect_named(found.needs).written}]`" if found.needs else ""
+            beside += f", only with `{found.field}`" if found.field else ""
+            beside += ", only of three-dimensional scenes" if found.over_face else ""
             lines.append(f"| `{found.name}` | {found.units} | {found.long_name} | `[{each.written}]`{beside} |")
     return "\n".join(lines) + "\n"
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 
 def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=6e-6, tooth=1.5e-5, coast_flank=False) -> FlankCompliance:
@@ -30,3 +31,13 @@ def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=
         block[0::2, 0::2], block[1::2, 1::2] = normal, 0.5 * normal
         blocks.append(block)
     return FlankCompliance(np.sqrt(2.0 * arc / gear.base_radius), element_order, np.array(blocks), flanks=2 if coast_flank else 1)
+
+
+def stand_in_body(gear, width, heights=5):
+    """A body over a face that is stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the width. Local yielding is in the sections."""
+    plane = stand_in_compliance(gear, local=0.0)
+    nodes = len(plane.roll_angle)
+    section = np.zeros((len(plane.blocks), nodes, 3, nodes, 3))
+    section[:, :, :2, :, :2] = plane.blocks.reshape(-1, nodes, 2, nodes, 2) / width
+    section = section.reshape(len(plane.blocks), 3 * nodes, 3 * nodes)
+    return FaceCompliance(plane.roll_angle, plane.element_order, np.linspace(-0.5, 0.5, heights) * width, np.tile(section, (1, heights, heights)), plane)

@@ -8,6 +8,7 @@ a node's function, so are deviations.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +21,9 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.flank_error_data import FlankErrors
 from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.face import Face
 
 # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the pinion's.
 SENSES = (1.0, -1.0)
@@ -39,8 +43,9 @@ class _Nodes:
 class FlankGaps:
     """Additional gaps (n,), mm, by deviations of the teeth at a step and its position; `steps` of a mesh cycle."""
 
-    def __init__(self, pair: GearPair, deviations: tuple[FlankDeviations, FlankDeviations], steps: int):
-        self._pair, self._deviations, self._steps = pair, deviations, steps
+    def __init__(self, pair: GearPair, deviations: tuple[FlankDeviations, FlankDeviations], steps: int, slope: float = 0.0):
+        """`slope`: of the lines of contact, mm along the path of contact per mm of height."""
+        self._pair, self._deviations, self._steps, self._slope = pair, deviations, steps, slope
         gears = (pair.pinion, pair.wheel)
         self._amounts = tuple(_amounts(own, gear.angular_pitch, sense) for own, gear, sense in zip(deviations, gears, SENSES))
         self._teeth = tuple(gear.teeth for gear in gears)
@@ -70,9 +75,10 @@ class FlankGaps:
         return found
 
     def _shapes(self, gear: int, pair: PairNodes) -> np.ndarray:
-        """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form and both parts of the waviness.
+        """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form, both of the helix where there is one, and both
+        parts of the waviness.
 
-        Profiles of coast flanks are true; an index deviation displaces both flanks of a tooth.
+        Profiles and helices of coast flanks are true; an index deviation displaces both flanks of a tooth.
         """
         own, body, arm = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).lever_arms[gear]
         displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
@@ -82,14 +88,16 @@ class FlankGaps:
         def at(offsets):
             return roll_angle_at_height(body.base_radius, pair.place.contact_rolls[gear], arm - SENSES[gear] * offsets)
 
-        excess = profile_shapes(own, at, pair)
+        # Waves run along the lines of contact, as the periodic error of a generating machine leaves them.
+        turned = SENSES[gear] * self._slope * pair.place.height / body.base_radius
+        excess = profile_shapes(own, at, pair, turned)
         return np.stack([displaced, *(-each for each in excess)], axis=1)
 
 
-def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes) -> list[np.ndarray]:
-    """Excess of material (n,) at a pair's nodes for a unit of slope, form, and of the cosine and the sine of the waviness.
+def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes, turned: float = 0.0) -> list[np.ndarray]:
+    """Excess of material (n,) at a pair's nodes for a unit of slope, form, of slope and form of the helix, and of the cosine and the sine of the waviness.
 
-    `roll_at`: roll angle (rad) at offsets (mm, any shape).
+    `roll_at`: roll angle (rad) at offsets (mm, any shape); `turned`: by which the helix turns the gear's section at the pair's height, in the sense of rotation.
     """
     start, end = deviations.active_profile
     # Nodes that average displacements average the flank as well.
@@ -97,8 +105,11 @@ def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes) -> lis
     roll = roll_at(quadrature_offsets(pair.offsets) if averaged else pair.offsets)
     along = (roll - start) / (end - start)
     shapes = [along - 0.5, -0.5 * np.cos(2.0 * np.pi * along)]
+    if deviations.helix is not None:
+        over_face = np.full_like(roll, (pair.place.height - deviations.helix.middle) / deviations.helix.width)
+        shapes += [over_face, 0.5 * np.cos(2.0 * np.pi * over_face)]
     if deviations.waviness is not None:
-        waves = deviations.waviness.waves * roll
+        waves = deviations.waviness.waves * (roll - turned)
         shapes += [np.cos(waves), -np.sin(waves)]
     return [node_average(pair.offsets, each) for each in shapes] if averaged else shapes
 
@@ -110,6 +121,8 @@ def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) ->
     times the angular pitch; on the wheel, where roll angles fall, by i times the angular pitch less v.
     """
     columns = [deviations.index, deviations.slope, deviations.form]
+    if deviations.helix is not None:
+        columns += [deviations.helix.slope, deviations.helix.form]
     if deviations.waviness is not None:
         waves = deviations.waviness
         phase = waves.phase + sense * waves.waves * angular_pitch * np.arange(len(deviations.index))
@@ -117,9 +130,10 @@ def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) ->
     return np.ascontiguousarray(np.stack(columns, axis=1))
 
 
-def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int) -> FlankGaps:
-    """The gaps that flank errors add, in a run of so many steps a mesh cycle. Raises SceneError for waves that the steps do not sample."""
-    deviations = flank_deviations(errors, pair)
+def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face | None = None) -> FlankGaps:
+    """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: of a scene that has one. Raises SceneError for waves that the
+    steps do not sample."""
+    deviations = flank_deviations(errors, pair, None if face is None else face.middles)
     for own, gear, name in zip(deviations, (pair.pinion, pair.wheel), ("pinion", "wheel")):
         waves = 0 if own.waviness is None else own.waviness.waves
         if waves * FEWEST_STEPS_A_WAVE > steps * gear.teeth:
@@ -127,4 +141,4 @@ def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int) -> FlankGaps:
                 f"flank_errors.{name}.waviness.waves = {waves}: a turn of the {name} has {steps * gear.teeth} steps, fewer than "
                 f"{FEWEST_STEPS_A_WAVE} a wave; raise accuracy.steps_per_mesh_cycle to {-(-FEWEST_STEPS_A_WAVE * waves // gear.teeth)} or more"
             )
-    return FlankGaps(pair, deviations, steps)
+    return FlankGaps(pair, deviations, steps, 0.0 if face is None else face.slope)

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.operator import CENTRE_COORDINATES
+from fenics_gears.contact.operator import COORDINATES, FACE_COORDINATES
 from fenics_gears.dynamics.drivetrain_data import RAYLEIGH, Bearings, Damping, Inertia, Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.gear_inertia import LumpedGear
+    from fenics_gears.dynamics.tilting import MeshOverFace
 
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
 MOST_OF_WHEEL = 1e10
@@ -26,14 +27,19 @@ FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 TRANSLATIONS = {"centre_x1": ("pinion", "x"), "centre_y1": ("pinion", "y"), "centre_x2": ("wheel", "x"), "centre_y2": ("wheel", "y")}
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
 SIDE = {name: gear for name, (gear, _) in TRANSLATIONS.items()} | {"rotation_1": "pinion", "rotation_2": "wheel", "shaft_twist": "wheel"}
+SIDE |= {name: "pinion" if name.endswith("1") else "wheel" for name in FACE_COORDINATES}
+# Coordinates that the bearings' springs act on, and what of a gear is moved, by the first word of the coordinate's name.
+ON_BEARINGS = {*TRANSLATIONS, *FACE_COORDINATES}
+MOVED = {"centre": "mass", "axial": "mass", "rotation": "moment_of_inertia", "shaft": "moment_of_inertia", "tilt": "tilting_inertia"}
 
 
 @dataclass(frozen=True)
 class Drivetrain:
-    """Equations of motion [26]-[28] without the contact forces, over k of the seven centre coordinates.
+    """Equations of motion [26]-[28] without the contact forces, over k of the centre coordinates.
 
     `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
-    `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none.
+    `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how the coordinates move flanks
+    that have a width; None in the plane.
     """
 
     coordinates: tuple[str, ...]
@@ -42,11 +48,12 @@ class Drivetrain:
     load: np.ndarray
     mass: np.ndarray | None
     damping: np.ndarray | None
+    mesh: MeshOverFace | None = None
 
     @property
     def indices(self) -> list[int]:
-        """Positions of the coordinates among CENTRE_COORDINATES."""
-        return [CENTRE_COORDINATES.index(name) for name in self.coordinates]
+        """Positions of the coordinates among COORDINATES."""
+        return [COORDINATES.index(name) for name in self.coordinates]
 
     @property
     def driven_backwards(self) -> bool:
@@ -101,19 +108,26 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
     which the wheel's own moment of inertia is lost in round-off.
     """
     names = _moving_coordinates(supports)
-    radius = {"rotation_1": pair.pinion.base_radius, "rotation_2": pair.wheel.base_radius, "shaft_twist": pair.wheel.base_radius}
-    radii = np.array([radius.get(name, 1.0) for name in names])
-    stiffness, mass = np.zeros((len(names), len(names))), None
+    radii = np.array([1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, SIDE[name]).base_radius for name in names])
+    stiffness, mass, mesh = np.zeros((len(names), len(names))), None, None
     if supports.bearings is not None:
         for name, (gear, direction) in TRANSLATIONS.items():
             stiffness[names.index(name), names.index(name)] = supports.bearings.of(gear, direction)
+        if supports.bearings.places is not None:
+            from fenics_gears.dynamics.tilting import add_bearings
+
+            add_bearings(stiffness, names, supports.bearings)
     if supports.shafts is not None:
         _add_torsion(stiffness, names, supports.shafts)
     if supports.inertia is not None:
         mass = _mass(names, supports.inertia, supports.gears)
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
-    undamped = Drivetrain(names, radii, stiffness, forces_of_torque(names, radii, wheel_torque), mass, damping=None)
+    if mass is not None and (pair.slope or not set(names).isdisjoint(FACE_COORDINATES)):
+        from fenics_gears.dynamics.tilting import mesh_over_face
+
+        mesh = mesh_over_face(pair, names)
+    undamped = Drivetrain(names, radii, stiffness, forces_of_torque(names, radii, wheel_torque), mass, None, mesh)
     if supports.damping is None or mass is None:
         return undamped
     return replace(undamped, damping=_damping(supports.damping, undamped, mesh_stiffness))
@@ -128,9 +142,21 @@ def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
     moving = {"rotation_2"}
     if supports.bearings is not None:
         moving.update(TRANSLATIONS)
+        moving.update(_over_the_face(supports.bearings))
     if supports.shafts is not None:
         moving.update(("rotation_1", "shaft_twist"))
-    return tuple(name for name in CENTRE_COORDINATES if name in moving)
+    return tuple(name for name in COORDINATES if name in moving)
+
+
+def _over_the_face(bearings: Bearings) -> set[str]:
+    """The coordinates of gears whose bearings have places: tilts, and the axial one where the shaft is not held."""
+    tilting = [name for name in FACE_COORDINATES if bearings.places_of(SIDE[name]) is not None]
+    return {name for name in tilting if _kind(name) == "tilt" or bearings.axial(SIDE[name]) is not None}
+
+
+def _kind(name: str) -> str:
+    """First word of a coordinate's name."""
+    return name.partition("_")[0]
 
 
 def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], shafts: Shafts) -> None:
@@ -142,7 +168,7 @@ def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], shafts: Shafts) 
 def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGear]) -> np.ndarray:
     """Lumped masses; J3 phi3'' with phi3 = phi2 + twist couples the wheel's rotation with the twist."""
     end = inertia.shaft_end
-    lumped = {name: gears[gear].mass if name in TRANSLATIONS else gears[gear].moment_of_inertia for name, gear in SIDE.items()}
+    lumped = {name: getattr(gears[SIDE[name]], MOVED[_kind(name)]) for name in names}
     mass, second = np.diag([lumped[name] for name in names]), names.index("rotation_2")
     if "shaft_twist" in names:
         _check_load(end, lumped["rotation_2"])

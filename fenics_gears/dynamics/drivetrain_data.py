@@ -60,11 +60,13 @@ class Shafts:
 
 @dataclass(frozen=True)
 class Support:
-    """Translational stiffness of one shaft's support, N/mm: in every direction, along and across the line of action; None: as of both shafts."""
+    """Translational stiffness of one shaft's support, N/mm: in every direction across the axis, along and off the line of action, and along the
+    axis; None: as of both shafts."""
 
     stiffness: float | None = None
     stiffness_x: float | None = None
     stiffness_y: float | None = None
+    axial_stiffness: float | None = None
 
     def along(self, direction: str) -> float | None:
         """Stiffness in "x" or "y"; None where it is not given."""
@@ -96,6 +98,15 @@ class Bearings(Support):
         own = getattr(self, gear)
         stiffness = None if own is None else own.along(direction)
         return self.along(direction) if stiffness is None else stiffness
+
+    def axial(self, gear: str) -> float | None:
+        """Axial stiffness (N/mm) of the "pinion"'s or the "wheel"'s shaft; None where it is held."""
+        own = getattr(getattr(self, gear), "axial_stiffness", None)
+        return self.axial_stiffness if own is None else own
+
+    def places_of(self, gear: str) -> tuple[float, ...] | None:
+        """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft; None where that gear does not tilt."""
+        return getattr(self.places, gear, None)
 
 
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")

@@ -8,7 +8,7 @@ from math import atan, inf, pi, sqrt
 import numpy as np
 from scipy.linalg import eigh, null_space
 
-from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.drivetrain import SIDE, Drivetrain
 
 # Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also acts across.
 MESH_DIRECTION = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
@@ -22,11 +22,15 @@ STEPS_OF_A_RESOLVED_PERIOD = 2.0 * pi / sqrt(12.0 * PERIOD_ERROR)
 
 @dataclass(frozen=True)
 class Vibration:
-    """One elastic mode: `frequency` (Hz), `damping_ratio` of the critical damping, `excited`: whether contact forces excite it."""
+    """One elastic mode: `frequency` (Hz), `damping_ratio` of the critical damping, `excited`: whether contact forces excite it.
+
+    `motion`: in words, where tilting or axial motion of one gear has most of the kinetic energy; else empty.
+    """
 
     frequency: float
     damping_ratio: float
     excited: bool
+    motion: str = ""
 
     @property
     def amplification(self) -> float:
@@ -51,33 +55,60 @@ def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float) -> np.nda
 def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = False) -> list[Vibration]:
     """The elastic modes by frequency; `friction`: whether contact forces also act across the line of action."""
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
-    directions = [MESH_DIRECTION, ACROSS_DIRECTION] if friction else [MESH_DIRECTION]
-    moved = np.abs([[direction.get(name, 0.0) for name in drivetrain.coordinates] for direction in directions] @ shapes).max(axis=0)
+    directions = np.concatenate([_along(drivetrain), _across(drivetrain)]) if friction else _along(drivetrain)
+    moved = np.abs(directions @ shapes).max(axis=0)
     if np.isinf(mesh_stiffness):
         # Tied flanks do not move apart in any mode; their errors excite every mode.
         moved = np.full(len(frequencies), np.inf)
     damping = np.zeros_like(drivetrain.stiffness) if drivetrain.damping is None else drivetrain.damping
-    damped = np.einsum("ci,cd,di->i", shapes, damping, shapes)
+    damped, words = np.einsum("ci,cd,di->i", shapes, damping, shapes), _motions(drivetrain, shapes)
     return [
-        Vibration(float(frequency), float(0.5 * taken / (2.0 * pi * frequency)), bool(motion > STILL * np.linalg.norm(shape)))
-        for frequency, taken, motion, shape in zip(frequencies, damped, moved, shapes.T)
+        Vibration(float(frequency), float(0.5 * taken / (2.0 * pi * frequency)), bool(motion > STILL * np.linalg.norm(shape)), said)
+        for frequency, taken, motion, shape, said in zip(frequencies, damped, moved, shapes.T, words)
         if frequency > RIGID * frequencies[-1]
     ]
 
 
 def modes(drivetrain: Drivetrain, mesh_stiffness: float) -> tuple[np.ndarray, np.ndarray]:
     """Natural frequencies (k,), Hz, ascending, and shapes (k, k), one a column, of modal mass 1."""
-    normal = np.array([MESH_DIRECTION.get(name, 0.0) for name in drivetrain.coordinates])
+    normals = _along(drivetrain)
     if np.isinf(mesh_stiffness):
-        return _tied_modes(drivetrain, normal)
-    stiffness = drivetrain.stiffness + mesh_stiffness * np.outer(normal, normal)
+        return _tied_modes(drivetrain, normals)
+    stiffness = drivetrain.stiffness + mesh_stiffness / len(normals) * (normals.T @ normals)
     squares, shapes = eigh(stiffness, drivetrain.mass)
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), shapes
 
 
-def _tied_modes(drivetrain: Drivetrain, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The modes (k - 1 of them) of a drivetrain whose flanks are rigid and stay together: nothing moves along `normal` (k,)."""
-    free = null_space(normal[None, :])
+def _along(drivetrain: Drivetrain) -> np.ndarray:
+    """Displacement (r, k) of the flanks along their normal per coordinate: as a whole, or of either half of their width."""
+    return _plane(drivetrain, MESH_DIRECTION) if drivetrain.mesh is None else drivetrain.mesh.normals
+
+
+def _across(drivetrain: Drivetrain) -> np.ndarray:
+    """Displacement (1, k) off the line of action."""
+    return _plane(drivetrain, ACROSS_DIRECTION) if drivetrain.mesh is None else drivetrain.mesh.across
+
+
+def _plane(drivetrain: Drivetrain, direction: dict[str, float]) -> np.ndarray:
+    return np.array([[direction.get(name, 0.0) for name in drivetrain.coordinates]])
+
+
+def _motions(drivetrain: Drivetrain, shapes: np.ndarray) -> list[str]:
+    """What gears do beside the plane motion in each mode, in words; empty where that has less than half of the kinetic energy."""
+    if drivetrain.mesh is None:
+        return [""] * shapes.shape[1]
+    # Of modes of modal mass 1 these are shares.
+    energy, said = shapes * (drivetrain.mass @ shapes), [""] * shapes.shape[1]
+    for kind, words in (("tilt", "{} tilts"), ("axial", "{} moves along its axis")):
+        for gear in ("pinion", "wheel"):
+            rows = [place for place, name in enumerate(drivetrain.coordinates) if name.startswith(kind) and SIDE[name] == gear]
+            said = [words.format(gear) if share > 0.5 else before for share, before in zip(energy[rows].sum(axis=0), said)]
+    return said
+
+
+def _tied_modes(drivetrain: Drivetrain, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The modes of a drivetrain whose flanks are rigid and stay together: nothing moves along `normals` (r, k)."""
+    free = null_space(normals)
     if not free.shape[1]:
         return np.empty(0), free
     squares, shapes = eigh(free.T @ drivetrain.stiffness @ free, free.T @ drivetrain.mass @ free)

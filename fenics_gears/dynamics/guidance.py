@@ -96,7 +96,7 @@ def time_step_warnings(
 
 def _listed(vibrations: Sequence[Vibration], time_step: float) -> str:
     """Each frequency once, with the number of vibrations that have it."""
-    counts = Counter(f"{each.frequency:.4g} Hz ({each.steps_per_period(time_step):.3g} steps per period)" for each in vibrations)
+    counts = Counter(f"{each.frequency:.4g} Hz ({each.steps_per_period(time_step):.3g} steps per period{each.motion and f'; {each.motion}'})" for each in vibrations)
     return ", ".join(words if count == 1 else f"{count} vibrations at {words}" for words, count in counts.items())
 
 

@@ -75,9 +75,12 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS),
 )
 
-# What a run has besides where the flanks are resolved over the face.
+# What a run has besides where the flanks are resolved over the face. Moments are about the gears' mid-widths.
 FACE_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("line_load", "N/mm", "contact force of the tooth pair along the contact normal, per length of the face", dims=OF_SLICES),
+    ResultVariable("reaction_z", "N", "axial force of the gear on its shaft", dims=("time", "gear")),
+    ResultVariable("reaction_moment_x", "N mm", "moment of the gear on its shaft about the line of action, at mid-width", dims=("time", "gear")),
+    ResultVariable("reaction_moment_y", "N mm", "moment of the gear on its shaft off the line of action, at mid-width", dims=("time", "gear")),
 )
 
 # What only contact that is spread over nodes has.
@@ -111,7 +114,11 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     """Every variable that the result of a scene has."""
     on = effects_on(scene)
     named = {each.section for each in on}
-    found = COMMON_VARIABLES + tuple(found for each in on for found in each.variables if not found.needs or found.needs in named)
+    there = [(found, getattr(scene, each.section)) for each in on for found in each.variables if not found.needs or found.needs in named]
+    found = COMMON_VARIABLES + tuple(
+        found for found, data in there
+        if (not found.field or getattr(data, found.field) is not None) and (scene.three_dimensional or not found.over_face)
+    )  # fmt: skip
     if scene.three_dimensional:
         found = tuple(replace(each, dims=(*OF_SLICES, "contact_node")) if each.dims == OF_NODES else each for each in (*found, *FACE_VARIABLES))
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES

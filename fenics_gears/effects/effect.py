@@ -25,13 +25,16 @@ OF_SLICES = ("contact_time", "slot", "face_position")
 @dataclass(frozen=True)
 class ResultVariable:
     """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without which it is not there;
-    ``dims``: its dimensions."""
+    ``dims``: its dimensions; ``field``: the field of the effect's own section without which it is not there;
+    ``over_face``: whether it is there in three-dimensional scenes only."""
 
     name: str
     units: str
     long_name: str
     needs: str = ""
     dims: tuple[str, ...] = ("time",)
+    field: str = ""
+    over_face: bool = False
 
 
 @dataclass(frozen=True)

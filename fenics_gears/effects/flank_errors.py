@@ -1,13 +1,13 @@
-"""``[flank_errors]``: pitch, profile and waviness deviations of single teeth (``geometry.flank_deviations``, ``contact.flank_gaps``).
+"""``[flank_errors]``: pitch, profile, helix and waviness deviations of single teeth (``geometry.flank_deviations``, ``contact.flank_gaps``).
 
 Signs are those of ISO 1328-1. A pitch deviation is positive where the pitch is too long; a profile slope where the flank has material
-in excess towards the tip; a profile form, which the standard gives no sign, where the middle of the flank stands out. Teeth are counted
+in excess towards the tip; a profile form, which the standard gives no sign, where the middle of the flank stands out. Those of the helix are the like along the face, positive towards the right end, whatever the hand. Teeth are counted
 in the order in which they mesh, from the tooth of either gear that meshes first; a pitch is that from the tooth before.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import lcm
 from pathlib import Path
@@ -18,16 +18,30 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
 from fenics_gears.inputs.fields import Section, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, Tree, quantity_at, quantity_in, table, teeth_in, too_large_for_the_module, value_at
+from fenics_gears.inputs.tree import (
+    GEARS,
+    LARGEST_ERROR,
+    PLANE,
+    Tree,
+    flanks_have_width,
+    quantity_at,
+    quantity_in,
+    table,
+    teeth_in,
+    too_large_for_the_module,
+    value_at,
+)
 from fenics_gears.inputs.written import as_written
 
-LISTS = ("pitch", "profile_slope", "profile_form")
+HELIX = ("helix_slope", "helix_form")
+LISTS = ("pitch", "profile_slope", "profile_form", *HELIX)
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3
-# Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
-DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
+# Reference diameters, modules and face widths (mm) that the tolerances of ISO 1328-1:2013 are for.
+DIAMETERS, MODULES, WIDTHS = (5.0, 15e3), (0.5, 70.0), (4.0, 1200.0)
 
 DRAWN = "random values within `tolerance_class`; without a class, zero"
+DRAWN_OVER_FACE = f"{DRAWN}; not allowed in a plane scene"
 
 
 class WavinessText(Section):
@@ -48,8 +62,8 @@ class GearErrorsText(Section):
     file: Optional[str] = file_name(
         ".csv",
         "pinion.csv",
-        meaning="table with a line for each tooth: the column `tooth`, counted from 1, and any of the columns `pitch (um)`, `profile_slope (um)` and "
-        "`profile_form (um)`; relative to the folder of the scene file",
+        meaning="table with a line for each tooth: the column `tooth`, counted from 1, and any of the columns `pitch (um)`, `profile_slope (um)`, "
+        "`profile_form (um)`, `helix_slope (um)` and `helix_form (um)`; relative to the folder of the scene file",
         otherwise="no table",
     )
 
@@ -61,6 +75,12 @@ class GearErrorsText(Section):
     )
     profile_form: Optional[tuple[float, ...]] = quantities(
         "-100 mm", "100 mm", "3 um", meaning="profile form deviations, positive with material in excess in the middle of the flank", otherwise=DRAWN
+    )
+    helix_slope: Optional[tuple[float, ...]] = quantities(
+        "-100 mm", "100 mm", "5 um", meaning="helix slope deviations over the face width, positive with material in excess towards the right end", otherwise=DRAWN_OVER_FACE
+    )
+    helix_form: Optional[tuple[float, ...]] = quantities(
+        "-100 mm", "100 mm", "3 um", meaning="helix form deviations, positive with material in excess in the middle of the face", otherwise=DRAWN_OVER_FACE
     )
     waviness: Optional[WavinessText] = None
 
@@ -104,6 +124,9 @@ def check(errors: FlankErrors, scene, pair) -> None:
         problem = own.problem if own.file is None or own.problem else _problem_of_table(own, getattr(pair, gear).teeth, scene.gears.module, gear)
         if problem:
             raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: {problem}\nNothing was computed or written.")
+        in_table = [name for name in HELIX if own.file is not None and getattr(own, name) is not None]
+        if in_table and not scene.three_dimensional:
+            raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]} {PLANE}\nNothing was computed or written.")
 
 
 def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) -> str:
@@ -142,6 +165,8 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
         own = table(errors, gear) or {}
         yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
         yield from _errors_are_small(tree, own, gear)
+        if not flanks_have_width(tree):
+            yield from (Problem(("flank_errors", gear, name), as_written(own[name]), PLANE) for name in HELIX if name in own)
 
 
 def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
@@ -188,6 +213,10 @@ def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
         message = f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists of errors instead."
         yield Problem(path, written, message)
     for gear in GEARS:
+        width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
+        if flanks_have_width(tree) and width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
+            message = f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed: lists of errors instead."
+            yield Problem(path, written, message)
         diameter = module * (teeth_in(tree, gear) or 100)
         if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
             message = f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of errors instead."
@@ -198,7 +227,7 @@ def gaps(errors: FlankErrors, model):
     """What the errors of the teeth that meet add to the gaps."""
     from fenics_gears.contact.flank_gaps import flank_gaps
 
-    return flank_gaps(errors, model.pair, model.resolution.steps_per_mesh_cycle)
+    return flank_gaps(errors, model.pair, model.resolution.steps_per_mesh_cycle, model.face)
 
 
 def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
@@ -206,39 +235,45 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     from fenics_gears.geometry.flank_deviations import flank_deviations
 
     values = {}
-    for gear, found in zip(GEARS, flank_deviations(errors, cycle.pair)):
+    for gear, found in zip(GEARS, flank_deviations(errors, cycle.pair, None if cycle.face is None else cycle.face.middles)):
         dimension = (f"{gear}_tooth",)
         values[f"{gear}_index_deviation"] = dimension, found.index
         values[f"{gear}_profile_slope"] = dimension, found.slope
         values[f"{gear}_profile_form"] = dimension, found.form
+        if found.helix is not None:
+            values[f"{gear}_helix_slope"] = dimension, found.helix.slope
+            values[f"{gear}_helix_form"] = dimension, found.helix.form
     return values
 
 
 def period(errors: FlankErrors, scene) -> int:
     """Mesh cycles of whole turns of the gears whose teeth differ."""
-    return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if _differ(getattr(errors, name), errors.tolerance_class is not None)))
+    names, drawn = LISTS if scene.three_dimensional else [name for name in LISTS if name not in HELIX], errors.tolerance_class is not None
+    return lcm(*(getattr(scene.gears, gear).teeth for gear in GEARS if _differ(getattr(errors, gear), names, drawn)))
 
 
-def _differ(own: GearErrors, drawn: bool) -> bool:
-    """Whether a gear's teeth are not all alike; what is not given is `drawn`, or there is none of it."""
-    given = (own.pitch, own.profile_slope, own.profile_form)
+def _differ(own: GearErrors, names: Sequence[str], drawn: bool) -> bool:
+    """Whether a gear's teeth are not all alike in deviations of some names; what is not given is `drawn`, or there is none of it."""
+    given = [getattr(own, name) for name in names]
     return own.waviness is not None or any(drawn if values is None else len(set(values)) > 1 for values in given)
 
 
 EFFECT = Effect(
     section="flank_errors",
-    description="pitch and profile deviations and waviness of the teeth, given for each tooth or random within a flank tolerance class",
+    description="pitch, profile and helix deviations and waviness of the teeth, given for each tooth or random within a flank tolerance class",
     absent="all teeth are alike and at their nominal places",
     text=FlankErrorsText,
     data=FlankErrors,
     terms=("gaps that differ from tooth to tooth, over a hunting tooth period",),
     variables=tuple(
-        ResultVariable(f"{gear}_{name}", "mm", f"{words} of each tooth of the {gear}", dims=(f"{gear}_tooth",))
+        ResultVariable(f"{gear}_{name}", "mm", f"{words} of each tooth of the {gear}", dims=(f"{gear}_tooth",), over_face=name in HELIX)
         for gear in GEARS
         for name, words in (
             ("index_deviation", "cumulative pitch deviation"),
             ("profile_slope", "profile slope deviation"),
             ("profile_form", "profile form deviation"),
+            ("helix_slope", "helix slope deviation"),
+            ("helix_form", "helix form deviation"),
         )
     ),
     located=located,

@@ -2,7 +2,8 @@
 
 A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part, from the start of
 active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value from one end to the
-other, form is one wave over that length, as wide as its value.
+other, form is one wave over that length, as wide as its value. Slope and form of the helix are the like along the face of the gear, and are only there
+where flanks have one.
 """
 
 from __future__ import annotations
@@ -12,11 +13,24 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
-from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance
+from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 
-PITCH, SLOPE, FORM = range(3)  # each has random numbers of its own, so that giving one leaves the others as they are
+PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(5)  # each has random numbers of its own, so that giving one leaves the others as they are
+
+
+@dataclass(frozen=True)
+class HelixDeviations:
+    """Deviations along the face (z,), mm, over its ``width`` (mm) with mid-width at the height ``middle`` (mm).
+
+    ``slope``: excess of material at the right end over that at the left one. ``form``: excess in the middle over that at both ends.
+    """
+
+    slope: np.ndarray
+    form: np.ndarray
+    width: float
+    middle: float
 
 
 @dataclass(frozen=True)
@@ -24,7 +38,7 @@ class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in the middle over that at
-    both ends. ``active_profile``: roll angles (rad) of its start and its end.
+    both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None in the plane.
     """
 
     index: np.ndarray
@@ -32,6 +46,7 @@ class FlankDeviations:
     form: np.ndarray
     waviness: Waviness | None
     active_profile: tuple[float, float]
+    helix: HelixDeviations | None = None
 
     @property
     def single_pitch(self) -> np.ndarray:
@@ -39,13 +54,16 @@ class FlankDeviations:
         return np.diff(self.index, prepend=self.index[-1])
 
 
-def flank_deviations(errors: FlankErrors, pair: GearPair) -> tuple[FlankDeviations, FlankDeviations]:
-    """Deviations of pinion and wheel."""
+def flank_deviations(errors: FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None) -> tuple[FlankDeviations, FlankDeviations]:
+    """Deviations of pinion and wheel; `middles` (mm): heights of their mid-widths, None in the plane."""
     gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
-    return tuple(_of_gear(gear, own, errors, number, start) for number, (gear, own, start) in enumerate(gears))
+    faces = (None, None) if middles is None else tuple(zip(pair.face_widths, middles))
+    return tuple(_of_gear(gear, own, errors, number, start, faces[number]) for number, (gear, own, start) in enumerate(gears))
 
 
-def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, start: float) -> FlankDeviations:
+def _of_gear(
+    gear: Gear, own: GearErrors, errors: FlankErrors, number: int, start: float, face: tuple[float, float] | None
+) -> FlankDeviations:
     tolerance = None
     if errors.tolerance_class is not None:
         tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, errors.tolerance_class)
@@ -58,6 +76,11 @@ def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, star
             return np.array(given, dtype=float)
         return np.zeros(gear.teeth) if tolerance is None else drawn(tolerance)
 
+    def along_face(width: float, middle: float) -> HelixDeviations:
+        allowed = None if tolerance is None else helix_tolerance(2.0 * gear.reference_radius, width, errors.tolerance_class)
+        slope = values(own.helix_slope, lambda limits: allowed.slope * draws(HELIX_SLOPE))
+        return HelixDeviations(slope, values(own.helix_form, lambda limits: allowed.form * draws(HELIX_FORM)), width, middle)
+
     pitch = values(own.pitch, lambda limits: drawn_pitch(limits, draws(PITCH)))
     # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
     index = np.cumsum(pitch - pitch.mean())
@@ -67,6 +90,7 @@ def _of_gear(gear: Gear, own: GearErrors, errors: FlankErrors, number: int, star
         form=values(own.profile_form, lambda limits: limits.profile_form * draws(FORM)),
         waviness=own.waviness,
         active_profile=(start, gear.tip_roll_angle),
+        helix=None if face is None else along_face(*face),
     )
 
 

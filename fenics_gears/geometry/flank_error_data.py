@@ -16,7 +16,7 @@ class Waviness:
 
 @dataclass(frozen=True)
 class GearErrors:
-    """Errors of one gear, mm, a value for each tooth; None for what the scene does not give.
+    """Errors of one gear, mm, a value for each tooth; None for what the scene does not give. Those of the helix are over the gear's face width.
 
     ``file``: the table that the values are from; ``problem``: what is wrong with it, in words, empty where nothing is.
     """
@@ -24,6 +24,8 @@ class GearErrors:
     pitch: tuple[float, ...] | None = None
     profile_slope: tuple[float, ...] | None = None
     profile_form: tuple[float, ...] | None = None
+    helix_slope: tuple[float, ...] | None = None
+    helix_form: tuple[float, ...] | None = None
     waviness: Waviness | None = None
     file: str | None = None
     problem: str = ""

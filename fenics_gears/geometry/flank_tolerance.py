@@ -1,6 +1,6 @@
 """Flank tolerances of ISO 1328-1:2013.
 
-Formulas (5) to (9) of the standard, taken from published programs that cite them by number, not from the standard itself; values are not
+Formulas (5) to (12) of the standard, taken from published programs that cite them by number, not from the standard itself; values are not
 rounded as it prints them. Check: the values that another such program is tested by (module 3 mm, 40 teeth, class 6: single pitch 8.94 um,
 total cumulative pitch 28.80 um).
 """
@@ -26,6 +26,29 @@ class FlankTolerance:
     def profile(self) -> float:
         """Total profile tolerance F_a, mm."""
         return hypot(self.profile_slope, self.profile_form)
+
+
+@dataclass(frozen=True)
+class HelixTolerance:
+    """Tolerances of one gear along its face, mm: helix slope f_Hb, helix form f_fb."""
+
+    slope: float
+    form: float
+
+    @property
+    def total(self) -> float:
+        """Total helix tolerance F_b, mm."""
+        return hypot(self.slope, self.form)
+
+
+def helix_tolerance(reference_diameter: float, face_width: float, tolerance_class: int) -> HelixTolerance:
+    """Tolerances of a gear (diameter d and face width b in mm) in a class A from 1 to 11; d from 5 mm to 15 m, b from 4 mm to 1.2 m.
+
+    >>> round(1e3 * helix_tolerance(100.0, 25.0, 5).slope, 3), round(1e3 * helix_tolerance(100.0, 25.0, 5).form, 3)  # um
+    (6.25, 6.95)
+    """
+    d, b, step = reference_diameter, face_width, MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
+    return HelixTolerance(step * (0.05 * sqrt(d) + 0.35 * sqrt(b) + 4.0), step * (0.07 * sqrt(d) + 0.45 * sqrt(b) + 4.0))
 
 
 def flank_tolerance(reference_diameter: float, module: float, tolerance_class: int) -> FlankTolerance:

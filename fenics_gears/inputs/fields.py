@@ -93,17 +93,18 @@ def _bare(entry: Any) -> float:
 
 @dataclass(frozen=True)
 class AllowedList(Allowed):
-    """A list of at most ``longest`` quantities of one kind, each within ``bounds`` (in N, mm, s, rad)."""
+    """A list of ``shortest`` to ``longest`` quantities of one kind, each within ``bounds`` (in N, mm, s, rad)."""
 
     bounds: tuple[float, float] = (0.0, 0.0)
     longest: int = 1000
+    shortest: int = 1
 
     def convert(self, value: Any) -> tuple[float, ...]:
         """The numbers in N, mm, s, rad. Raises PydanticCustomError, which names the first entry that is wrong."""
         if not isinstance(value, list):
             raise refused("is not a list.")
-        if not 0 < len(value) <= self.longest:
-            raise refused("is empty." if not value else f"has {len(value)} entries.")
+        if not self.shortest <= len(value) <= self.longest:
+            raise refused("is empty." if not value else f"has {len(value)} {'entry' if len(value) == 1 else 'entries'}.")
         return tuple(self._entry(number, entry) for number, entry in enumerate(value, 1))
 
     def _entry(self, number: int, entry: Any) -> float:
@@ -220,11 +221,15 @@ def number(
     return Field(None if otherwise else default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
 
 
-def quantities(lowest: str, highest: str, example: str, *, meaning: str, otherwise: str) -> Any:
-    """A list of quantities with units, optional; bounds of each entry, both included, are written with units too."""
-    (low, kind), high = units.quantity(lowest), units.quantity(highest)[0]
-    description = f'a list of quantities, each {kind} from {lowest} to {highest}, with its unit, such as ["{example}", "{example}"]'
-    return _field(AllowedList(description, kind, units.unit_of(example), bounds=(low, high), meaning=meaning, otherwise=otherwise))
+def quantities(lowest: str, highest: str, *examples: str, meaning: str, otherwise: str, count: int | None = None) -> Any:
+    """A list of quantities with units, optional; bounds of each entry, both included, are written with units too.
+
+    ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed.
+    """
+    (low, kind), high, first, second = units.quantity(lowest), units.quantity(highest)[0], examples[0], examples[-1]
+    many, sizes = (f"{count} quantities", {"shortest": count, "longest": count}) if count else ("quantities", {})
+    description = f'a list of {many}, each {kind} from {lowest} to {highest}, with its unit, such as ["{first}", "{second}"]'
+    return _field(AllowedList(description, kind, units.unit_of(first), bounds=(low, high), meaning=meaning, otherwise=otherwise, **sizes))
 
 
 def numbers(lowest: float, highest: float, example: float, *, meaning: str, otherwise: str) -> Any:

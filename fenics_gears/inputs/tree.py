@@ -62,6 +62,15 @@ def teeth_in(tree: Tree, gear: str) -> int | None:
     return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
 
 
+def flanks_have_width(tree: Tree) -> bool:
+    """Whether a scene names what only flanks over a face have, so that it is three-dimensional."""
+    sections = {"lead_modifications", "misalignment"} & set(tree)
+    return bool(sections) or value_at(tree, "gears", "helix_angle") is not None or value_at(tree, "bearings", "places") is not None
+
+
+PLANE = "has no effect in a plane scene, which knows nothing of the face. Leave it out; gears.helix_angle, [lead_modifications], [misalignment] or bearings.places make a scene three-dimensional."
+
+
 def material_sections(tree: Tree) -> list[Path]:
     """Paths of the sections, misspelt ones too, that say what gears are made of; none of rigid gears."""
     return [(*path, name) for path, home in with_gears(tree, "gears").items() for name in home if nearest(name, ["material"])]

@@ -104,6 +104,8 @@ def _inertia_rows(model: Model) -> Rows:
         for field, unit in kinds:
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
+        if model.scene.bearings is not None and model.scene.bearings.places_of(name) is not None:
+            rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, "kg mm^2, about a diameter: J/2 + m b^2/12"))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
     load = model.scene.inertia.shaft_end if model.scene.shafts is not None else model.scene.inertia.load
     if load is not None:
@@ -170,8 +172,9 @@ def _frequency_rows(model: Model) -> Rows:
     rows: Rows = []
     for number, vibration in enumerate(model.vibrations, 1):
         steps, unmoved = vibration.steps_per_period(model.time_step), "" if vibration.excited else ", not excited by the mesh"
+        motion = vibration.motion and f", {vibration.motion}"
         damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
-        rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps per period{damped}{unmoved}"))
+        rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps per period{damped}{motion}{unmoved}"))
     rows.append(("highest frequency that is resolved", resolved_frequency(model.time_step), f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"))
     rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
     return rows

@@ -19,9 +19,14 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of the whole mesh at consecutive steps, on drive and on coast flanks, and their reactions on both gears' centres."""
     steps, drive = nodes.steps, nodes.drive
     reactions = _summed(nodes.of("rows_of_normals"), nodes.normal, nodes.layouts.starts)
+
+    def of_gears(rows: np.ndarray) -> np.ndarray:
+        """Rows (6, s), three for each gear, as (3, s, gears)."""
+        return rows.reshape(2, 3, len(steps)).transpose(1, 2, 0)
+
     if nodes.tangential is not None:
         reactions += _summed(nodes.of("rows_of_tangents"), nodes.tangential, nodes.layouts.starts)
-    reaction_x, reaction_y, reaction_couple = reactions.reshape(2, 3, len(steps)).transpose(1, 2, 0)
+    reaction_x, reaction_y, reaction_couple = of_gears(reactions[:6])
     values = {
         "normal_force": nodes.summed(nodes.normal * drive),
         "reaction_x": reaction_x,
@@ -30,6 +35,8 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
         "newton_iterations": steps.iterations,
         "closed_nodes": nodes.summed(nodes.closed),
     }
+    if scene.three_dimensional:
+        values |= dict(zip(("reaction_z", "reaction_moment_x", "reaction_moment_y"), of_gears(reactions[6:])))
     if scene.friction is not None:
         values["friction_force"] = nodes.summed(nodes.tangential * drive)
     if scene.coast_flanks is not None:

@@ -13,7 +13,7 @@ from numba import njit
 from fenics_gears.contact.addresses import COMPLIANCE, matrix_at
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
-from fenics_gears.dynamics.drivetrain import TRANSLATIONS, Drivetrain
+from fenics_gears.dynamics.drivetrain import ON_BEARINGS, Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
@@ -25,12 +25,12 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict
     parts = {}
     if scene.tooth_elasticity is not None:
         parts["energy_teeth"] = energy_of_teeth(steps)
-    translations = np.array([name in TRANSLATIONS for name in drivetrain.coordinates])
+    on_bearings = np.array([name in ON_BEARINGS for name in drivetrain.coordinates])
     positions, velocities = steps.states[:, 0], steps.states[:, 1]
     if scene.bearings is not None:
-        parts["energy_bearings"] = 0.5 * quadratic(positions * translations, drivetrain.stiffness)
+        parts["energy_bearings"] = 0.5 * quadratic(positions * on_bearings, drivetrain.stiffness)
     if scene.shafts is not None:
-        parts["energy_shafts"] = 0.5 * quadratic(positions * ~translations, drivetrain.stiffness)
+        parts["energy_shafts"] = 0.5 * quadratic(positions * ~on_bearings, drivetrain.stiffness)
     if scene.inertia is not None:
         parts["energy_kinetic"] = 0.5 * quadratic(velocities, drivetrain.mass)
     parts["energy"] = sum(parts.values(), np.zeros(len(steps)))

@@ -143,6 +143,9 @@ class Recorder:
         if scene.bearings is not None:
             values["centre_x"] = both("centre_x1", "centre_x2")
             values["centre_y"] = both("centre_y1", "centre_y2")
+            if scene.bearings.places is not None:
+                values |= {name: both(f"{name}1", f"{name}2") for name in ("tilt_x", "tilt_y")}
+                values["axial_position"] = both("axial_1", "axial_2")
         if scene.shafts is not None:
             values["shaft_end_rotation"] = drivetrain.value(states, "shaft_end")
         return values

@@ -10,7 +10,7 @@ import numpy as np
 
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import ContactOperator, displacement_jacobian, node_slices, over_nodes, per_node
+from fenics_gears.contact.operator import CENTRE_COORDINATES, COORDINATES, ContactOperator, displacement_jacobian, node_slices, over_nodes, per_node
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.window import flank_ends
 from fenics_gears.dynamics.steps import Steps
@@ -21,7 +21,8 @@ class Layout:
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive flank; `at_end`:
     whether it stands on an end of the window; `on_tip`: on the edge of the pinion's and of the wheel's tip; `rows_of_normals` (6, n) and
-    `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm.
+    `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm; over a face (12, n), with
+    the axial force, N, and the moments about x and y, N mm, of both gears after these.
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
@@ -66,10 +67,13 @@ def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
 
 
 def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
-    """-G^T of all six coordinates of both centres, rotations as torques."""
-    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential, face=operator.face)
+    """-G^T of all coordinates of both centres, rotations as torques."""
+    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential, face=operator.face).T
     units = np.concatenate([[1.0, 1.0, radius] for radius in operator.base_radii])
-    return -rows.T[:6] * units[:, None]
+    if len(rows) > len(CENTRE_COORDINATES):
+        rows = rows[[name != "shaft_twist" for name in COORDINATES]]
+        units = np.concatenate([units, *([1.0, radius, radius] for radius in operator.base_radii)])
+    return -rows[: len(units)] * units[:, None]
 
 
 class Layouts:

@@ -111,6 +111,10 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
     """A table; dimensions are those that the run's variable has, units and words must be the declared ones."""
     rows = []
     for each in variables:
+        if (each.field or each.over_face) and each.name not in result:
+            where = f"with `{each.field}`" if each.field else "of three-dimensional scenes"
+            rows.append((f"`{each.name}`", ", ".join(each.dims), each.units, f"{each.long_name} (only {where})"))
+            continue
         name, dimensions, units, words = _row(result, each.name)
         assert (units, words) == (each.units, each.long_name), f"{each.name} is not as declared"
         beside = f" (only with `[{effect_named(each.needs).written}]`)" if each.needs else ""

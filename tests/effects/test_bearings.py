@@ -40,6 +40,15 @@ def test_a_gears_own_stiffness_stands_before_that_of_both():
     assert {key: bearings.of(*key) for key in EXPECTED} == EXPECTED
 
 
+def test_places_are_read_from_mid_width():
+    """Authority: the section's own words; places in mm, the axial stiffness of a shaft before that of both."""
+    text = f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"\nplaces = {{ pinion = ["-40 mm", "6 cm"] }}\n[bearings.pinion]\naxial_stiffness = "2 N/mm"'
+    bearings = with_bearings(text).bearings
+    assert bearings.places_of("pinion") == (-40.0, 60.0) and bearings.places_of("wheel") is None
+    assert bearings.axial("pinion") == 2.0 and bearings.axial("wheel") == 1.0
+    assert with_bearings(ISOTROPIC).bearings.places is None
+
+
 def test_isotropic_bearings_are_the_same_however_they_are_written():
     """Exact identity: one stiffness for all, one for each direction, one for each shaft give the same matrices."""
     k = '"0.155e6 N/mm"'
@@ -60,10 +69,18 @@ def test_isotropic_bearings_are_the_same_however_they_are_written():
         ("", "bearings.stiffness\n    is missing"),
         ('stiffness_x = "1 N/mm"', "bearings.stiffness_y\n    is missing"),
         ('[bearings.pinion]\nstiffness = "1 N/mm"\n[bearings.wheel]\nstiffness_y = "1 N/mm"', "bearings.wheel.stiffness_x\n    is missing"),
+        (f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm", "40.1 mm"] }}', "bearings.places.wheel = a list\n    has both bearings on one spot"),
+        (f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm"] }}', "has 1 entry. Allowed: a list of 2 quantities, each a length from -10 m to 10 m"),
+        (f"{ISOTROPIC}\nplaces = {{}}", "[bearings.places]\n    is empty."),
+        (f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"', 'bearings.axial_stiffness = "1 N/mm"\n    has no effect: a shaft whose bearings have no places is held axially.'),
+        (
+            f'{ISOTROPIC}\nplaces = {{ wheel = ["-40 mm", "40 mm"] }}\n[bearings.pinion]\naxial_stiffness = "1 N/mm"',
+            "Leave it out, or give bearings.places.pinion.",
+        ),
     ],
 )
-def test_a_direction_without_stiffness_is_named(lines, said):
-    """Authority: house rule 7; what is missing, and where."""
+def test_what_is_missing_or_cannot_be_is_named(lines, said):
+    """Authority: house rule 7; what is missing or wrong, and where."""
     with pytest.raises(SceneError) as refused:
         with_bearings(lines)
     assert said in str(refused.value)
@@ -115,6 +132,6 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene, paper_pair):
     assert not [name for name in drivetrain(bare, paper_pair).coordinates if name.startswith("centre")]
     assert len(drivetrain(bare, paper_pair).stiffness) == 3
     gone = {variable.name for variable in effect_named("bearings").variables}
-    assert gone == {"centre_x", "centre_y", "energy_bearings"}
+    assert gone == {"centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "energy_bearings"}
     assert not gone & {variable.name for variable in result_variables(bare)}
     assert not gone & set(simulate(replace(quasi_static(coarse_scene(bare)))))

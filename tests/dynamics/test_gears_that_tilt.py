@@ -1,0 +1,150 @@
+"""Helical gears on bearings along their shafts, in mesh: balances of forces and moments, energy, and the limit of shafts that do not tilt."""
+
+from dataclasses import replace
+from math import tan
+
+import numpy as np
+import pytest
+from tests.stand_in import stand_in_body
+
+from fenics_gears.contact.face import Face, even_slices
+from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Support
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.dynamics.tilting import moved
+from fenics_gears.geometry.helix import Helix
+from fenics_gears.model.drivetrain import drivetrain
+from fenics_gears.results.side_by_side import _reaction_rows
+
+SLICES, STEPS = 5, 8
+HELIX = Helix(np.deg2rad(12.0))
+PLACES = BearingPlaces((-40.0, 60.0), (-30.0, 75.0))
+BEARINGS = Bearings(0.2e6, stiffness_y=0.3e6, axial_stiffness=0.07e6, pinion=Support(stiffness_x=0.1e6), places=PLACES)
+# From the middle of the common face.
+MIDDLES = (1.5, -1.5)
+
+
+class Mesh:
+    """A cycle over a face of stand-in gears, and what a quasi-static march of it gives."""
+
+    def __init__(self, scene, flanks, bearings, *, opening=0.0, friction=False):
+        self.scene, self.pair = replace(scene, inertia=None, damping=None, bearings=bearings), flanks.pair
+        self.shafts, self.friction = drivetrain(self.scene, self.pair), friction
+        face = Face(*even_slices(self.pair.face_width, SLICES), self.pair.slope, self.pair.gear_middles)
+        bodies = tuple(stand_in_body(gear, self.pair.face_width + 4.0) for gear in (self.pair.pinion, self.pair.wheel))
+
+        def openings(heights, positions):
+            return opening * heights / self.pair.face_width
+
+        self.cycle = FaceCycle(flanks, bodies, face, openings, ContactGrid(3.0, 12), STEPS, self.shafts.indices, friction)
+
+    def marched(self, plain=False):
+        """One mesh cycle."""
+        motion = EquationsOfMotion(self.shafts, 1e-4, 0.1 if self.friction else 0.0)
+        return Marcher(self.cycle, motion, plain).run(STEPS, STEPS + 1).records
+
+    def reactions(self, record):
+        """Force (x, y, z), N, and moment (x, y, z), N mm, of pinion and wheel on their shafts about their mid-widths, from the contact forces."""
+        rows = _reaction_rows(record.position.operator, self.friction) @ record.solution.forces
+        return [(np.array([*rows[place : place + 2], rows[6 + place]]), np.array([*rows[7 + place : 9 + place], rows[2 + place]])) for place in (0, 3)]
+
+
+@pytest.fixture(scope="module")
+def helical(paper_scene, stand_in_flanks):
+    """A mesh without and with friction, of gears that are not opposite each other."""
+    flanks = with_helix(stand_in_flanks, axial_offsets=(1.0, -2.0))
+    assert flanks.pair.gear_middles == MIDDLES
+    return [Mesh(paper_scene, flanks, BEARINGS, opening=0.004, friction=on) for on in (False, True)]
+
+
+def with_helix(flanks, **changes):
+    """The flanks with a helix, their sections as they are."""
+    return replace(flanks, pair=replace(flanks.pair, helix=HELIX, **changes))
+
+
+def test_all_balances_of_either_gear_are_closed(helical):
+    """Exact: what a gear puts on its shaft, its bearings and its shaft's torsion carry; and the two gears' forces cancel, in force and in moment."""
+    for mesh in helical:
+        pair, shafts = mesh.pair, mesh.shafts
+        centre = np.array([pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, MIDDLES[1] - MIDDLES[0]])
+        for record in mesh.marched():
+            (force_1, moment_1), (force_2, moment_2) = mesh.reactions(record)
+            size = np.abs(force_1).max()
+            assert force_1 + force_2 == pytest.approx(np.zeros(3), abs=1e-11 * size)
+            assert moment_1 + moment_2 + np.cross(centre, force_2) == pytest.approx(np.zeros(3), abs=1e-9 * size)
+            found = {name: float(shafts.value(record.state.position, name)) for name in shafts.coordinates}
+            for number, gear, force, moment in (("1", "pinion", force_1, moment_1), ("2", "wheel", force_2, moment_2)):
+                carried, turned = np.zeros(3), np.zeros(3)
+                for place in getattr(PLACES, gear):
+                    x, y = found[f"centre_x{number}"] + place * found[f"tilt_y{number}"], found[f"centre_y{number}"] - place * found[f"tilt_x{number}"]
+                    at_bearing = 0.5 * np.array([BEARINGS.of(gear, "x") * x, BEARINGS.of(gear, "y") * y, 0.0])
+                    carried, turned = carried + at_bearing, turned + np.cross((0.0, 0.0, place), at_bearing)
+                carried[2] = BEARINGS.axial(gear) * found[f"axial_{number}"]
+                turned[2] = mesh.scene.shafts.of("input") * found["rotation_1"] if gear == "pinion" else -mesh.scene.load.wheel_torque
+                assert force == pytest.approx(carried, rel=1e-9, abs=1e-9 * size) and moment == pytest.approx(turned, rel=1e-9, abs=1e-8 * size)
+
+
+def test_axial_force_is_the_tangential_one_times_the_tangent_of_the_helix(helical):
+    """Exact: without friction F_a = F_t tan(beta), with F_t = T/r at the reference cylinder; torques are as the numbers of teeth."""
+    mesh = helical[0]
+    pinion, wheel = mesh.pair.pinion, mesh.pair.wheel
+    for record in mesh.marched():
+        (force_1, moment_1), (_, moment_2) = mesh.reactions(record)
+        tangential = -moment_1[2] / pinion.reference_radius
+        # A right-hand pinion that drives counter-clockwise is pushed to where its turning would screw it.
+        assert tangential > 0.0 and force_1[2] == pytest.approx(tangential * tan(HELIX.angle), rel=1e-12)
+        assert moment_1[2] / moment_2[2] == pytest.approx(pinion.teeth / wheel.teeth, rel=1e-12)
+
+
+def test_rows_of_the_contact_nodes_are_the_kinematics_of_rigid_gears(helical):
+    """Two derivations: the operator's rows, and the cross products of points that `test_tilting` checks by rotation matrices."""
+    mesh = helical[1]
+    directions = np.array([[mesh.pair.cosine, 0.0, -mesh.pair.cosine * mesh.pair.slope], [0.0, 1.0, 0.0]])
+
+    for index in range(0, STEPS, 3):
+        operator = mesh.cycle.position(index).operator
+        rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, True, face=operator.face)
+        node = 0
+        for pair in operator.pairs:
+            for arm in pair.pinion_lever_arm:
+                for kind, direction in enumerate(directions):
+                    expected = moved(mesh.pair, COORDINATES, (arm, pair.place.height), direction)
+                    assert rows[kind * operator.nodes + node] == pytest.approx(expected, rel=1e-9, abs=1e-9)
+                node += 1
+
+
+def test_the_tilt_follows_the_misalignment(paper_scene, stand_in_flanks):
+    """Limit: bearings so near to each other that nothing else holds the tilt let the flanks align, whatever the misalignment; far ones do not."""
+    loads = {}
+    for half in (0.5, 1e4):
+        bearings = Bearings(0.2e6, places=BearingPlaces((-half, half), (-half, half)))
+        mesh = Mesh(paper_scene, stand_in_flanks, bearings, opening=0.01)
+        record = mesh.marched()[-1]
+        slices = np.array([pair.place.slice for pair in record.position.operator.pairs])[record.position.operator.node_pair]
+        loads[half] = np.bincount(slices, record.solution.forces, SLICES)
+    assert np.ptp(loads[0.5]) < 0.02 * loads[0.5].mean() and np.ptp(loads[1e4]) > 0.5 * loads[1e4].mean()
+
+
+def test_far_bearings_and_a_held_axis_are_the_plane_ones(paper_scene, stand_in_flanks):
+    """Limit: tilting stiffness grows as the square of the distance; the error of shafts that do not tilt falls by 1e4 where the distance grows by 1e2."""
+    flanks = with_helix(stand_in_flanks)
+    plane, near, far = (
+        Mesh(paper_scene, flanks, replace(BEARINGS, axial_stiffness=None if half is None else 1e6 * half**2, places=places)).marched()
+        for half, places in (
+            (None, None), (1e4, BearingPlaces((-1e4, 1e4), (-1e4, 1e4))), (1e6, BearingPlaces((-1e6, 1e6), (-1e6, 1e6))),
+        )
+    )  # fmt: skip
+    states, coarse, fine = (np.array([record.state.position for record in records])[:, :7] for records in (plane, near, far))
+    errors = [np.abs(each - states).max() for each in (coarse, fine)]
+    assert errors[0] < 1e-5 * np.abs(states).max() and errors[1] < 1.1e-4 * errors[0] + 1e-12
+
+
+def test_compiled_and_plain_march_are_the_same(helical):
+    """Two routes to the same number, to the last bit."""
+    fast, slow = (helical[1].marched(plain) for plain in (False, True))
+    for one, other in zip(fast, slow, strict=True):
+        np.testing.assert_array_equal(one.state.position, other.state.position)
+        np.testing.assert_array_equal(one.solution.forces, other.solution.forces)
