@@ -61,7 +61,8 @@ def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
                 message = f"is of three-dimensional scenes: allowed beside {causes} or {_words(MAKES_IT_SO[-1])}. Leave it out."
                 yield Problem(("accuracy", name), as_written(accuracy[name]), message)
     if "pinion_hand" in gears and "helix_angle" not in gears:
-        yield Problem(("gears", "pinion_hand"), as_written(gears["pinion_hand"]), 'needs a helix. Add helix_angle, such as "15 deg", or leave it out.')
+        message = 'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand out.'
+        yield Problem(("gears", "helix_angle"), None, message)
     if reasons:
         yield from _layers_are_no_needles(tree)
 
