@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 from math import floor
@@ -12,10 +13,13 @@ from fenics_gears.contact.face import Face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
 from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position, pair_places
 from fenics_gears.contact.operator import operator_on_lines, turned
-from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair, flank_points, interpolations, tooth_pair
+from fenics_gears.contact.tooth_pair import DRIVE, Flanks, Place, ToothPair, flank_points, interpolations, tooth_pair
 from fenics_gears.contact.touching import Touching, touching_at
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+
+
+Opening = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks: bool = False, corner=None) -> list[Place]:
@@ -32,7 +36,8 @@ def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks:
 class FaceCycle(Cycle):
     """Contact nodes in the slices of a `face`, that see the gears' `bodies` in three dimensions and their flanks through fine plane sections.
 
-    `opening` (S,), mm: what modifications along the face and misalignment open the flanks in each slice, along the line of action. Other arguments as of MeshCycle.
+    `opening`: what modifications along the face and misalignment open the flanks, mm along the line of action, at places (k,), mm, along the axes where
+    contact stands at positions (k,), mm from T1. Other arguments as of MeshCycle.
     """
 
     traits = CycleTraits(divisible=True)
@@ -42,7 +47,7 @@ class FaceCycle(Cycle):
         flanks: Flanks,
         bodies: tuple[FaceCompliance, FaceCompliance],
         face: Face,
-        opening: np.ndarray,
+        opening: Opening,
         grid: ContactGrid,
         steps: int,
         coordinates: list[int],
@@ -64,14 +69,21 @@ class FaceCycle(Cycle):
 
     def _pairs_of(self, index: float) -> tuple[FacePair, ...]:
         found, alike = [], {}
-        for place in face_places(self.pair, self.grid, self.face, index / self.steps, self.coast_flanks, self.corner):
+        places = face_places(self.pair, self.grid, self.face, index / self.steps, self.coast_flanks, self.corner)
+        for place, opening in zip(places, self._openings(places)):
             # Slices of a spur pair are all alike.
             key = place.flank, place.index, self.face.shifts[place.slice]
             if key not in alike:
                 alike[key] = self._pair(place)
             if alike[key] is not None:
-                found.append(self._in_slice(alike[key], place))
+                found.append(self._in_slice(alike[key], place, opening))
         return tuple(found)
+
+    def _openings(self, places: list[Place]) -> list[float]:
+        """What opens the flanks at each place, mm along the line of action; coast flanks are not modified along the face."""
+        positions = self.pair.pinion.base_radius * np.array([place.contact_rolls[0] for place in places])
+        found = self.opening(np.array([place.height for place in places]), positions)
+        return np.where([place.flank == DRIVE for place in places], found, 0.0).tolist()
 
     def _pair(self, place: Place) -> FacePair | None:
         """The contact nodes of a tooth pair in a slice, with the gap of flanks that are not modified along the face, along the line of action."""
@@ -88,8 +100,8 @@ class FaceCycle(Cycle):
             return corner_pair(self.flanks, self.grid, self.corner, place)
         return tooth_pair(self.flanks, self.grid, place)
 
-    def _in_slice(self, pair: FacePair, place: Place) -> FacePair:
-        gap = self.face.cosine * (pair.gap + self.opening[place.slice])
+    def _in_slice(self, pair: FacePair, place: Place, opening: float) -> FacePair:
+        gap = self.face.cosine * (pair.gap + opening)
         return replace(pair, place=replace(pair.place, slice=place.slice, height=place.height), gap=gap)
 
     def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:

@@ -98,8 +98,8 @@ def node_coordinates(space) -> np.ndarray:
     return space.tabulate_dof_coordinates()[:, :2]
 
 
-def constant(mesh, value: float):
-    """Number in a form; it may change without compiling the form again."""
+def constant(mesh, value):
+    """Number in a form, or a tuple of numbers; it may change without compiling the form again."""
     return fem.Constant(mesh, PETSc.ScalarType(value))
 
 

@@ -26,7 +26,7 @@ def face_of(scene: Scene, pair: GearPair) -> Face:
 
 
 # Elements of the body's section and its layers, in normal modules.
-SECTION_SIZE, LAYER_THICKNESS = 0.25, 0.6
+SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.8
 FEWEST_LAYERS = 4
 
 

@@ -49,7 +49,7 @@ def face_cycle(model: Model, sections: Compliances, bodies: Bodies) -> Cycle:
         Flanks(model.pair, sections, model.removal),
         bodies,
         model.face,
-        model.face_opening(model.face.positions),
+        model.face_opening,
         model.resolution.contact_grid,
         model.resolution.steps_per_mesh_cycle,
         model.drivetrain.indices,

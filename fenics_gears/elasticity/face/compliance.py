@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from time import perf_counter
 
 import numpy as np
@@ -106,4 +106,5 @@ def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: i
         block[half:] = np.einsum("ab,nbk->nak", mirror, coast).reshape(half, -1)
         coast = block[:, half:].reshape(2 * half, -1, components)
         block[:, half:] = (coast @ mirror).reshape(2 * half, half)
+    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks

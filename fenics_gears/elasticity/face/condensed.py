@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, dofs_of, without
 from fenics_gears.elasticity.face.layers import Sweep
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, compile_ahead, swept_stiffness
+from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.errors import ComputationError
@@ -34,9 +34,8 @@ def condense_swept(
     held: (j, 2), nodes of the section whose surface does not move.
     """
     clock = perf_counter()
-    compile_ahead()
-    compiled = perf_counter()
     section = SectionForms(mesh, poissons_ratio)
+    compiled = perf_counter()
     stiffness = swept_stiffness(section, sweep)
     nodes, heights = section.nodes.points, sweep.heights
     surfaces = {name: np.concatenate([swept_nodes(nodes, line, len(heights)) for line in group]) for name, group in lines.items()}

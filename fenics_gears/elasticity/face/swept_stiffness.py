@@ -9,7 +9,6 @@ three heights z_k of a layer's nodes: the element is isoparametric, so that rigi
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
 
 import numpy as np
 import ufl
@@ -36,13 +35,14 @@ class SectionForms:
         self.nodes: ElementNodes = element_nodes(mesh, ELEMENT)
         space = adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells), ELEMENT.order, components=3)
         self._order = dofs_of(nodes_at(space, self.nodes.points), 3)
-        self._turn, self._sweep = ([adapter.constant(space.mesh, value) for value in (1.0, 0.0)] for _ in range(2))
-        self._forms = _forms(space, adapter.constant(space.mesh, poissons_ratio), self._turn, self._sweep)
+        self._numbers = adapter.constant(space.mesh, (poissons_ratio, 1.0, 0.0, 0.0, 0.0))
+        with adapter.quiet_compiler():
+            self._forms = adapter.with_compiled(lambda: _forms(space, *(self._numbers[i] for i in range(5))))
 
     def at(self, turn: complex, sweep: complex) -> tuple[sparse.csr_matrix, ...]:
         """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and dv/dz."""
-        for constants, value in ((self._turn, 1.0 / turn), (self._sweep, sweep)):
-            constants[0].value, constants[1].value = value.real, value.imag
+        inverse = 1.0 / turn
+        self._numbers.value[1:] = inverse.real, inverse.imag, sweep.real, sweep.imag
         return tuple(self._assembled(form) for form in self._forms)
 
     def _assembled(self, form) -> sparse.csr_matrix:
@@ -53,9 +53,9 @@ class SectionForms:
         return assembled[self._order][:, self._order]
 
 
-def _forms(space, poisson, inverse, sweep):
+def _forms(space, poisson, a, b, c, d):
+    """See `SectionForms.at`; 1/w = a + ib, w'/w = c + id."""
     trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
-    (a, b), (c, d) = inverse, sweep
     inverse, sweep = ufl.as_matrix([[a, -b], [b, a]]), ufl.as_matrix([[c, -d], [d, c]])
 
     def along_section(u):
@@ -68,14 +68,6 @@ def _forms(space, poisson, inverse, sweep):
     section = ufl.dx(metadata={"quadrature_degree": QUADRATURE_DEGREE})
     pairs = ((along_section, along_section), (along_section, along_height), (along_height, along_height))
     return [adapter.compile_form(ufl.inner(stress_of_strain(of_trial(trial), poisson), of_test(test)) * section) for of_trial, of_test in pairs]
-
-
-@cache
-def compile_ahead() -> None:
-    """Compile the forms, on one triangle, so that what follows takes no compile time; once in a process."""
-    triangle = BodyMesh(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]), np.arange(3)[None], {})
-    with adapter.quiet_compiler():
-        adapter.with_compiled(lambda: SectionForms(triangle, 0.3).at(1.0, 0.0))
 
 
 def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:

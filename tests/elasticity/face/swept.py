@@ -1,0 +1,53 @@
+"""Small swept bodies that the tests share, and the rigid motions of one."""
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+from tests.coarse_sector import PINION
+
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.face.layers import Sweep, even_layers
+from fenics_gears.elasticity.face.swept_stiffness import SectionForms
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.sector_mesh import sector_mesh
+
+# In modules: as few elements as a sector takes.
+GEAR = PINION.of_module_one
+SIZES = ElementSizes(flank=0.6, fillet=0.6, coast=1.0, body=2.0, depth=0.0, growth=1.0, hub_angle=0.5)
+TWIST = 0.06
+TWISTED = Sweep(even_layers(2, 3.0), TWIST)
+
+
+@lru_cache
+def mesh(both_flanks: bool = False):
+    """Section of the pinion of module one."""
+    return sector_mesh(GEAR, replace(SIZES, both_flanks=both_flanks))
+
+
+@lru_cache
+def section():
+    """Its forms."""
+    return SectionForms(mesh(), 0.3)
+
+
+def swept_points(section_points: np.ndarray, sweep: Sweep) -> np.ndarray:
+    """Section's points (n, 2) at all heights as (X, Y, z)."""
+    return np.vstack([np.column_stack([section_points, np.full(len(section_points), height)]) for height in sweep.heights])
+
+
+def in_place(points: np.ndarray, twist: float) -> np.ndarray:
+    """Points (k, 3) from (X, Y, z)."""
+    return np.stack([rotation(twist * point[2], 3) @ point for point in points])
+
+
+def in_frame(displacements: np.ndarray, points: np.ndarray, twist: float) -> np.ndarray:
+    """Displacements (k, 3, j) by their components in the section's frame at the height of each point (X, Y, z), as dofs (3 k, j)."""
+    return np.concatenate([rotation(twist * point[2], 3).T @ each for point, each in zip(points, displacements)])
+
+
+def rigid_motions(points: np.ndarray, twist: float) -> np.ndarray:
+    """Dofs (3 k, 6) of the six rigid motions of points (X, Y, z)."""
+    placed = in_place(points, twist)
+    turning = np.stack([np.cross(axis, placed) for axis in np.eye(3)], axis=-1)
+    return in_frame(np.concatenate([np.broadcast_to(np.eye(3), turning.shape), turning], axis=-1), points, twist)
