@@ -27,7 +27,7 @@ def cycle_of(flanks, helix):
     pair = replace(flanks.pair, helix=helix, axial_offsets=(1.0, -2.0), own_face_widths=(18.0, 20.0))
     face = Face(*even_slices(pair.face_width, SLICES), pair.slope, pair.gear_middles)
     bodies = tuple(stand_in_body(gear, width) for gear, width in zip((pair.pinion, pair.wheel), pair.face_widths))
-    return FaceCycle(replace(flanks, pair=pair), bodies, face, np.zeros(SLICES), ContactGrid(2.0, 8), STEPS, [5], False)
+    return FaceCycle(replace(flanks, pair=pair), bodies, face, lambda heights, positions: np.zeros(len(heights)), ContactGrid(2.0, 8), STEPS, [5], False)
 
 
 @pytest.fixture(scope="module")
