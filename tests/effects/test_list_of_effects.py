@@ -59,8 +59,10 @@ def test_names_in_the_list_are_consistent():
 
 
 def test_needs_and_conflicts_are_found():
-    """Authority: design.md; damping is that of moving masses. A meshed body's crack would be closed by its coast flanks."""
+    """Authority: design.md; damping is that of moving masses. A meshed body's crack would be closed by its coast flanks, and the mesh
+    of a plane section has no face."""
     assert effects.missing_needs(["damping"]) == [(effects.effect_named("damping"), "inertia")]
     assert effects.missing_needs(["damping", "inertia"]) == []
-    assert effects.conflicts(SECTIONS) == [(effects.effect_named("body_meshes"), "coast_flanks")]
+    pairs = (("body_meshes", "coast_flanks"), ("lead_modifications", "body_meshes"), ("misalignment", "body_meshes"))
+    assert effects.conflicts(SECTIONS) == [(effects.effect_named(effect), other) for effect, other in pairs]
     assert effects.conflicts([section for section in SECTIONS if section != "body_meshes"]) == []
