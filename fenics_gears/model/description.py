@@ -134,7 +134,7 @@ def _inertia_rows(model: Model) -> Rows:
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
         if model.scene.bearings is not None and model.scene.bearings.places_of(name) is not None:
-            rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, "kg mm^2, about a diameter: J/2 + m b^2/12"))
+            rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, "kg mm^2, about a diameter" + ("" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12")))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
     load = model.scene.inertia.shaft_end if model.scene.shafts is not None else model.scene.inertia.load
     if load is not None:
