@@ -11,6 +11,7 @@ import numpy as np
 
 from fenics_gears.geometry.face_data import BOTH, LEFT, RIGHT, LeadModification, LeadModifications, Misalignment
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.relief import POWERS
 
 
 def face_opening(
@@ -35,8 +36,7 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
     """Material (mm, along the line of action) that a lead modification removes from a gear at places (mm, any shape) from its mid-width.
 
     Over the gear's own face width b (ISO 21771): crowning is the parabola C (2 z/b)^2; the helix slope grows in proportion to z, from nothing at the
-    left end (the right end where it is negative); end relief grows as the square of the distance from its start, to its depth at the end. Beyond the
-    ends all three go on as they are.
+    left end (the right end where it is negative); end relief grows with the distance from its start or with the square of it, to its depth at the end.
     """
     share = np.asarray(place, dtype=float) / face_width
     removed = modification.crowning * (2.0 * share) ** 2
@@ -46,7 +46,7 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
         for side, sign in ((LEFT, -1.0), (RIGHT, 1.0)):
             if relief.sides in (side, BOTH):
                 beyond = sign * share * face_width - (0.5 * face_width - relief.length)
-                removed += relief.depth * (np.maximum(beyond, 0.0) / relief.length) ** 2
+                removed += relief.depth * (np.maximum(beyond, 0.0) / relief.length) ** POWERS[relief.shape]
     return removed
 
 

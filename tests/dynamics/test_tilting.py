@@ -168,6 +168,20 @@ def test_the_inertia_about_a_diameter_is_a_discs_and_a_prisms():
     assert LumpedGear(1.0, polar, width).tilting_inertia == pytest.approx(about_x, rel=1e-6)
 
 
+def test_a_tilting_inertia_of_its_own_stands_before_the_discs(on_bearings, paper_pair):
+    """Authority: the section's own words; a gear's own value, then that of both, then a disc's."""
+    radii = [gear.base_radius for gear in (paper_pair.pinion, paper_pair.wheel)]
+
+    def tilting(**given):
+        shafts = drivetrain(replace(on_bearings, inertia=Inertia(4e-3, 3.0, load=1.0, **given)), paper_pair)
+        return [shafts.mass[place, place] * radius**2 for place, radius in zip((shafts.coordinates.index("tilt_x1"), shafts.coordinates.index("tilt_y2")), radii)]
+
+    disc = 1.5 + 4e-3 * paper_pair.face_width**2 / 12.0
+    assert tilting() == pytest.approx([disc, disc], rel=1e-12)
+    assert tilting(tilting_moment_of_inertia=7.0, wheel=GearInertia(tilting_moment_of_inertia=5.0)) == pytest.approx([7.0, 5.0], rel=1e-12)
+    assert tilting(pinion=GearInertia(density=7.85e-9, tilting_moment_of_inertia=2.0)) == pytest.approx([2.0, disc], rel=1e-12)
+
+
 def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
     """Authority: the limit of a gear on its own; bearings of the pinion so near to each other that its slowest modes are tilts, a soft axial support of the wheel."""
     soft = Bearings(1e6, places=BearingPlaces((-1.0, 1.0), (-200.0, 200.0)), axial_stiffness=1e8, wheel=Support(axial_stiffness=1.0))
