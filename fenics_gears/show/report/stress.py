@@ -37,6 +37,8 @@ def stress(run: Run) -> Section:
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
+    if run.is_over_face:
+        others = "`gears picture RUN --at PHASE` draws other times, `--vtu` and `--pvd` write them for ParaView."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
     return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note)])
 
@@ -47,6 +49,22 @@ def _most_loaded(dataset: xr.Dataset) -> int:
 
 
 def _drawn(run: Run, index: int) -> bytes:
+    return (_drawn_over_face if run.is_over_face else _drawn_in_plane)(run, index)
+
+
+def _drawn_over_face(run: Run, index: int) -> bytes:
+    from fenics_gears.show.face_picture import face_picture
+    from fenics_gears.show.stress_picture import save_picture
+    from fenics_gears.simulation.face_stresses import FaceStresses
+
+    with FaceStresses(run.dataset, run.scene) as stresses:
+        mesh = stresses.at(index)
+    content = io.BytesIO()
+    save_picture(face_picture(mesh, run.dataset), content)
+    return content.getvalue()
+
+
+def _drawn_in_plane(run: Run, index: int) -> bytes:
     from fenics_gears.show.drawn_scale import automatic_scale
     from fenics_gears.show.stress_picture import colour_limit, save_picture, stress_picture
     from fenics_gears.simulation.run_stresses import RunStresses
