@@ -18,7 +18,6 @@ from fenics_gears.contact.touching import Touching, touching_at
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
-
 Opening = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 

@@ -42,9 +42,15 @@ def views(interpolations: Sequence, teeth: Sequence[int], first_dofs: Sequence[i
         places.append(size)
         weights.append(seen.ravel())
         total, size = total + nodes, size + seen.size
-    integers = (np.array(each, dtype=np.int64) for each in (starts, counts, list(teeth), dofs, widths, places))
     shape = (0, 1, 3) if not len(directions) else (len(directions), *directions[0].shape)
-    return Views(*integers, np.concatenate(weights) if weights else np.empty(0), np.array(directions, dtype=float).reshape(shape))
+
+    def integers(values: Sequence[int]) -> np.ndarray:
+        return np.array(values, dtype=np.int64)
+
+    return Views(
+        integers(starts), integers(counts), integers(list(teeth)), integers(dofs), integers(widths), integers(places),
+        np.concatenate(weights) if weights else np.empty(0), np.array(directions, dtype=float).reshape(shape),
+    )  # fmt: skip
 
 
 @njit(cache=True)

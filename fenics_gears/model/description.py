@@ -68,7 +68,7 @@ def _model_rows(model: Model) -> Rows:
     return [
         *_face_rows(model),
         ("motions of the gears that are unknown", f"{len(model.drivetrain.coordinates)}:", ", ".join(model.drivetrain.coordinates)),
-        ("contact nodes of a tooth pair", f"{grid.nodes},", touching),
+        ("contact nodes of a tooth pair", f"{grid.nodes},", touching) if model.face is None else ("slices of the face", f"{model.face.slices},", f"contact nodes in each, {touching}"),
         ("equations in time", _method(model), ""),
         *([] if model.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
         ("nominal force along the line of action", model.scene.load.wheel_torque / model.pair.wheel.base_radius, "N"),

@@ -17,9 +17,10 @@ from fenics_gears.elasticity.condensation import by_radius, dofs_of
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.condensed import condense_swept, condensed_swept_sector, swept_nodes
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, swept_stiffness
-from fenics_gears.elasticity.ring import ring_compliance, rotation
-from fenics_gears.errors import SceneError
+from fenics_gears.elasticity.ring import fourier_response, ring_compliance, rotation, sector_cuts
+from fenics_gears.errors import ComputationError, SceneError
 
 BOTH = Reach(1, (-1, 1))
 TWISTED_PINION = FaceDiscretisation(2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius)
@@ -147,3 +148,23 @@ def test_impossible_bodies_are_refused(change, message):
     """What is wrong, and what is allowed."""
     with pytest.raises(SceneError, match=message):
         face_compliance(PINION, STEEL, replace(TWISTED_PINION, **change), Reach(0))
+
+
+def test_half_a_turn_gives_the_fourier_transform():
+    """Brute force: the ring's harmonics as complex matrices, of a sector with both flanks alike."""
+    symmetric = mesh(both_flanks=True)
+    sector = condensed_swept_sector(symmetric, TWISTED, 0.3)
+    cuts, turn = sector_cuts(sector, GEAR.teeth)
+    link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn
+    found = half_turn_response(link, GEAR.teeth, 2, half_turn_basis(sector.points["lower"], len(TWISTED.heights)))
+    expected = fourier_response(link, GEAR.teeth, 2)
+    for offset in (-1, 0, 1, 2):
+        assert difference(found(offset), expected(offset)) < 1e-11
+
+
+def test_sector_without_the_symmetry_is_refused():
+    """Half a turn does not map a sector on itself whose coast flank is meshed otherwise than its drive flank."""
+    sector = condensed_swept_sector(mesh(), TWISTED, 0.3)
+    basis = half_turn_basis(sector.points["lower"], len(TWISTED.heights))
+    with pytest.raises(ComputationError, match="half a turn"):
+        ring_compliance(sector, GEAR.teeth, 1, lambda *ring: half_turn_response(*ring, basis))
