@@ -31,21 +31,26 @@ def _words(path: tuple[str, ...]) -> str:
     return ".".join(path) if len(path) > 1 else f"[{path[0]}]"
 
 
+def _cannot_stand_beside(path: tuple[str, ...]) -> str:
+    return f"cannot stand beside {_words(path)}: flanks are then resolved over the face"
+
+
 def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
     """A three-dimensional scene has elastic teeth in full contact, of equal sectors, condensed once."""
     reasons = _reasons(tree)
     if not reasons:
         return
-    why = f"cannot stand beside {_words(reasons[0])}: flanks are then resolved over the face"
     accuracy = table(tree, "accuracy") or {}
     for name, refused in PLANE_ONLY.items():
         if accuracy.get(name) in refused:
-            yield Problem(("accuracy", name), as_written(accuracy[name]), f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.')
+            message = f'{_cannot_stand_beside(reasons[0])}. Take "{INSTEAD[name]}", or leave one of the two out.'
+            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return
     if "body_meshes" in tree:
-        yield Problem(("body_meshes",), "", f"{why.replace(_words(reasons[0]), _words(of_scene))}, and the mesh of a plane section is not. Leave one of the two out.")
+        message = f"{_cannot_stand_beside(of_scene)}, and the mesh of a plane section has none. Leave one of the two out."
+        yield Problem(("body_meshes",), "", message)
     if not material_sections(tree):
         yield Problem(of_scene, as_written(value_at(tree, *of_scene)) or "", "needs teeth that give way. Add [gears.material], or leave it out.")
 
