@@ -76,10 +76,7 @@ class FacePairing:
         """Unit vectors (d, 3) in the tooth's frame."""
         if turned is not None:
             return np.pad(directions(place.contact_rolls[gear] - place.turn * turned, True)[1:], ((0, 0), (0, 1)))
-        axes = np.pad(directions(place.contact_rolls[gear], tangential), ((0, 0), (0, 1)))
-        axes[0] *= self.face.cosine
-        axes[0, 2] = self.face.axial_share(gear, place.turn)
-        return axes
+        return directions_on_face(place, self.face, gear, tangential)
 
     def _add_local(self, compliance, earlier, pairs, previous, turned) -> int:
         """Add what the fine sections give more than the body's, in each slice; returns the dependent rows."""
@@ -108,6 +105,14 @@ class FacePairing:
             fine = fine + LAYER * fine.diagonal().max() * np.eye(len(fine))
         more = (fine - coarse).reshape(kinds, count, kinds, count)
         return more, None if previous is None else (fine_before - coarse_before).reshape(1, count, 2, -1), dependent
+
+
+def directions_on_face(place: Place, face: Face, gear: int, tangential: bool) -> np.ndarray:
+    """Unit vectors (1 or 2, 3) of the contact normal and of the tangent, in the tooth's frame at the slice's height."""
+    axes = np.pad(directions(place.contact_rolls[gear], tangential), ((0, 0), (0, 1)))
+    axes[0] *= face.cosine
+    axes[0, 2] = face.axial_share(gear, place.turn)
+    return axes
 
 
 def _seen_coarsely(pairs: Sequence[FacePair]) -> list[FacePair]:

@@ -100,6 +100,19 @@ def cyclic(link: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return link[:cut, :cut] + link[cut:, cut:], link[:cut, cut:]
 
 
+def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.ndarray:
+    """Displacement (teeth, c, k) of the cuts of a ring under loads (teeth, c, k) on them.
+
+    The cyclic system ``ahead^T u[s-1] + same u[s] + ahead u[s+1] = loads[s]``: one small system for each harmonic.
+    """
+    harmonics = np.fft.rfft(loads, axis=0)
+    phase = np.exp(2j * np.pi * np.arange(len(harmonics)) / len(loads))
+    for k, turn in enumerate(phase):
+        stiffness = same + ahead * turn + ahead.T * np.conj(turn)
+        harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
+    return np.fft.irfft(harmonics, n=len(loads), axis=0)
+
+
 def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= reach; `link`: one sector between its cuts."""
     return (chain_response if chain_is_quicker(teeth, reach) else fourier_response)(link, teeth, reach)
