@@ -151,9 +151,8 @@ def test_impossible_bodies_are_refused(change, message):
 
 
 def test_half_a_turn_gives_the_fourier_transform():
-    """Brute force: the ring's harmonics as complex matrices, of a sector with both flanks alike."""
-    symmetric = mesh(both_flanks=True)
-    sector = condensed_swept_sector(symmetric, TWISTED, 0.3)
+    """Brute force: the ring's harmonics as complex matrices, of a sector with both flanks alike, and held alike."""
+    sector = condensed_swept_sector(mesh(both_flanks=True), TWISTED, 0.3, ("flank", "coast"))
     cuts, turn = sector_cuts(sector, GEAR.teeth)
     link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn
     found = half_turn_response(link, GEAR.teeth, 2, half_turn_basis(sector.points["lower"], len(TWISTED.heights)))
