@@ -47,12 +47,12 @@ def check_congruent(sector: CondensedBody, teeth: int) -> None:
 
 
 def ring_compliance(
-    sector: CondensedBody, teeth: int, offsets: int, respond: Callable[[np.ndarray, int, int], CutResponse] | None = None
+    sector: CondensedBody, teeth: int, offsets: int, respond: Callable[[np.ndarray, int, int], CutResponse] | None = None, comm=None
 ) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
 
     Of sectors in three dimensions (offsets + 1, 3n, 3n): they may twist along z, as a pitch still turns one cut into the other.
-    respond: a quicker way of `cut_response` that this sector allows.
+    respond: a quicker way of `cut_response` that this sector allows. comm: communicator over whose ranks the last products are shared out.
 
     With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]`` with
     ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its inverse's flank block is
@@ -66,7 +66,10 @@ def ring_compliance(
     # One sector between its cuts, its flank free.
     link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts
     joint = (respond or cut_response)(link, teeth, offsets + 1)
-    blocks = np.stack([to_cuts @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
+    own = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
+    blocks = np.stack([own @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
+    if comm is not None:
+        blocks = np.concatenate(comm.allgather(blocks), axis=1)
     blocks[0] += flank_compliance
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
