@@ -12,8 +12,10 @@ from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.chart import MARKED_LINES, Chart, Curve
+from fenics_gears.show.contact_pattern import ACROSS
 from fenics_gears.show.face_grid import surface
-from fenics_gears.show.panels import DARK, GREY, WARNING, styled
+from fenics_gears.show.panels import DARK, GREY, PALETTE, WARNING, styled
 from fenics_gears.show.run import conditions, scene_of
 from fenics_gears.show.stress_picture import COLOURS
 from fenics_gears.simulation.face_stresses import GearsInSpace
@@ -86,6 +88,18 @@ def sights(mesh: GearsInSpace) -> tuple[Sight, Sight, Sight]:
     pinion = Sight("Pinion alone", (0.385, 0.12, 0.265, 0.74), (0,), pitch + deep, 0.7 * side - 0.7 * along + 0.45 * axis, close)
     wheel = Sight("Wheel alone", (0.66, 0.12, 0.265, 0.74), (1,), pitch - deep, -0.7 * side + 0.7 * along + 0.45 * axis, close)
     return whole, pinion, wheel
+
+
+def root_tension(mesh: GearsInSpace) -> Chart:
+    """Largest tension in the roots of either gear's loaded teeth at each place of its face."""
+    curves = []
+    for name, gear, colour in zip(NAMES, mesh.gears, PALETTE):
+        tension = gear.principal[..., gear.in_root].max(axis=(0, 2))
+        curves.append(Curve(name, gear.points[0, :, 0, 2], tension, colour, mode=MARKED_LINES))
+    return Chart(
+        f"Largest tension in the roots along the face at mesh phase {mesh.mesh_phase:.3f}", curves, ACROSS, "Largest principal stress (MPa)",
+        y_range=(0.0, 1.08 * max(float(curve.y.max()) for curve in curves) or 1.0), note="At the nodes of the bodies' mesh, the loaded teeth and those beside them.",
+    )  # fmt: skip
 
 
 def _upright(pair) -> tuple[np.ndarray, np.ndarray]:

@@ -8,7 +8,7 @@ from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.show.face_grid import save_vtu, surface
-from fenics_gears.show.face_picture import colour_limit, face_picture
+from fenics_gears.show.face_picture import colour_limit, face_picture, root_tension
 from fenics_gears.show.run import scene_of
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.run_stresses import standing
@@ -58,6 +58,16 @@ def test_roots_of_the_loaded_teeth_carry(mesh):
         assert 1 <= tension.argmax() <= len(tension) - 2
         assert tension[[0, -1]].max() < 0.5 * tension.max()
     assert 0.0 < max(gear.von_mises[..., gear.in_root].max() for gear in mesh.gears) <= colour_limit(mesh)
+
+
+def test_tension_along_the_face_is_highest_where_the_load_is(mesh):
+    """Bending: of the chart of both gears' roots the largest value is that in the picture, and lies on the half of the face that carries more."""
+    chart = root_tension(mesh)
+    loads = helical_run()["line_load"].sum("slot")[STEP]
+    heavy = float((loads * loads.face_position).sum())
+    for curve, gear in zip(chart.curves, mesh.gears):
+        assert curve.y.max() == gear.principal[..., gear.in_root].max()
+        assert curve.x[curve.y.argmax()] * heavy > 0.0
 
 
 def test_surface_is_closed_but_for_the_cuts(mesh):

@@ -9,6 +9,7 @@ import xarray as xr
 
 from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.chart import Chart
 from fenics_gears.show.report.page import Picture, Section, Words
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.simulation.stored_forces import stored_index
@@ -31,7 +32,7 @@ def stress(run: Run) -> Section:
     dataset = contact_times(run.dataset)
     index = _most_loaded(dataset) if run.at is None else stored_index(dataset, run.at)
     try:
-        content = _drawn(run, index)
+        content, charts = _drawn_over_face(run, index) if run.is_over_face else (_drawn(run, index), [])
     except GearsError as error:
         return Section("stress", HEADING, [Words(f"It could not be drawn: {error}", warns=True)])
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
@@ -40,7 +41,7 @@ def stress(run: Run) -> Section:
     if run.is_over_face:
         others = "`gears picture RUN --at PHASE` draws other times, `--vtu` and `--pvd` write them for ParaView."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
-    return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note)])
+    return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note), *charts])
 
 
 def _most_loaded(dataset: xr.Dataset) -> int:
@@ -48,12 +49,9 @@ def _most_loaded(dataset: xr.Dataset) -> int:
     return int(np.argmax(np.max(forces, axis=0)))
 
 
-def _drawn(run: Run, index: int) -> bytes:
-    return (_drawn_over_face if run.is_over_face else _drawn_in_plane)(run, index)
-
-
-def _drawn_over_face(run: Run, index: int) -> bytes:
-    from fenics_gears.show.face_picture import face_picture
+def _drawn_over_face(run: Run, index: int) -> tuple[bytes, list[Chart]]:
+    """The picture, and the tension of the roots along the face at that time."""
+    from fenics_gears.show.face_picture import face_picture, root_tension
     from fenics_gears.show.stress_picture import save_picture
     from fenics_gears.simulation.face_stresses import FaceStresses
 
@@ -61,10 +59,10 @@ def _drawn_over_face(run: Run, index: int) -> bytes:
         mesh = stresses.at(index)
     content = io.BytesIO()
     save_picture(face_picture(mesh, run.dataset), content)
-    return content.getvalue()
+    return content.getvalue(), [root_tension(mesh)]
 
 
-def _drawn_in_plane(run: Run, index: int) -> bytes:
+def _drawn(run: Run, index: int) -> bytes:
     from fenics_gears.show.drawn_scale import automatic_scale
     from fenics_gears.show.stress_picture import colour_limit, save_picture, stress_picture
     from fenics_gears.simulation.run_stresses import RunStresses
