@@ -1,17 +1,23 @@
 """Stresses of teeth over the face, recovered at stored times."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from tests.coarse import COARSE, frictionless, teeth_alone
 from tests.over_face import helical_run
 
 from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.face_data import Misalignment
+from fenics_gears.scene.data import Accuracy, Motion, Output
 from fenics_gears.show.face_grid import save_vtu, surface
 from fenics_gears.show.face_picture import colour_limit, face_picture, root_tension
 from fenics_gears.show.run import scene_of
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.run_stresses import standing
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces
 
 STEP = 5
@@ -100,3 +106,21 @@ def test_picture_shows_stress(mesh):
     for image in images:
         assert 0.1 < np.mean(image.min(axis=2) < 250)
         assert np.ptp(image.astype(float), axis=2).max() > 60.0
+
+
+@pytest.mark.nightly
+def test_roots_of_a_spur_pair_are_those_of_plane_strain(paper_scene):
+    """Another route: of an aligned pair the tension averaged over the face is that of plane strain; free ends have less, the middle more."""
+    alone = replace(frictionless(teeth_alone(paper_scene)), motion=Motion(200.0, 1, 1))
+    plane = simulate(replace(alone, accuracy=replace(COARSE, element="P2", steps_per_mesh_cycle=5), output=Output(root_stress=True)))
+    coarse = Accuracy(slices=5, layers=3, body_element_size=1.5, flank_element_size=0.3, contact_length=3.0, contact_nodes=27, steps_per_mesh_cycle=5)
+    over_face = replace(alone, misalignment=Misalignment(), accuracy=coarse)
+    with FaceStresses(simulate(over_face), over_face) as found:
+        gears = found.at(3).gears
+    for number, gear in enumerate(gears):
+        tension = gear.principal[..., gear.in_root].max(axis=(0, 2))
+        expected = float(np.nanmax(plane["root_stress_maximum"].values[3, number]))
+        # Simpson's rule over layers of second order.
+        mean = np.array([1.0, 4.0, 2.0, 4.0, 2.0, 4.0, 1.0]) @ tension / 18.0
+        assert mean == pytest.approx(expected, rel=0.04)
+        assert tension[[0, -1]].max() < 0.9 * expected < tension[3]
