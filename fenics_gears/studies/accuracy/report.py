@@ -164,7 +164,7 @@ class AccuracyStudy:
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
-        base, value, uncertainty = self._known[self.base][0], {}, {}
+        base, value, uncertainty = self._known[self.base][0], {}, dict.fromkeys(MEASURES, float("nan"))
         moved = [(each.limits, self._known[each.refinement.base][0]) for each in results if each.refinement.name not in (*OF_FAMILY, CONDENSATION)]
         for name in base:
             limit = together(base[name], [(limits[name], own_base[name]) for limits, own_base in moved], name)
