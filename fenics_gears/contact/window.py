@@ -123,7 +123,8 @@ def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
     if grid.inner_length is None:
         return offsets
     # Beside an edge within the window: as far beyond it, or beyond the line.
-    near, half = 0.5 * grid.inner_length, 0.5 * grid.length
+    # A node by itself has no cell to average over.
+    near, half = max(0.5 * grid.inner_length, grid.spacing), 0.5 * grid.length
     low = inside[0] if inside[0] > -half else min(-near, inside[1] - 2.0 * near)
     high = inside[1] if inside[1] < half else max(near, inside[0] + 2.0 * near)
     return offsets[(offsets >= low - 1e-9 * half) & (offsets <= high + 1e-9 * half)]
