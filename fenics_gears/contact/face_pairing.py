@@ -60,7 +60,7 @@ class FacePairing:
                 tangents = self._views(gear, pairs, tangential, turned[gear])
                 face_product(blocks, tangents, self._views(gear, previous, True), earlier, False)
         dependent = self._add_local(compliance, earlier, pairs, previous, turned)
-        return compliance.reshape(kinds * nodes, -1), earlier.reshape(nodes, 2 * before) if tangential else None, dependent
+        return compliance.reshape(kinds * nodes, kinds * nodes), earlier.reshape(nodes, 2 * before) if tangential else None, dependent
 
     def _views(self, gear: int, pairs: Sequence[FacePair], tangential: bool, turned: float | None = None) -> Views:
         """How the pairs' nodes see one gear's body: along normal and tangent, or with `turned` (rad) along the tangent as it stood before."""
