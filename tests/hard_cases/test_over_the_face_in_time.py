@@ -43,7 +43,7 @@ def obeys_the_laws(found):
     return worst["penetration"]
 
 
-@pytest.mark.parametrize("more", [INERTIA + FRICTION, INERTIA + BEARINGS, DAMPED + BEARINGS + SHAFTS + FRICTION], ids=["rigid shafts", "undamped", "whole drivetrain"])
+@pytest.mark.parametrize("more", [INERTIA + FRICTION + SHAFTS, INERTIA + BEARINGS, DAMPED + BEARINGS + SHAFTS + FRICTION], ids=["shafts", "bearings", "whole drivetrain"])
 def test_account_of_energy_closes(more, measured):
     """Row 4. Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of contact."""
     result = run(more + CROWNED).result
