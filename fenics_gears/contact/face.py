@@ -33,6 +33,11 @@ class Face:
         return 1.0 / sqrt(1.0 + self.slope**2)
 
     @cached_property
+    def contact_widths(self) -> np.ndarray:
+        """Length (S,), mm, of the line of contact in each slice."""
+        return self.widths / self.cosine
+
+    @cached_property
     def shifts(self) -> np.ndarray:
         """Distance (S,), mm, along the path of contact by which each slice is ahead of the middle of the face."""
         return self.slope * self.positions

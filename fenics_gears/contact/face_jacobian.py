@@ -52,11 +52,6 @@ def _axial_and_tilts(lines: Lines, face: Face, base_radii, direction: np.ndarray
     return np.concatenate(found, axis=1)
 
 
-def node_widths(pairs, face: Face) -> np.ndarray:
-    """Length (n,), mm, of the line of contact that each contact node stands for along the face."""
-    return per_node(pairs, np.array([face.widths[pair.place.slice] for pair in pairs])) / face.cosine if pairs else np.empty(0)
-
-
 def node_slices_of_face(pairs) -> np.ndarray:
     """Number (n,) of the slice that each contact node is in."""
     return per_node(pairs, np.array([pair.place.slice for pair in pairs], dtype=int))
@@ -64,4 +59,4 @@ def node_slices_of_face(pairs) -> np.ndarray:
 
 def areas(pairs, face: Face) -> np.ndarray:
     """Area (n,), mm^2, of the flank that each contact node stands for."""
-    return over_nodes(pairs, "lengths") * node_widths(pairs, face)
+    return over_nodes(pairs, "lengths") * face.contact_widths[node_slices_of_face(pairs)]

@@ -44,7 +44,7 @@ def _pressed(cycle: Cycle, solved: Solved) -> Iterator[tuple]:
         for nodes, pair in zip(node_slices(operator.pairs), operator.pairs):
             forces = all_forces[nodes]
             if len(forces) and forces.max() > NO_FORCE:
-                yield pair, forces / (pair.lengths * cycle.pair.face_width), forces
+                yield pair, forces / (pair.lengths * cycle.contact_width(pair.place)), forces
 
 
 def _offset(cycle: Cycle, pair, gear: str, roll: float) -> float:

@@ -147,6 +147,10 @@ class Cycle:
         """The cycle whose contact nodes this one has: itself, unless it is made on another one."""
         return self
 
+    def contact_width(self, place: Place) -> float:
+        """Length (mm) of the line of contact of a tooth pair, or of its slice of the face."""
+        return self.pair.face_width if self.face is None else float(self.face.contact_widths[place.slice])
+
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
         index = step % self.steps

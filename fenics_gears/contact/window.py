@@ -124,8 +124,8 @@ def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
         return offsets
     # Beside an edge within the window: as far beyond it, or beyond the line.
     near, half = 0.5 * grid.inner_length, 0.5 * grid.length
-    low = inside[0] if inside[0] > -half else min(-near, inside[1] - near)
-    high = inside[1] if inside[1] < half else max(near, inside[0] + near)
+    low = inside[0] if inside[0] > -half else min(-near, inside[1] - 2.0 * near)
+    high = inside[1] if inside[1] < half else max(near, inside[0] + 2.0 * near)
     return offsets[(offsets >= low - 1e-9 * half) & (offsets <= high + 1e-9 * half)]
 
 

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 LUMPED = ("mass", "moment_of_inertia")
 
 
 @dataclass(frozen=True)
 class GearInertia:
-    """Mass, N s^2/mm, and moment of inertia, N mm s^2, of a gear; where one is None, it is that of its body of `density`, N s^2/mm^4."""
+    """Mass, N s^2/mm, and moment of inertia, N mm s^2, of a gear; where one is None, it is that of its body of `density`, N s^2/mm^4.
+
+    `tilting_moment_of_inertia`, N mm s^2: about a diameter; None: as of a disc.
+    """
 
     mass: float | None = None
     moment_of_inertia: float | None = None
     density: float | None = None
+    tilting_moment_of_inertia: float | None = None
 
 
 @dataclass(frozen=True)
@@ -27,9 +31,14 @@ class Inertia(GearInertia):
     def of(self, gear: str) -> GearInertia:
         """Inertia of the "pinion" or the "wheel": its own, by its own density, or that of both."""
         own = getattr(self, gear) or GearInertia()
+
+        def given(name: str) -> float | None:
+            return getattr(self if getattr(own, name) is None else own, name)
+
+        tilting = given("tilting_moment_of_inertia")
         if own.density is not None:
-            return own
-        return GearInertia(*(getattr(self if getattr(own, name) is None else own, name) for name in LUMPED), self.density)
+            return replace(own, tilting_moment_of_inertia=tilting)
+        return GearInertia(*(given(name) for name in LUMPED), self.density, tilting)
 
     @property
     def shaft_end(self) -> float | None:

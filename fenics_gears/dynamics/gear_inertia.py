@@ -17,18 +17,21 @@ GEARS = ("pinion", "wheel")
 
 @dataclass(frozen=True)
 class LumpedGear:
-    """`mass`, N s^2/mm, and `moment_of_inertia`, N mm s^2, at a gear's centre; `width`, mm, of its face."""
+    """`mass`, N s^2/mm, and `moment_of_inertia`, N mm s^2, at a gear's centre; `width`, mm, of its face; `given_tilting`: about a diameter, where given."""
 
     mass: float
     moment_of_inertia: float
     width: float
+    given_tilting: float | None = None
 
     @property
     def tilting_inertia(self) -> float:
-        """Moment of inertia, N mm s^2, about a diameter at mid-width: J/2 + m b^2/12.
+        """Moment of inertia, N mm s^2, about a diameter at mid-width: as given, or J/2 + m b^2/12.
 
-        As of a disc; exact for any body whose sections along the width are alike, on the average over a turn, and with three teeth or more at any time.
+        That is a disc's; exact for any body whose sections along the width are alike, on the average over a turn, and with three teeth or more at any time.
         """
+        if self.given_tilting is not None:
+            return self.given_tilting
         return 0.5 * self.moment_of_inertia + self.mass * self.width**2 / 12.0
 
 
@@ -40,7 +43,8 @@ def lumped(inertia: Inertia, pair: GearPair, section: Callable[[str], CrossSecti
 def _lumped(inertia: Inertia, name: str, width: float, section: Callable[[str], CrossSection]) -> LumpedGear:
     given = inertia.of(name)
     if None not in (given.mass, given.moment_of_inertia):
-        return LumpedGear(given.mass, given.moment_of_inertia, width)
+        return LumpedGear(given.mass, given.moment_of_inertia, width, given.tilting_moment_of_inertia)
     body, per_area = section(name), given.density * width
     mass = per_area * body.area if given.mass is None else given.mass
-    return LumpedGear(mass, per_area * body.polar_moment if given.moment_of_inertia is None else given.moment_of_inertia, width)
+    moment = per_area * body.polar_moment if given.moment_of_inertia is None else given.moment_of_inertia
+    return LumpedGear(mass, moment, width, given.tilting_moment_of_inertia)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Optional
 
 from fenics_gears.dynamics.drivetrain_data import LUMPED, Inertia
 from fenics_gears.effects.effect import Effect, ResultVariable, same_names
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, value_at, with_gears
 from fenics_gears.inputs.written import as_written
 
 
@@ -26,12 +26,18 @@ def _density(otherwise: str):
     return quantity("1e-6 g/cm^3", "1e6 g/cm^3", "7.85 g/cm^3", meaning=meaning, otherwise=otherwise)
 
 
+def _tilting(otherwise: str):
+    meaning = "moment of inertia about a diameter at mid-width, with the shaft, of a gear that tilts, whose bearings have `places`"
+    return quantity("1e-15 kg m^2", "1e15 kg m^2", "13e-3 kg m^2", meaning=meaning, otherwise=otherwise)
+
+
 class GearInertiaText(Section):
     """``[inertia.pinion]`` and ``[inertia.wheel]``; values that are left out follow from the gear's own density, otherwise from ``[inertia]``."""
 
     mass: Optional[float] = _mass("mass of this gear, with its shaft", "from the gear's own `density`, otherwise from `[inertia]`")
     moment_of_inertia: Optional[float] = _moment_of_inertia("moment of inertia of this gear", "from the gear's own `density`, otherwise from `[inertia]`")
     density: Optional[float] = _density("that of `[inertia]`, where the gear has no mass and moment of inertia of its own")
+    tilting_moment_of_inertia: Optional[float] = _tilting("that of `[inertia]`")
 
 
 class LoadInertiaText(Section):
@@ -48,6 +54,7 @@ class InertiaText(Section):
         "moment of inertia of each gear, and of the load if there is no `[inertia.load]`", "from `density`, or each gear has its own"
     )
     density: Optional[float] = _density("mass and moment of inertia must be given")
+    tilting_moment_of_inertia: Optional[float] = _tilting("that of a disc: half of the moment of inertia, and mass times face width squared over 12")
     pinion: Optional[GearInertiaText] = None
     wheel: Optional[GearInertiaText] = None
     load: Optional[LoadInertiaText] = None
@@ -70,6 +77,7 @@ def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
         )
         yield Problem(("inertia", "motor"), "", message)
     yield from _density_stands_alone(tree)
+    yield from _what_tilts_has_places(tree)
     missing = {name: [gear for gear in GEARS if not given_for(both, gear) & {name, "density"}] for name in LUMPED}
     for name, gears in missing.items():
         if gears:
@@ -96,6 +104,17 @@ def _density_stands_alone(tree: Tree) -> Iterator[Problem]:
         if "density" in section and beside:
             message = f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or {' and '.join(beside)}."
             yield Problem((*path, "density"), as_written(section["density"]), message)
+
+
+def _what_tilts_has_places(tree: Tree) -> Iterator[Problem]:
+    """A tilting inertia is that of a gear that tilts."""
+    places = value_at(tree, "bearings", "places")
+    for path, section in with_gears(tree, "inertia").items():
+        gears = path[1:] or GEARS
+        if "tilting_moment_of_inertia" in section and not (isinstance(places, Mapping) and any(gear in places for gear in gears)):
+            names = " or ".join(f"bearings.places.{gear}" for gear in gears)
+            message = f"has no effect: gears tilt where their bearings have places only. Leave it out, or give {names}."
+            yield Problem((*path, "tilting_moment_of_inertia"), as_written(section["tilting_moment_of_inertia"]), message)
 
 
 EFFECT = Effect(

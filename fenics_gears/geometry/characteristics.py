@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees
+from math import atan, degrees
 
 from fenics_gears.geometry.gear_checks import ROUNDING
 from fenics_gears.geometry.pair import GearPair
@@ -24,6 +24,7 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("operating pressure angle", degrees(pair.operating_pressure_angle), "deg"),
         ("base pitch", pair.base_pitch, "mm"),
         ("contact ratio", pair.contact_ratio, ""),
+        *(_helix_rows(pair) if pair.helix is not None else []),
         ("length of the line of action T1 to T2", pair.line_of_action_length, "mm"),
         ("start of contact, from T1", pair.path_start, "mm"),
         ("pitch point, from T1", pair.pitch_point, "mm"),
@@ -31,6 +32,18 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("pitch point, from T2 (e)", pair.pitch_point_to_wheel_tangent, "mm"),
         ("backlash along the line of action", _rounded(pair.backlash), "mm"),
         ("centre distance without backlash", pair.centre_distance_without_backlash, "mm"),
+    ]
+
+
+def _helix_rows(pair: GearPair) -> list[tuple[str, float, str]]:
+    """Of helical gears, whose contact ratio and base pitch are those of the transverse section."""
+    return [
+        ("overlap ratio", pair.overlap_ratio, ""),
+        ("total contact ratio", pair.total_contact_ratio, ""),
+        ("helix angle at the reference cylinder", degrees(pair.pinion.helix_angle), "deg"),
+        ("base helix angle", degrees(atan(abs(pair.slope))), "deg"),
+        ("transverse module", pair.pinion.module, "mm"),
+        ("transverse pressure angle", degrees(pair.pinion.pressure_angle), "deg"),
     ]
 
 
@@ -42,7 +55,7 @@ def _gear_rows(pair: GearPair, name: str) -> list[tuple[str, float, str]]:
         ("reference diameter", 2.0 * gear.reference_radius, "mm"),
         ("base diameter", 2.0 * gear.base_radius, "mm"),
         ("form diameter", 2.0 * gear.form_radius, "mm"),
-        ("dedendum", gear.dedendum / gear.module, "modules"),
+        ("dedendum", gear.dedendum / gear.normal_module, "modules"),
         ("tooth thickness at the tip", gear.tip_thickness, "mm"),
         ("tip clearance", pair.tip_clearances[number], "mm"),
         ("roll angle, form circle", degrees(gear.form_roll_angle), "deg"),

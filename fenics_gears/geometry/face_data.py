@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from fenics_gears.geometry.relief_data import LINEAR
+
 BOTH, LEFT, RIGHT = "both", "left", "right"
 
 
 @dataclass(frozen=True)
 class EndRelief:
-    """Relief towards the ends of a gear's face: `depth` at the end, `length` along the axis; `sides`: "both", "left" (-z) or "right" (+z)."""
+    """Relief towards the ends of a gear's face: `depth` at the end, `length` along the axis; `sides`: "both", "left" (-z) or "right" (+z); `shape`:
+    "linear" or "parabolic" in the distance from its start."""
 
     depth: float
     length: float
     sides: str = BOTH
+    shape: str = LINEAR
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,12 @@
-"""Tooth stiffness by ISO 6336-1, method B: solid steel gears, in plane with their face.
+"""Tooth stiffness of pairs by ISO 6336-1, method B: solid steel gears, in plane with their face.
 
-The standard's formulas: the flexibility q' of an ideal pair (``c'th = 1/q'``) of the equivalent spur gears' teeth, ``c' = 0.8 c'th C_R C_B cos(beta)``
-adjusted to measurements, in the transverse plane, and for the mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``. Gear bodies are solid here (C_R = 1).
+The standard's formulas: the flexibility q' of an ideal pair (``c'th = 1/q'``), ``c' = 0.8 c'th C_R C_B cos(beta)`` adjusted to measurements, and for the
+mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``. Gear bodies are solid here (C_R = 1).
 """
 
 from __future__ import annotations
 
-from math import cos, degrees
+from math import cos, degrees, sin
 
 import numpy as np
 
@@ -19,20 +19,22 @@ FULL_LINE_LOAD = 100.0
 
 
 def single_stiffness(gears: GearPairData) -> tuple[float, float]:
-    """c'th, of the normal section, and c' (N/(mm um)) of one pair at its stiffest position, above 100 N/mm."""
-    leaning = cos(gears.helix_angle)
-    z1, z2 = gears.pinion.teeth / leaning**3, gears.wheel.teeth / leaning**3
+    """c'th and c' (N/(mm um)) of one pair at its stiffest position, above 100 N/mm."""
+    beta = gears.helix_angle
+    # Of the spur gears that the teeth of helical ones are like: z / (cos(beta_b)^2 cos(beta)).
+    of_virtual = (1.0 - (sin(beta) * cos(gears.pressure_angle)) ** 2) * cos(beta)
+    z1, z2 = gears.pinion.teeth / of_virtual, gears.wheel.teeth / of_virtual
     x1, x2 = gears.pinion.profile_shift, gears.wheel.profile_shift
     flexibility = (
         0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1
         - 0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1**2 + 0.00182 * x2**2
     )  # fmt: skip
     dedenda = [
-        gear.profile_shift + 0.5 * (gear.teeth / leaning - gear.root_diameter / gears.module) for gear in (gears.pinion, gears.wheel)
+        gear.profile_shift + 0.5 * (gear.teeth / cos(beta) - gear.root_diameter / gears.module) for gear in (gears.pinion, gears.wheel)
     ]
     basic_rack = 1.0 + 0.5 * (1.2 - np.mean(dedenda))
     angle = 1.0 - 0.02 * (20.0 - degrees(gears.pressure_angle))
-    return 1.0 / flexibility, float(0.8 / flexibility * basic_rack * angle * leaning)
+    return 1.0 / flexibility, float(0.8 / flexibility * basic_rack * angle * cos(beta))
 
 
 def pair_stiffness(gears: GearPairData, line_load: float) -> float:

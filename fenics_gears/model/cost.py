@@ -91,6 +91,8 @@ def expected_cost(model: Model) -> ExpectedCost:
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
         return ExpectedCost(None, _marching(model, 0.0), PROGRAM + model.stored_bytes)
     gears = [_condensed(model, name) for name in ("pinion", "wheel")]
+    if model.face is not None:
+        return _face_cost(model, gears)
     cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
     condensing, marching, held, operators = cost(model, gears)
     unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
@@ -156,6 +158,19 @@ def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float
     nodes = _positions(model) * rows / (2 if model.scene.friction is not None else 1)
     held = BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * nodes + sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
     return condensing, _marching(model, rows), held, operator_bytes(_positions(model), rows, model.scene.friction is not None)
+
+
+def _face_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
+    """Of flanks resolved over the face, whose plane sections are as `gears`."""
+    # Imported here: plane scenes have none.
+    from fenics_gears.model.face_cost import face_cost
+
+    condensing, _, held, _ = _condensed_once_cost(model, gears)
+    over_face = face_cost(model)
+    sections = tuple((gear.words, gear.unknowns) for gear in gears)
+    bodies = tuple((f"the {name}'s body", unknowns) for name, unknowns in zip(("pinion", "wheel"), over_face.unknowns))
+    memory = CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.operators, over_face.memory)
+    return ExpectedCost(condensing + over_face.condensing, over_face.marching, memory, over_face.operators, (*sections, *bodies))
 
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:

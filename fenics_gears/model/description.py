@@ -12,6 +12,7 @@ from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_
 from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.sliding import sliding_speed
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.scene.data import Scene
@@ -64,17 +65,45 @@ def _model_rows(model: Model) -> Rows:
     grid = model.resolution.contact_grid
     each = "normal and tangential force" if model.scene.friction is not None else "normal force"
     touching = f"each with a {each} where flanks touch" if model.scene.tooth_elasticity is not None else "the first to touch carries all"
-    pinion, wheel = model.pair.face_widths
-    widths: Rows = [] if pinion == wheel else [("face width in common", model.pair.face_width, f"mm: pinion {pinion:g} mm, wheel {wheel:g} mm")]
     return [
-        *widths,
+        *_face_rows(model),
         ("motions of the gears that are unknown", f"{len(model.drivetrain.coordinates)}:", ", ".join(model.drivetrain.coordinates)),
-        ("contact nodes of a tooth pair", f"{grid.nodes},", touching),
+        ("contact nodes of a tooth pair", f"{grid.nodes},", touching) if model.face is None else ("slices of the face", f"{model.face.slices},", f"contact nodes in each, {touching}"),
         ("equations in time", _method(model), ""),
         *([] if model.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
         ("nominal force along the line of action", model.scene.load.wheel_torque / model.pair.wheel.base_radius, "N"),
         *(_speed_rows(model) if model.scene.motion.speed_given else []),
     ]
+
+
+def _face_rows(model: Model) -> Rows:
+    """Widths, where they or their places differ; of three-dimensional scenes also hands, modifications along the face and misalignment."""
+    pair, scene = model.pair, model.scene
+    widths: Rows = []
+    if pair.axial_offsets != (0.0, 0.0) or pair.face_widths[0] != pair.face_widths[1]:
+        places = pair.gear_middles if pair.axial_offsets != (0.0, 0.0) else (None, None)
+        each = (f"{name} {width:g} mm" + ("" if middle is None else f" about {middle:g} mm") for name, width, middle in zip(GEARS, pair.face_widths, places))
+        widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
+    if not scene.three_dimensional:
+        return widths
+    low, high = pair.common_face
+    found: Rows = [*widths, ("flanks are resolved over the face", f"z from {low:g} mm to {high:g} mm", "from its middle, left to right")]
+    if pair.helix is not None:
+        hands = (pair.helix.pinion_hand, "left" if pair.helix.pinion_hand == "right" else "right")
+        found.append(("hand of the helix", f"pinion {hands[0]}, wheel {hands[1]}", ""))
+    for name in GEARS if scene.lead_modifications is not None else ():
+        own = getattr(scene.lead_modifications, name)
+        relief = None if own is None else own.end_relief
+        found += [(f"{name} {words}", 1e3 * amount, "um") for words, amount in _amounts(own, ("crowning", "helix_slope"))]
+        if relief is not None:
+            ends = "both ends" if relief.sides == "both" else f"the {relief.sides} end"
+            found.append((f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}"))
+    return found + [(f"misalignment {words}", 1e3 * amount, "um") for words, amount in _amounts(scene.misalignment, ("in_plane", "out_of_plane"))]
+
+
+def _amounts(data, names: tuple[str, ...]) -> list[tuple[str, float]]:
+    """Names in words and amounts of what is not zero."""
+    return [(name.replace("_", " "), getattr(data, name)) for name in names if data is not None and getattr(data, name)]
 
 
 def _speed_rows(model: Model) -> Rows:
@@ -105,7 +134,7 @@ def _inertia_rows(model: Model) -> Rows:
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
         if model.scene.bearings is not None and model.scene.bearings.places_of(name) is not None:
-            rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, "kg mm^2, about a diameter: J/2 + m b^2/12"))
+            rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, "kg mm^2, about a diameter" + ("" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12")))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
     load = model.scene.inertia.shaft_end if model.scene.shafts is not None else model.scene.inertia.load
     if load is not None:

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import ceil
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
     from fenics_gears.model.model import Model
 
-# Width of a slice, in normal modules.
-SLICE_WIDTH = 0.25
+# Width of a slice, in normal modules. The peak-to-peak transmission error of a helical pair is then some 2 % off, and an error falls as the square of it; the
+# mean is within 0.2 %.
+SLICE_WIDTH = 0.35
 FEWEST_SLICES = 5
 
 
@@ -25,8 +30,22 @@ def face_of(scene: Scene, pair: GearPair) -> Face:
     return Face(positions, widths, pair.slope, pair.gear_middles)
 
 
+# Length of the window of contact nodes where no edge is near, in half-widths under the mean line load; and stiffness (of Young's modulus) of the mesh per width,
+# by which what opens the face raises the line load where it does not.
+INNER_HALF_WIDTHS, MESH_STIFFNESS = 4.5, 0.1
+
+
+def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
+    """Length (mm) of that window, for the largest line load that is expected; `half_width_of` a line load (N/mm)."""
+    # Imported here: plane scenes have none.
+    from fenics_gears.geometry.face import face_opening
+
+    opening = face_opening(pair, scene.lead_modifications, scene.misalignment, np.linspace(*pair.common_face, 21))
+    return INNER_HALF_WIDTHS * half_width_of(line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening)))
+
+
 # Elements of the body's section and its layers, in normal modules.
-SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.8
+SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.7
 FEWEST_LAYERS = 4
 
 

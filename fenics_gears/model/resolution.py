@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import ceil, pi, sqrt
 
 import numpy as np
@@ -32,9 +33,8 @@ FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
 # Half of the rough stiffness of a pair bounds its deflection from above.
 LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
 HALF_WIDTHS_BESIDE = 2.0
-# Over a face: elements in a half-width, of which there are many, and length of the window where no edge is near. Three times the mean line load widens contact
-# by 1.7.
-ELEMENTS_PER_HALF_WIDTH_ON_FACE, INNER_HALF_WIDTHS = 2.0, 6.0
+# Over a face, where there are many of them: elements in a half-width.
+ELEMENTS_PER_HALF_WIDTH_ON_FACE = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
 # Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart.
@@ -46,6 +46,8 @@ BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.03, 0.18
 CLOSEST_NODES = 0.7
 # Between steps curves are seen as straight lines, 0.4 % off in L2 for the transmission error of the paper's pair; its extremes are located between them.
 STEPS_PER_MESH_CYCLE = 200
+# Over a face a step costs more, and curves of helical pairs are smoother.
+STEPS_PER_MESH_CYCLE_ON_FACE = 100
 STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
 # Above this Poisson's ratio these first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at 0.499).
@@ -130,7 +132,10 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     condensation = asked.condensation or ONCE
     inner = None
     if scene.three_dimensional:
-        inner = INNER_HALF_WIDTHS * hertz_half_width(line_load, _widest(pair), plane_contact_modulus(scene)) + 2.0 * spacing
+        from fenics_gears.model.face_resolution import inner_length
+
+        half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=plane_contact_modulus(scene))
+        inner = inner_length(scene, pair, line_load, half_width_of) + 2.0 * spacing
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
@@ -183,13 +188,14 @@ def _widest(pair: GearPair) -> float:
 
 def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
     """Steps that resolve the mesh cycle and, with inertia, the drivetrain's highest frequency."""
+    fewest = STEPS_PER_MESH_CYCLE_ON_FACE if scene.three_dimensional else STEPS_PER_MESH_CYCLE
     if drivetrain.mass is None:
-        return STEPS_PER_MESH_CYCLE
+        return fewest
     from fenics_gears.dynamics.frequencies import natural_frequencies
 
     highest = natural_frequencies(drivetrain, mesh_stiffness(scene))[-1]
     wanted = ceil(STEPS_PER_PERIOD * highest / scene.mesh_frequencies[0])
-    return int(np.clip(wanted, STEPS_PER_MESH_CYCLE, MOST_STEPS_PER_MESH_CYCLE))
+    return int(np.clip(wanted, fewest, MOST_STEPS_PER_MESH_CYCLE))
 
 
 def resolution_warnings(resolution: Resolution) -> list[str]:

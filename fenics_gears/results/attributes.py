@@ -34,6 +34,9 @@ AFTER_LOSS = "contact was lost"
 ASKED_FOR = "`[output] root_stress`"
 WITH_INERTIA = "`[inertia]`, and either equal mesh cycles or `[output] root_stress`"
 WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
+OVER_FACE = "the flanks are resolved over the face"
+OVER_FACE_WITH_LOAD = "the flanks are resolved over the face and the drive flanks are loaded"
+OVER_FACE_WITH_FIELDS = "as `transverse_load_factor`, and contact fields are stored"
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
 
@@ -71,6 +74,23 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("peak_contact_pressure_flank", "", "flanks with the peak contact pressure: `drive` or `coast`", WITH_PRESSURE),
     ResultAttribute("peak_contact_pressure_diameter", "mm", "diameter on the pinion at the peak contact pressure", WITH_PRESSURE),
     ResultAttribute("peak_edge_pressure", "MPa", "maximum of `largest_edge_pressure`; it does not converge as the mesh is refined", "a pair is in contact at a tip edge"),
+    ResultAttribute("overlap_ratio", "1", "overlap ratio of the common face; 0 for spur gears", OVER_FACE),
+    ResultAttribute("total_contact_ratio", "1", "transverse contact ratio plus overlap ratio", OVER_FACE),
+    ResultAttribute(
+        "face_load_factor", "1",
+        "face load factor K_Hbeta: largest line load of the mesh, its tooth pairs summed at each place of the face, divided by its mean over the common face at the same step; largest value of the stored settled steps. Of helical gears it is above 1 even for the same line load along all lines of contact, since some places have more pairs in contact than others",
+        OVER_FACE_WITH_FIELDS,
+    ),
+    ResultAttribute(
+        "face_load_factor_at_pitch_cylinder", "1",
+        "the same of a tooth pair along the pitch cylinder: of the line loads that each place of the face has when its contact passes the pitch point",
+        f"{OVER_FACE_WITH_FIELDS} of at least a mesh cycle",
+    ),
+    ResultAttribute(
+        "transverse_load_factor", "1",
+        "transverse load factor K_Halpha: largest share of a tooth pair in the mesh force, divided by the largest share it would have if the line load were the same along all lines of contact",
+        OVER_FACE_WITH_LOAD,
+    ),
     ResultAttribute("input_power", "W", "mean power of the driving gear", "a load and a speed"),
     ResultAttribute("friction_loss", "1", "friction loss between the flanks divided by the work of the driving gear", WITH_FRICTION),
     ResultAttribute("friction_power", "W", "mean power of the friction loss between the flanks", "`[friction]`, a load and a speed"),

@@ -1,7 +1,7 @@
 """The result of a run: one labelled dataset, with units and long names.
 
 Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at once; `gear` ("pinion", "wheel"); `contact_time`, the
-steps whose contact fields are stored; `contact_node`. A variable that belongs to an effect is there only when the scene names that effect.
+steps whose contact fields are stored; `contact_node`; of flanks resolved over the face also `face_position`. A variable that belongs to an effect is there only when the scene names that effect.
 """
 
 from __future__ import annotations
@@ -158,6 +158,10 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
         numbers |= _friction_loss(counted)
     counted.attrs.update(numbers)
     numbers |= key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
+    if recorder.cycle.face is not None:
+        from fenics_gears.results.load_factors import load_factors
+
+        numbers |= load_factors(counted, recorder.model.pair)
     return numbers | (largest_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
 
 

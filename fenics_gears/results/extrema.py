@@ -139,7 +139,12 @@ def largest_pair_force(extrema: Extrema, curves: xr.Dataset | Mapping[str, np.nd
 def _largest_force_of_a_pair(record: Record) -> float:
     """Largest normal force, N, of a pair of flanks at a position."""
     operator = record.position.operator
-    return float(np.bincount(operator.node_pair, record.solution.forces[: operator.nodes], minlength=1).max())
+    pair_of_node = operator.node_pair
+    if operator.face is not None:
+        # There a tooth pair has nodes in many slices.
+        numbers = {key: number for number, key in enumerate(dict.fromkeys((pair.place.flank, pair.place.index) for pair in operator.pairs))}
+        pair_of_node = np.array([numbers[pair.place.flank, pair.place.index] for pair in operator.pairs], dtype=int)[pair_of_node]
+    return float(np.bincount(pair_of_node, record.solution.forces[: operator.nodes], minlength=1).max())
 
 
 def highest(steps: np.ndarray, values: np.ndarray, value: Callable[[float], float], sought: float) -> tuple[float, float]:

@@ -44,6 +44,11 @@ def contact_times(result: xr.Dataset) -> xr.Dataset:
     return result.isel(time=np.isin(result["time"].values, result["contact_time"].values))
 
 
+def in_middle_slice(result: xr.Dataset) -> xr.Dataset:
+    """A result with the contact fields of the slice in the middle of the face only; unchanged where it has no slices."""
+    return result.isel(face_position=result.sizes["face_position"] // 2) if "face_position" in result.sizes else result
+
+
 def lives(numbers: np.ndarray) -> Iterator[Life]:
     """Every tooth pair of pair numbers (time, slot), in the order in which they enter."""
     found = []

@@ -47,11 +47,13 @@ class Layout:
 
 
 def _at_inner_end(cycle: Cycle, pairs, offsets: np.ndarray) -> np.ndarray:
-    """Nodes (n,) that stand first or last in a window that is not cut by an edge, and shorter than the whole one."""
-    outermost = np.zeros(len(offsets), dtype=bool)
-    for nodes in node_slices(pairs):
-        outermost[[nodes.start, nodes.stop - 1]] = True
-    return outermost & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
+    """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a flank."""
+    found, round_off = np.zeros(len(offsets), dtype=bool), 1e-9 * cycle.grid.length
+    for pair, nodes in zip(pairs, node_slices(pairs)):
+        below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
+        first, last = nodes.start, nodes.stop - 1
+        found[first], found[last] = offsets[first] > max(below) + round_off, offsets[last] < min(above) - round_off
+    return found & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
 
 
 def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:

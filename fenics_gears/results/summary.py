@@ -47,7 +47,7 @@ def _said(stages: Sequence[tuple[str, float]]) -> list[Row]:
 def result_rows(dataset) -> list[Row]:
     """The results, the most important first; rows without a number in this run are left out."""
     attributes = dataset.attrs
-    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _pressure, _root_stress)
+    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _face, _pressure, _root_stress)
     rows = [row for part in parts for row in part(attributes)]
     return rows + _power(attributes) + _sliding(dataset) + _contact_loss(dataset) + _estimated_error(attributes)
 
@@ -86,6 +86,19 @@ def _pair_force(attributes) -> list[Row]:
         rows.append(("dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f} by force{stress}", ""))
     if "dynamic_factor_unknown" in attributes:
         rows.append(("dynamic factor", attributes["dynamic_factor_unknown"], ""))
+    return rows
+
+
+def _face(attributes) -> list[Row]:
+    """Load factors and overlap of flanks that are resolved over the face."""
+    if "overlap_ratio" not in attributes:
+        return []
+    rows = [("contact ratio", f"{attributes['total_contact_ratio']:.4g} in all, overlap ratio {attributes['overlap_ratio']:.4g}", "")]
+    if "face_load_factor" in attributes:
+        pitch = f", {attributes['face_load_factor_at_pitch_cylinder']:.3f} along the pitch cylinder" if "face_load_factor_at_pitch_cylinder" in attributes else ""
+        rows.append(("face load factor K_Hbeta", f"{attributes['face_load_factor']:.3f}{pitch}", ""))
+    if "transverse_load_factor" in attributes:
+        rows.append(("transverse load factor K_Halpha", f"{attributes['transverse_load_factor']:.3f}", ""))
     return rows
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import cos, isclose, sqrt
 
 from fenics_gears.rexs.attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Place, Reading, given, missing, positive
-from fenics_gears.rexs.gears import ROUNDED, Sections
+from fenics_gears.rexs.gears import ROUNDED, Sections, transverse_angle
+from fenics_gears.rexs.lead import LEAD_TYPES
 from fenics_gears.rexs.model import Component
 from fenics_gears.rexs.stage import GearParts, Stage
 from fenics_gears.rexs.values import SAME, Value, ValueProblem, computed, in_words, place, together, value_of, word_of
@@ -19,10 +20,11 @@ Relief = dict[str, Value]
 def relief_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections:
     """``[tip_relief.pinion]`` and its like, of the flanks that have one."""
     found = {}
+    beta = gears["gears"]["helix_angle"].number if "helix_angle" in gears["gears"] else 0.0
     for kind in (TIP, ROOT):
         for part, name in zip(stage.gears, ("pinion", "wheel")):
             circles = gears[f"gears.{name}"]
-            base = reading.attempt(_base_diameter, *(gears["gears"][each] for each in ("module", "pressure_angle")), circles["teeth"])
+            base = reading.attempt(_base_diameter, beta, *(gears["gears"][each] for each in ("module", "pressure_angle")), circles["teeth"])
             relief = None if base is None else reading.attempt(_relief, part, kind, base, circles["tip_diameter"])
             if relief is not None:
                 found[f"{kind}.{name}"] = relief
@@ -46,7 +48,7 @@ def note_what_is_left_out(reading: Reading, stage: Stage) -> None:
     for part in stage.gears:
         modifications = {side: part.modifications[side] for side in part.loaded_sides}
         for side, found in modifications.items():
-            others = (each for each in found if each.type not in (TIP, ROOT))
+            others = (each for each in found if each.type not in (TIP, ROOT, *LEAD_TYPES))
             reading.left_out += [f"{each} of the {side} flank of component {part.gear.id}" for each in others]
         reliefs = {each.id: each for found in modifications.values() for each in found if each.type in (TIP, ROOT)}
         places = [(holder, name) for holder in (part.gear, *(part.flanks[side] for side in part.loaded_sides), *part.tool) for name in NO_PLACE]
@@ -80,8 +82,8 @@ def _classes(reading: Reading, part: GearParts) -> list[Value]:
     return found[:1]
 
 
-def _base_diameter(module: Value, angle: Value, teeth: Value) -> float:
-    return module.number * teeth.number * cos(angle.number)
+def _base_diameter(beta: float, module: Value, angle: Value, teeth: Value) -> float:
+    return module.number * teeth.number * cos(transverse_angle(angle.number, beta)) / cos(beta)
 
 
 def _relief(part: GearParts, kind: str, base: float, tip: Value) -> Relief | None:

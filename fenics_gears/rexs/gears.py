@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from functools import partial
-from math import acos, cos, isclose, tan
+from math import acos, atan, cos, isclose, tan
 
 from fenics_gears.rexs.attributes import Reading, every, first, given, needed
 from fenics_gears.rexs.stage import GearParts, Stage
-from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place
+from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place, together
 
 # By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's problems.
 Sections = dict[str, dict[str, Value | None]]
@@ -20,21 +20,23 @@ STEEL = (206e3, 0.3)
 MATERIAL = ("youngs_modulus", "poissons_ratio")
 # Rounding that is allowed where the file repeats module, teeth or shifts, in modules.
 ROUNDED = 1e-3
+# Helix angle, rad, of gears that are spur.
+NO_HELIX = 1e-9
 
 
 def gear_sections(reading: Reading, stage: Stage) -> Sections:
     """``[gears]`` and the sections below it."""
-    for part in stage.gears:
-        reading.attempt(_check_spur, part)
+    helix = reading.attempt(_helix, stage) or {}
+    beta = helix["helix_angle"].number if helix else 0.0
     module = reading.attempt(_of_both, stage, "module", "The gears have different modules")
     angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
     teeth = [reading.attempt(needed, part, "teeth") for part in stage.gears]
-    shifts = _profile_shifts(reading, stage, module, angle, distance, teeth)
-    gears = [_gear_section(reading, part, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
+    shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
+    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
     for part, count in zip(stage.gears, teeth):
-        reading.attempt(_check_reference_diameter, part, module, count)
+        reading.attempt(_check_reference_diameter, part, beta, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
-    pair, widths = {"module": module, "pressure_angle": angle, "centre_distance": distance}, reading.attempt(_face_widths, stage) or [None]
+    pair, widths = {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance}, reading.attempt(_face_widths, stage) or [None]
     if len(widths) == 1:
         pair["face_width"] = widths[0]
     else:
@@ -46,11 +48,30 @@ def _of_both(stage: Stage, asked: str, different: str) -> Value:
     return agreed([needed(part, asked) for part in stage.gears], different)
 
 
-def _check_spur(part: GearParts) -> None:
-    angle = first(part, "helix_angle")
-    if angle is not None and abs(angle.number) > 1e-9:
-        where = place(*given(part, "helix_angle")[0][:2])
-        raise ValueProblem(f"{where} = {angle.words}: a helical gear. Spur gears are computed only, whose helix angle is 0.")
+def _helix(stage: Stage) -> dict[str, Value | None]:
+    """Helix angle and hand of the pinion; empty for spur gears. A positive angle is a right-hand helix (ISO 21771)."""
+    found = [first(part, "helix_angle") for part in stage.gears]
+    there = [angle for angle in found if angle is not None]
+    if not any(abs(angle.number) > NO_HELIX for angle in there):
+        return {}
+    if len(there) == 2 and abs(there[0].number + there[1].number) > ROUNDED * abs(there[0].number):
+        raise ValueProblem(
+            f"{stage.stage}: {there[0].origin} is {there[0].words}, {there[1].origin} is {there[1].words}. "
+            "Allowed on parallel axes: the same angle with opposite signs."
+        )
+    pinion, wheel = found
+    angle = there[0]
+    right = pinion.number > 0.0 if pinion is not None else wheel is not None and wheel.number < 0.0
+    origin = together(each.origin for each in there)
+    return {
+        "helix_angle": Value(abs(angle.number), angle.written.replace('"-', '"'), origin),
+        "pinion_hand": Value(0.0, '"right"' if right else '"left"', f"the sign of {origin}"),
+    }
+
+
+def transverse_angle(angle: float, beta: float) -> float:
+    """Pressure angle (rad) of the transverse section: tan(alpha_t) = tan(alpha_n)/cos(beta)."""
+    return atan(tan(angle) / cos(beta)) if beta else angle
 
 
 def _pressure_angle(stage: Stage) -> Value:
@@ -70,14 +91,14 @@ def _face_widths(stage: Stage) -> list[Value]:
     return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number) else widths
 
 
-def _profile_shifts(reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None]) -> list[Value | None]:
+def _profile_shifts(reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None], beta: float) -> list[Value | None]:
     """The shift of both gears, as the file gives them, or as the centre distance leaves one of them."""
     shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in stage.gears]
     unsaid = [number for number, part in enumerate(stage.gears) if not given(part, "profile_shift")]
     if len(unsaid) == 2:
         reading.attempt(_refuse_both_missing, stage)
     elif unsaid:
-        shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, shifts[1 - unsaid[0]], module, angle, distance, *teeth)
+        shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, beta, shifts[1 - unsaid[0]], module, angle, distance, *teeth)
     return shifts
 
 
@@ -91,23 +112,23 @@ def _refuse_both_missing(stage: Stage) -> None:
     raise ValueProblem(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
 
 
-def _remaining_shift(stage: Stage, known: Value, module: Value, angle: Value, distance: Value, *teeth: Value) -> Value:
+def _remaining_shift(stage: Stage, beta: float, known: Value, module: Value, angle: Value, distance: Value, *teeth: Value) -> Value:
     """What is left of the sum of both shifts that leaves no backlash (ISO 21771)."""
-    count = sum(each.number for each in teeth)
-    cosine = 0.5 * module.number * count * cos(angle.number) / distance.number
+    count, transverse = sum(each.number for each in teeth), transverse_angle(angle.number, beta)
+    cosine = 0.5 * module.number * count * cos(transverse) / cos(beta) / distance.number
     if not cosine < 1.0:
         name = place(stage.stage, "center_distance")
         raise ValueProblem(f"{name} = {distance.number:.6g} mm is too small for {count:g} teeth of module {module.number:g} mm.")
     operating = acos(cosine)
-    total = 0.5 * count * (tan(operating) - operating - tan(angle.number) + angle.number) / tan(angle.number)
+    total = 0.5 * count * (tan(operating) - operating - tan(transverse) + transverse) / tan(angle.number)
     why = "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it, without backlash"
     return bare(round(total - known.number, 9), why, assumed=True)
 
 
-def _gear_section(reading: Reading, part: GearParts, module: Value | None, teeth: Value | None, shift: Value | None) -> dict[str, Value | None]:
-    tip = reading.attempt(needed, part, "tip_diameter") if given(part, "tip_diameter") else reading.attempt(_tip_diameter, part, module, teeth, shift)
+def _gear_section(reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None) -> dict[str, Value | None]:
+    tip = reading.attempt(needed, part, "tip_diameter") if given(part, "tip_diameter") else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
     stated = given(part, "root_diameter")
-    root = reading.attempt(needed, part, "root_diameter") if stated else reading.attempt(_root_diameter, part, module, teeth, shift, tip)
+    root = reading.attempt(needed, part, "root_diameter") if stated else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
     return {
         "teeth": teeth,
         "profile_shift": shift,
@@ -118,16 +139,16 @@ def _gear_section(reading: Reading, part: GearParts, module: Value | None, teeth
     }
 
 
-def _tip_diameter(part: GearParts, module: Value, teeth: Value, shift: Value) -> Value:
+def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value) -> Value:
     """What the addendum of the flanks gives, or the standard's."""
     addendum = first(part, "addendum")
     modules = ADDENDUM if addendum is None else addendum.number
     source = f"the addendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
-    number = module.number * (teeth.number + 2.0 * (shift.number + modules))
+    number = module.number * (teeth.number / cos(beta) + 2.0 * (shift.number + modules))
     return computed(number, 1.0, "mm", f"no tip_diameter; from teeth, profile shift and {source}", assumed=addendum is None)
 
 
-def _root_diameter(part: GearParts, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
+def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
     """What the depth of the teeth gives, or what the rack cuts: its addendum deep, at the shift of its generating where that is given."""
     depth = first(part, "tooth_depth")
     if depth is not None:
@@ -135,7 +156,7 @@ def _root_diameter(part: GearParts, module: Value, teeth: Value, shift: Value, t
     generated, addendum = first(part, "generated_shift"), _of_tool(part, module, "tool_addendum")
     at = "profile shift" if generated is None else generated.origin
     modules = DEDENDUM if addendum is None else addendum.number
-    number = module.number * (teeth.number + 2.0 * ((generated or shift).number - modules))
+    number = module.number * (teeth.number / cos(beta) + 2.0 * ((generated or shift).number - modules))
     source = f"the dedendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
     return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
 
@@ -173,13 +194,14 @@ def _materials(stage: Stage) -> Sections:
         return {f"gears.{name}.material": each for name, each in found.items()}
 
 
-def _check_reference_diameter(part: GearParts, module: Value, teeth: Value) -> None:
+def _check_reference_diameter(part: GearParts, beta: float, module: Value, teeth: Value) -> None:
     """A reference diameter, where the file repeats it, is that of module and teeth."""
+    diameter = module.number * teeth.number / cos(beta)
     for stated, where in zip(every(part, "reference_diameter"), given(part, "reference_diameter")):
-        if abs(stated.number - module.number * teeth.number) > ROUNDED * module.number:
+        if abs(stated.number - diameter) > ROUNDED * module.number:
             raise ValueProblem(
                 f"{place(*where[:2])} = {stated.words} contradicts its module and its {teeth.number} teeth, "
-                f"which give {module.number * teeth.number:.6g} mm."
+                f"which give {diameter:.6g} mm."
             )
 
 

@@ -11,6 +11,7 @@ from fenics_gears.inputs import units
 from fenics_gears.rexs.attributes import Reading, first
 from fenics_gears.rexs.flanks import note_what_is_left_out, relief_sections, tolerance_class
 from fenics_gears.rexs.gears import Sections, gear_sections
+from fenics_gears.rexs.lead import lead_sections
 from fenics_gears.rexs.loads import loaded_model, pinion_speed, wheel_torque
 from fenics_gears.rexs.model import Model
 from fenics_gears.rexs.read import read_model
@@ -55,6 +56,7 @@ def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
         raise SceneError(f"{path}: {problem}\nNothing was written.") from None
     sections = gear_sections(reading, stage)
     sections |= relief_sections(reading, stage, sections)
+    sections |= lead_sections(reading, stage, sections)
     sections |= _load_sections(reading, loaded, stage, sections, by_call)
     sections |= _error_sections(reading, stage, sections)
     densities = {name: reading.attempt(first, part, "density") for name, part in zip(("pinion", "wheel"), stage.gears)}

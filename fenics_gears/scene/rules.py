@@ -17,6 +17,7 @@ from fenics_gears.inputs.synonyms import meant
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, material_sections, quantity_at, quantity_in, table, teeth_in, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
+from fenics_gears.scene.face_rules import faces_are_resolved_by_elastic_contact, fields_of_faces_have_a_face
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears, Motion
 
 # In modules: the dense compliance of a flank of such elements has gigabytes.
@@ -223,6 +224,8 @@ _RULES = (
     _root_stress_has_its_teeth,
     _cheaper_models_have_what_they_need,
     _a_target_chooses_alone,
+    faces_are_resolved_by_elastic_contact,
+    fields_of_faces_have_a_face,
 )
 
 

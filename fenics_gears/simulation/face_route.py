@@ -55,5 +55,6 @@ def face_cycle(model: Model, sections: Compliances, bodies: Bodies) -> Cycle:
         model.drivetrain.indices,
         tangential=model.scene.friction is not None,
         corner=model.corner,
+        coast_opening=model.coast_face_opening,
     )
     return deviating(model, cycle)

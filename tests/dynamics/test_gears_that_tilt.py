@@ -35,7 +35,10 @@ class Mesh:
         self.shafts, self.friction = drivetrain(self.scene, self.pair), friction
         face = Face(*even_slices(self.pair.face_width, SLICES), self.pair.slope, self.pair.gear_middles)
         bodies = tuple(stand_in_body(gear, self.pair.face_width + 4.0) for gear in (self.pair.pinion, self.pair.wheel))
-        openings = opening * face.positions / self.pair.face_width
+
+        def openings(heights, positions):
+            return opening * heights / self.pair.face_width
+
         self.cycle = FaceCycle(flanks, bodies, face, openings, ContactGrid(3.0, 12), STEPS, self.shafts.indices, friction)
 
     def marched(self, plain=False):

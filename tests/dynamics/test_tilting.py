@@ -8,9 +8,9 @@ import pytest
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES, COORDINATES
 from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, GearInertia, Inertia, Support
-from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
+from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations
 from fenics_gears.dynamics.gear_inertia import LumpedGear
-from fenics_gears.dynamics.tilting import mesh_over_face, moved
+from fenics_gears.dynamics.tilting import gyroscopic_warnings, mesh_over_face, moved
 from fenics_gears.geometry.helix import Helix
 from fenics_gears.model.drivetrain import drivetrain
 
@@ -168,6 +168,20 @@ def test_the_inertia_about_a_diameter_is_a_discs_and_a_prisms():
     assert LumpedGear(1.0, polar, width).tilting_inertia == pytest.approx(about_x, rel=1e-6)
 
 
+def test_a_tilting_inertia_of_its_own_stands_before_the_discs(on_bearings, paper_pair):
+    """Authority: the section's own words; a gear's own value, then that of both, then a disc's."""
+    radii = [gear.base_radius for gear in (paper_pair.pinion, paper_pair.wheel)]
+
+    def tilting(**given):
+        shafts = drivetrain(replace(on_bearings, inertia=Inertia(4e-3, 3.0, load=1.0, **given)), paper_pair)
+        return [shafts.mass[place, place] * radius**2 for place, radius in zip((shafts.coordinates.index("tilt_x1"), shafts.coordinates.index("tilt_y2")), radii)]
+
+    disc = 1.5 + 4e-3 * paper_pair.face_width**2 / 12.0
+    assert tilting() == pytest.approx([disc, disc], rel=1e-12)
+    assert tilting(tilting_moment_of_inertia=7.0, wheel=GearInertia(tilting_moment_of_inertia=5.0)) == pytest.approx([7.0, 5.0], rel=1e-12)
+    assert tilting(pinion=GearInertia(density=7.85e-9, tilting_moment_of_inertia=2.0)) == pytest.approx([2.0, disc], rel=1e-12)
+
+
 def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
     """Authority: the limit of a gear on its own; bearings of the pinion so near to each other that its slowest modes are tilts, a soft axial support of the wheel."""
     soft = Bearings(1e6, places=BearingPlaces((-1.0, 1.0), (-200.0, 200.0)), axial_stiffness=1e8, wheel=Support(axial_stiffness=1.0))
@@ -176,6 +190,24 @@ def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
     assert [each.motion for each in found if each.motion][:3] == ["wheel moves along its axis", "pinion tilts", "pinion tilts"]
     assert {each.motion for each in found} == {"", "wheel moves along its axis", "pinion tilts", "wheel tilts", "pinion moves along its axis"}
     assert not found[0].excited and all(not each.motion for each in vibrations(drivetrain(replace(scene, bearings=replace(soft, places=None)), paper_pair), 1e3))
+
+
+def test_gyroscopic_moments_are_told_where_they_shift_a_tilting_frequency(on_bearings, paper_pair):
+    """Closed form: J_t th_x'' + J w th_y' + k th_x = 0 and its twin have f +- J w/(4 pi J_t) where that is small; a flat disc's J is 2 J_t, so that the shift is
+    the speed of rotation. The warning gives that bound, from 5 % on.
+    """
+    stiffness, moment, turns = 1e9, 2.0, 60.0
+    state = np.zeros((4, 4))
+    state[:2, 2:] = np.eye(2)
+    state[2:, :2] = -stiffness / moment * np.eye(2)
+    state[2:, 2:] = 2.0 * moment * 2.0 * pi * turns / moment * np.array([[0.0, -1.0], [1.0, 0.0]])
+    frequencies = np.unique(np.round(np.abs(np.linalg.eigvals(state).imag) / (2.0 * pi), 6))
+    still = sqrt(stiffness / moment) / (2.0 * pi)
+    assert frequencies - still == pytest.approx([-turns, turns], rel=0.05)
+    modes = [Vibration(0.5 * still, 0.01, True), Vibration(still, 0.01, True, "wheel tilts"), Vibration(2.0 * still, 0.01, True, "pinion tilts")]
+    assert gyroscopic_warnings(modes, {"pinion": 0.06 * still, "wheel": 0.04 * still}) == []
+    (said,) = gyroscopic_warnings(modes, {"pinion": 0.09 * still, "wheel": 0.06 * still})
+    assert "at which the wheel tilts, by up to 6%" in said and f"at {60 * 0.06 * still:.4g} rpm" in said
 
 
 def test_damping_by_ratios_and_by_rayleigh_reaches_the_tilts(on_bearings, paper_scene, paper_pair):

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, quasi_static
+from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
 
-from fenics_gears.dynamics.drivetrain_data import Bearings, Support
+from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Support
 from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import gear_pair
@@ -135,3 +135,60 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene, paper_pair):
     assert gone == {"centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "energy_bearings"}
     assert not gone & {variable.name for variable in result_variables(bare)}
     assert not gone & set(simulate(replace(quasi_static(coarse_scene(bare)))))
+
+
+PLACED = replace(ALL_DIFFERENT, axial_stiffness=0.07e6, places=BearingPlaces((-40.0, 60.0), (-30.0, 75.0)))
+
+
+@pytest.fixture(scope="module")
+def placed_run(paper_scene):
+    """A quasi-static run of a coarse helical pair without friction on bearings along the shafts."""
+    scene = frictionless(quasi_static(coarse_scene(paper_scene, cycles=1)))
+    gears = replace(scene.gears, module=4.35, helix_angle=np.deg2rad(15.0))
+    accuracy = replace(COARSE, steps_per_mesh_cycle=6, contact_nodes=14, slices=3, layers=2, body_element_size=2.5)
+    scene = replace(scene, gears=gears, accuracy=accuracy, bearings=PLACED)
+    return scene, simulate(scene)
+
+
+def test_what_the_bearings_carry_is_in_the_result(placed_run):
+    """Exact: springs times displacements of the bearings are the reactions, in force and moment about mid-width, and half of their work the energy."""
+    scene, result = placed_run
+    energy = 0.0
+    for gear in ("pinion", "wheel"):
+        centre_x, centre_y, axial, tilt_x, tilt_y = (
+            result[name].sel(gear=gear).values for name in ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
+        )
+        force, moment = {"x": 0.0, "y": 0.0}, {"x": 0.0, "y": 0.0}
+        for place in PLACED.places_of(gear):
+            for direction, moved in (("x", centre_x + place * tilt_y), ("y", centre_y - place * tilt_x)):
+                carried = 0.5 * PLACED.of(gear, direction) * moved
+                force[direction] = force[direction] + carried
+                other, sense = {"x": ("y", 1.0), "y": ("x", -1.0)}[direction]
+                moment[other] = moment[other] + sense * place * carried
+                energy = energy + 0.5 * carried * moved
+        energy = energy + 0.5 * PLACED.axial(gear) * axial**2
+        size = np.abs(force["x"]).max()
+        for direction in "xy":
+            assert result[f"reaction_{direction}"].sel(gear=gear).values == pytest.approx(force[direction], abs=1e-9 * size)
+            assert result[f"reaction_moment_{direction}"].sel(gear=gear).values == pytest.approx(moment[direction], abs=1e-7 * size)
+        assert result["reaction_z"].sel(gear=gear).values == pytest.approx(PLACED.axial(gear) * axial, abs=1e-9 * size)
+    assert result["energy_bearings"].values == pytest.approx(energy, rel=1e-10)
+
+
+def test_the_axial_force_is_the_gears_own(placed_run):
+    """Exact: F_a = F_t tan(beta), F_t being the torque over the reference radius; and all energy is accounted for."""
+    scene, result = placed_run
+    radius = 0.5 * scene.gears.pinion.teeth * scene.gears.module / np.cos(scene.gears.helix_angle)
+    tangential = -result["reaction_couple"].sel(gear="pinion").values / radius
+    assert result["reaction_z"].sel(gear="pinion").values == pytest.approx(tangential * np.tan(scene.gears.helix_angle), rel=1e-10)
+    assert float(np.abs(result["energy_defect"]).max()) < 1e-9 * float(result["work_input"][-1])
+
+
+def test_a_run_over_the_face_has_its_variables_and_no_others(placed_run, paper_scene):
+    """House rule 9: tilts are there with places only, what a shaft takes along the axis in every run over the face."""
+    scene, result = placed_run
+    assert set(result.data_vars) == {variable.name for variable in result_variables(scene)}
+    tilts, over_face = {"axial_position", "tilt_x", "tilt_y"}, {"reaction_z", "reaction_moment_x", "reaction_moment_y"}
+    found = {variable.name for variable in result_variables(replace(scene, bearings=replace(PLACED, places=None)))}
+    assert (tilts | over_face) & found == over_face
+    assert not (tilts | over_face) & {variable.name for variable in result_variables(paper_scene)}

@@ -1,6 +1,6 @@
 """Gears that several geometry tests start from."""
 
-from math import radians
+from math import atan, cos, radians, tan
 
 import pytest
 
@@ -30,15 +30,17 @@ def paper_pair(paper_data):
 
 @pytest.fixture
 def cut_gear():
-    """A gear by its standard proportions, all in modules: addendum, dedendum, rack tip radius."""
+    """A gear by its standard proportions, all in normal modules: addendum, dedendum, rack tip radius; angles in degrees, in the normal section."""
 
-    def cut(teeth, profile_shift=0.0, addendum=1.0, dedendum=1.25, rack_tip=0.38, module=1.0, pressure_angle=20.0):
-        pitch = 0.5 * teeth + profile_shift
+    def cut(teeth, profile_shift=0.0, addendum=1.0, dedendum=1.25, rack_tip=0.38, module=1.0, pressure_angle=20.0, helix_angle=0.0):
+        cosine = cos(radians(helix_angle))
+        pitch = 0.5 * teeth / cosine + profile_shift
         return Gear(
             teeth=teeth,
-            module=module,
-            pressure_angle=radians(pressure_angle),
-            profile_shift=profile_shift,
+            module=module / cosine,
+            pressure_angle=atan(tan(radians(pressure_angle)) / cosine) if helix_angle else radians(pressure_angle),
+            profile_shift=profile_shift * cosine,
+            helix_angle=radians(helix_angle),
             tip_radius=module * (pitch + addendum),
             root_radius=module * (pitch - dedendum),
             bore_radius=module * 0.2 * teeth,

@@ -5,7 +5,7 @@ import pytest
 
 from fenics_gears.geometry.flank_deviations import flank_deviations
 from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
-from fenics_gears.geometry.flank_tolerance import flank_tolerance
+from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
 
 EVERY_CLASS = range(1, 12)
 
@@ -17,6 +17,27 @@ def test_tolerances_are_those_of_the_standard():
     assert found.single_pitch == pytest.approx(8.94e-3, abs=5e-6)
     assert found.cumulative_pitch == pytest.approx(28.80e-3, abs=5e-6)
     assert round(1e3 * found.profile) == 12
+
+
+def test_helix_tolerances_are_those_of_the_standard():
+    """Literature: ISO 1328-1:2013, formulas (10) to (12), as two published programs have them, at round values: d = 400 mm, b = 100 mm, class 5 and 7."""
+    found = helix_tolerance(400.0, 100.0, 5)
+    assert (found.slope, found.form) == pytest.approx((8.5e-3, 9.9e-3), rel=1e-12)
+    assert found.total == pytest.approx(np.hypot(8.5e-3, 9.9e-3), rel=1e-12)
+    assert helix_tolerance(400.0, 100.0, 7).slope == pytest.approx(17e-3, rel=1e-12)
+
+
+def test_helix_deviations_are_drawn_over_a_face_only(paper_pair):
+    """Definition: within their tolerances, by numbers of their own, so that the others are those of the plane; none in the plane."""
+    errors = FlankErrors(tolerance_class=6, seed=4, wheel=GearErrors(helix_slope=(0.001,) * 24))
+    plane, face = flank_deviations(errors, paper_pair), flank_deviations(errors, paper_pair, (1.0, -1.0))
+    limits = helix_tolerance(2.0 * paper_pair.pinion.reference_radius, paper_pair.face_width, 6)
+    for flat, wide in zip(plane, face):
+        assert flat.helix is None
+        assert np.array_equal(flat.index, wide.index) and np.array_equal(flat.slope, wide.slope) and np.array_equal(flat.form, wide.form)
+    assert 0.5 * limits.slope < np.abs(face[0].helix.slope).max() <= limits.slope
+    assert 0.5 * limits.form < np.abs(face[0].helix.form).max() <= limits.form
+    assert np.array_equal(face[1].helix.slope, np.full(24, 0.001)) and face[1].helix.middle == -1.0
 
 
 @pytest.mark.parametrize("tolerance_class", EVERY_CLASS)

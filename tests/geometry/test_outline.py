@@ -1,6 +1,6 @@
 """The tooth outline against the rack that cuts it."""
 
-from math import cos, pi, radians, sin, tan
+from math import atan, cos, pi, radians, sin, tan
 
 import numpy as np
 import pytest
@@ -18,6 +18,14 @@ CUTS = {
     "rounding centre above the pitch line": dict(teeth=20, profile_shift=1.0, addendum=0.5),
     "25 deg, full radius": dict(teeth=17, pressure_angle=25.0, rack_tip=0.3178),
 }
+SPUR = list(CUTS)
+CUTS |= {
+    "helix of 15 deg": dict(teeth=20, helix_angle=15.0, module=3.0),
+    "helix of 30 deg, few teeth, shifted": dict(teeth=12, profile_shift=0.3, helix_angle=30.0, module=2.0),
+    "helix of 40 deg, negative shift": dict(teeth=60, profile_shift=-0.4, helix_angle=40.0),
+    "helix of 25 deg, sharp rack": dict(teeth=30, rack_tip=0.0, helix_angle=25.0),
+    "helix of 25 deg, rounding centre above the pitch line": dict(teeth=20, profile_shift=1.0, addendum=0.5, helix_angle=25.0),
+}
 
 
 @pytest.fixture(params=CUTS)
@@ -30,15 +38,17 @@ def distance_to_rack(gear, points, rotation):
 
     Written from the rack's definition alone: straight flanks at the pressure angle, tooth thickness pi m/2 at the datum
     line (the profile shift above the pitch line), tip line at the root circle, corners rounded. The rounded
-    tooth is a sharp one, smaller by the rounding all round, grown by it again.
+    tooth is a sharp one, smaller by the rounding all round, grown by it again. A helical gear's rack has all this in its normal section,
+    in which the transverse section is shorter along the pitch line by cos(helix angle), and so are distances.
     """
-    alpha, module, rounding = gear.pressure_angle, gear.module, gear.rack_tip_radius
+    transverse, module, rounding = gear.pressure_angle, gear.module, gear.rack_tip_radius
     r = 0.5 * gear.teeth * module
-    half_tooth = (0.5 * pi + 2.0 * gear.profile_shift * tan(alpha)) / gear.teeth + tan(alpha) - alpha
+    half_tooth = (0.5 * pi + 2.0 * gear.profile_shift * tan(transverse)) / gear.teeth + tan(transverse) - transverse
     pose = rotation - pi / gear.teeth + half_tooth
     x = np.cos(pose) * points[:, :1] - np.sin(pose) * points[:, 1:] - r * rotation
     depth = np.sin(pose) * points[:, :1] + np.cos(pose) * points[:, 1:] + r
-    half_at_pitch = 0.25 * pi * module - gear.profile_shift * module * tan(alpha)
+    x, alpha = x * cos(gear.helix_angle), atan(tan(transverse) * cos(gear.helix_angle))
+    half_at_pitch = cos(gear.helix_angle) * (0.25 * pi * module - gear.profile_shift * module * tan(transverse))
     half_small = half_at_pitch - rounding / cos(alpha)
     top = r - gear.root_radius - rounding
     corner = half_small - top * tan(alpha)
@@ -75,6 +85,7 @@ def test_the_outline_is_what_the_rack_leaves(gear):
     assert least_distance(gear, points) == pytest.approx(0.0, abs=2e-10 * gear.module)
 
 
+@pytest.mark.parametrize("gear", SPUR, indirect=True)
 def test_brute_force_sees_a_shift_of_a_micrometre(gear):
     """Authority: the yardstick itself: points moved into the tooth stay clear by just that much, into the space are cut.
 
@@ -133,16 +144,17 @@ def test_coast_side_is_the_mirror_image(gear):
     assert chord == pytest.approx(2.0 * gear.tip_radius * sin(0.5 * gear.tip_thickness / gear.tip_radius), rel=1e-12)
 
 
-def test_fillets_of_neighbouring_teeth_meet_at_full_radius(cut_gear):
+@pytest.mark.parametrize("helix_angle", [0.0, 25.0])
+def test_fillets_of_neighbouring_teeth_meet_at_full_radius(cut_gear, helix_angle):
     """Authority: at the largest rack tip radius the root arc has no length; its value by the closed form of a
-    circle inscribed between tip line and flanks (0.472 modules in ISO 53); above it there is no outline."""
+    circle inscribed between tip line and flanks (0.472 modules in ISO 53), in the rack's normal section; above it there is no outline."""
     dedendum, alpha = 1.25, radians(20.0)
     largest = (0.25 * pi - dedendum * tan(alpha)) * cos(alpha) / (1.0 - sin(alpha))
     assert largest == pytest.approx(0.472, abs=5e-4)
-    outline = tooth_outline(cut_gear(30, rack_tip=largest * (1.0 - 1e-12)))
+    outline = tooth_outline(cut_gear(30, rack_tip=largest * (1.0 - 1e-12), helix_angle=helix_angle))
     assert np.arctan2(*outline.fillet[0, ::-1]) == pytest.approx(outline.space_angle, abs=1e-10)
     with pytest.raises(GeometryError, match="overlap"):
-        tooth_outline(cut_gear(30, rack_tip=largest + 1e-6))
+        tooth_outline(cut_gear(30, rack_tip=largest + 1e-6, helix_angle=helix_angle))
 
 
 @pytest.mark.parametrize(("pressure_angle", "fewest"), [(14.5, 31.903), (20.0, 17.097), (25.0, 11.198)])
@@ -164,3 +176,24 @@ def test_profile_shift_that_avoids_undercut_is_the_textbook_s(cut_gear):
         least = 1.0 - 0.5 * teeth * sin(radians(20.0)) ** 2
         gear = cut_gear(teeth, profile_shift=least, dedendum=1.0, rack_tip=0.0)
         assert gear.form_roll_angle == pytest.approx(0.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("helix_angle", [10.0, 20.0, 30.0])
+def test_undercut_of_helical_gears_begins_at_the_textbook_s_number_of_teeth(cut_gear, helix_angle):
+    """Authority: z_min = 2 cos(beta)/sin^2(alpha_t) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 14): fewer than of spur gears."""
+    cosine = cos(radians(helix_angle))
+    fewest = 2.0 * cosine / sin(atan(tan(radians(20.0)) / cosine)) ** 2
+    assert fewest < 17.097
+    for teeth in range(8, 20):
+        gear = cut_gear(teeth, dedendum=1.0, rack_tip=0.0, helix_angle=helix_angle)
+        assert (gear.form_roll_angle < 0.0) == (teeth < fewest)
+
+
+@pytest.mark.parametrize("name", SPUR)
+def test_a_vanishing_helix_angle_leaves_the_spur_gear(cut_gear, name):
+    """Authority: limit; the transverse section differs in the square of the angle, by 3e-12 at 1e-4 deg."""
+    spur, helical = cut_gear(**CUTS[name]), cut_gear(**CUTS[name], helix_angle=1e-4)
+    scale = spur.tip_radius
+    assert tooth_outline(helical).fillet == pytest.approx(tooth_outline(spur).fillet, abs=1e-10 * scale)
+    for length in ("base_radius", "form_radius", "tip_thickness", "largest_rack_tip_radius"):
+        assert getattr(helical, length) == pytest.approx(getattr(spur, length), abs=1e-10 * scale)

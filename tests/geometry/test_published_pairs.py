@@ -1,10 +1,12 @@
 """Whole pairs against numbers that others have printed."""
 
-from math import cos, degrees, pi, radians, sin, sqrt
+from math import atan, cos, degrees, pi, radians, sin, sqrt, tan
 
 import pytest
 
 from fenics_gears.geometry.characteristics import characteristics
+from fenics_gears.geometry.involute import involute_function
+from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
 
@@ -73,3 +75,93 @@ def test_contact_ratio_of_standard_gears_by_the_textbook(cut_gear, teeth):
     recess, approach = (sqrt((0.5 * z + 1.0) ** 2 - (0.5 * z * cos(alpha)) ** 2) for z in teeth)
     textbook = (recess + approach - pair.centre_distance * sin(alpha)) / (pi * cos(alpha))
     assert pair.contact_ratio == pytest.approx(textbook, rel=1e-12)
+
+
+def test_profile_shifted_helical_pair_of_the_technical_reference():
+    """Authority: KHK Gear Technical Reference, table "The calculation of a profile shifted helical gear in the normal system (1)": m_n 3, 20 deg,
+    beta 30 deg, z 12/60, x_n 0.09809/0, all results to the printed digits."""
+    data = GearPairData(
+        module=3.0,
+        pressure_angle=radians(20.0),
+        centre_distance=125.0,
+        face_width=30.0,
+        pinion=GearData(12, 0.09809, 48.153, 34.657, 15.0, 0.38),
+        wheel=GearData(60, 0.0, 213.842, 200.346, 30.0, 0.38),
+        material=None,
+        helix_angle=radians(30.0),
+    )
+    pair = gear_pair(data)
+    assert degrees(pair.pinion.pressure_angle) == pytest.approx(22.79588, abs=5e-6)
+    assert involute_function(tan(pair.operating_pressure_angle)) == pytest.approx(0.023405, abs=5e-7)
+    assert degrees(pair.operating_pressure_angle) == pytest.approx(23.1126, abs=5e-5)
+    assert pair.centre_distance_without_backlash == pytest.approx(125.000, abs=5e-4)
+    for gear, reference, base in ((pair.pinion, 41.569, 38.322), (pair.wheel, 207.846, 191.611)):
+        assert 2.0 * gear.reference_radius == pytest.approx(reference, abs=5e-4)
+        assert 2.0 * gear.base_radius == pytest.approx(base, abs=1e-3)
+        # Root circles are printed to 1 um: the dedendum of the basic rack, 1.25 m_n, comes out as exactly.
+        assert gear.dedendum == pytest.approx(1.25 * 3.0, abs=5e-4)
+
+
+@pytest.fixture
+def standard_s_example():
+    """ISO/TR 6336-30:2017, example 1: m_n 8, z 17/103, beta 15.8 deg, addendum 1, dedendum 1.4, tip radius 0.39."""
+    stretch = 1.0 / cos(radians(15.8))
+    gears = [
+        GearData(teeth, shift, 8.0 * (teeth * stretch + 2.0 * (shift + 1.0)), 8.0 * (teeth * stretch + 2.0 * (shift - 1.4)), 50.0, 0.39)
+        for teeth, shift in ((17, 0.145), (103, 0.0))
+    ]
+    return GearPairData(8.0, radians(20.0), 500.0, 100.0, *gears, Material(206e3, 0.3), helix_angle=radians(15.8))
+
+
+def test_helical_pair_of_the_standard_s_example(standard_s_example):
+    """Authority: numbers of KISSsoft for ISO/TR 6336-30:2017, example 1, as a public implementation of ISO 6336 prints them beside its own (class
+    ISO_6336, method example_01): virtual teeth z/(cos(beta_b)^2 cos(beta)) 18.905 and 114.543, zone factor Z_H 2.39533. Its mesh stiffness,
+    c_gamma_alpha 17.46485 = c' (0.75 eps_alpha + 0.25) with c' 12.37047, is that of a contact ratio of 1.5491.
+    """
+    pair = gear_pair(standard_s_example)
+    base = atan(pair.slope)
+    virtual = [gear.teeth / (cos(base) ** 2 * cos(gear.helix_angle)) for gear in (pair.pinion, pair.wheel)]
+    assert virtual == pytest.approx([18.905, 114.543], abs=5e-4)
+    operating, transverse = pair.operating_pressure_angle, pair.pinion.pressure_angle
+    assert sqrt(2.0 * cos(base) / (cos(transverse) ** 2 * tan(operating))) == pytest.approx(2.39533, abs=5e-6)
+    assert pair.contact_ratio == pytest.approx((17.46485 / 12.37047 - 0.25) / 0.75, rel=2e-4)
+
+
+def test_tooth_stiffness_of_the_standard_s_example(standard_s_example):
+    """Authority: as above: c'_th 17.85584 and c' 12.37047 N/(mm um) to all their digits, c_gamma_alpha 17.46485 by the contact ratio above."""
+    theoretical, single = single_stiffness(standard_s_example)
+    assert (theoretical, single) == pytest.approx((17.85584, 12.37047), abs=5e-6)
+    assert single * mesh_factor(gear_pair(standard_s_example).contact_ratio) == pytest.approx(17.46485, rel=2e-4)
+
+
+@pytest.mark.parametrize("helix_angle", [0.0, 12.0, 33.0])
+def test_centre_distance_without_backlash_is_the_standard_s(cut_gear, helix_angle):
+    """Authority: ISO 21771, inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), a = a_0 cos(alpha_t)/cos(alpha_wt), to round-off."""
+    teeth, shifts = (17, 41), (0.4, -0.1)
+    gears = [cut_gear(z, x, module=2.5, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]
+    transverse = gears[0].pressure_angle
+    pair = GearPair(*gears, centre_distance=100.0, face_width=1.0)
+    found = pair.centre_distance_without_backlash
+    operating = (gears[0].base_radius + gears[1].base_radius) / found
+    roll = sqrt(1.0 / operating**2 - 1.0)
+    assert involute_function(roll) == pytest.approx(
+        involute_function(tan(transverse)) + 2.0 * sum(shifts) * tan(radians(20.0)) / sum(teeth), rel=1e-12
+    )
+
+
+# Module m_n, helix angle, teeth, profile shifts and centre distance of each stage.
+GEARBOX = {
+    "first stage": (1.0, 30.0, (23, 67), (0.581, 0.5131), 53.0),
+    "second stage": (1.25, 10.0, (13, 76), (0.521, -0.094), 57.0),
+    "third stage": (1.5, 10.0, (14, 87), (0.536, -0.4815), 77.0),
+}
+
+
+@pytest.mark.parametrize("stage", GEARBOX)
+def test_centre_distances_of_an_industrial_gearbox(cut_gear, stage):
+    """Authority: the file SEW_3-stage_cylindrical_gearbox_1.0.rexs of fva-net/rexs-api-java, whose profile shifts, rounded to 1e-4 there, leave no
+    backlash at its centre distances in whole millimetres: within the 0.5e-4 m_n that is left of them."""
+    module, helix_angle, teeth, shifts, distance = GEARBOX[stage]
+    gears = [cut_gear(z, x, module=module, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]
+    pair = GearPair(*gears, centre_distance=distance, face_width=1.0)
+    assert pair.centre_distance_without_backlash == pytest.approx(distance, abs=1e-4 * module)

@@ -115,10 +115,15 @@ def whole_scene() -> dict[str, Any]:
     tree["eccentricity"] = {"pinion": {"distance": "10 um"}, "wheel": {"distance": "10 um"}}
     tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
     for gear in ("pinion", "wheel"):
-        tree["gears"][gear] |= {"rack_tip_radius": 0.38, "face_width": "15 mm", "material": {**tree["gears"]["material"]}}
+        tree["gears"][gear] |= {"rack_tip_radius": 0.38, "face_width": "15 mm", "axial_offset": "1 mm", "material": {**tree["gears"]["material"]}}
     tree["shafts"] = {**SHAFT, "input": {**SHAFT}, "output": {**SHAFT}}
     tree["inertia"] = {**LUMPED, "pinion": {**LUMPED}, "wheel": {**LUMPED}, "load": {"moment_of_inertia": "24.5e-3 kg m^2"}}
     tree["damping"] = {**RAYLEIGH, "pinion": {**RAYLEIGH}, "wheel": {**RAYLEIGH}}
+    tree["gears"] |= {"helix_angle": "1 deg", "pinion_hand": "right"}
+    end_relief = {"depth": "10 um", "length": "4 mm", "sides": "both", "shape": "linear"}
+    tree["lead_modifications"] = {gear: {"crowning": "6 um", "helix_slope": "8 um", "end_relief": {**end_relief}} for gear in ("pinion", "wheel")}
+    tree["misalignment"] = {"in_plane": "12 um", "out_of_plane": "1 um"}
+    tree["accuracy"] |= {"slices": 40, "layers": 12}
     tree["accuracy"] |= {"body_element_size": "1.3 mm", "interpolation": "averaged", "elastic_teeth": 2, "model": "elastic"}
     ripple = {"harmonics": [{"order": 1, "amplitude": "20 N m", "phase": "30 deg"}]}
     return tree | {"coast_flanks": {}, "output": {"root_stress": True}, "torque_ripple": ripple, "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0}}

@@ -330,10 +330,10 @@ def test_what_a_scene_has_no_place_for_is_told(tmp_path):
     """Other modifications, tolerances of thickness and protuberances are in the scene's comment, zeros are not."""
     model = changed((rexs.PINION, "tooth_thickness_deviation_tolerance_series_din_3967_1978", "c25"), (rexs.PINION_TOOL, "protuberance_amount", 0.1, "mm"),
                     (rexs.WHEEL, "runout_tolerance", 0.0, "mm"))  # fmt: skip
-    model = rexs.with_component(model, 41, "helix_crowning", reference={"origin": rexs.WHEEL_FLANKS[1], "referenced": 41})
+    model = rexs.with_component(model, 41, "profile_crowning", reference={"origin": rexs.WHEEL_FLANKS[1], "referenced": 41})
     _, found = scene_of(tmp_path, model)
     assert len(found.left_out) == 3 and all(f"#   {each}" in found.text for each in found.left_out)
-    for words in ("component 41 (helix_crowning) of the right flank of component 6", "= c25", "protuberance_amount = 0.1 mm"):
+    for words in ("component 41 (profile_crowning) of the right flank of component 6", "= c25", "protuberance_amount = 0.1 mm"):
         assert any(words in each for each in found.left_out)
 
 

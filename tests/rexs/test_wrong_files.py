@@ -32,7 +32,7 @@ WRONG_VALUES = [
     ((P, "number_of_teeth", 16, "mm"), "number_of_teeth = 16 mm is not a whole number without unit"),
     ((P, "number_of_teeth", 0), "number_of_teeth = 0 is not positive"),
     ((P, "number_of_teeth", -48), "component 5 (cylindrical_gear 'pinion') is an internal gear"),
-    ((P, "helix_angle_reference_diameter", 10.0, "deg"), "helix_angle_reference_diameter = 10.0 deg: a helical gear. Spur gears are computed only"),
+    ((P, "helix_angle_reference_diameter", 10.0, "deg"), "helix_angle_reference_diameter of component 5 is 10.0 deg, helix_angle_reference_diameter of component 6 is 0.0 deg. Allowed on parallel axes"),
     ((P, "reference_circle_diameter", 73.0, "mm"), "reference_circle_diameter = 73.0 mm contradicts its module and its 16 teeth, which give 72 mm"),
     ((P, "face_width", None), "face_width is missing"),
     ((P, "tip_diameter", 0.0, "mm"), "tip_diameter = 0.0 mm is not positive"),

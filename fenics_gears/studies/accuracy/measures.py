@@ -14,6 +14,8 @@ from math import gcd
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.pairs import in_middle_slice
+
 CURVE, SPAN, STIFFNESS, PRESSURE, PEAK = "T_E", "T_EPP", "mesh stiffness", "pressure", "peak pressure"
 ROOT, DEFECT = "root stress", "energy defect"
 MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, ROOT, DEFECT)
@@ -110,10 +112,11 @@ def _last_cycle(run: xr.Dataset) -> np.ndarray:
 
 
 def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
-    """Pressure (phases, pairs, points), MPa, at common phases and offsets; zero beyond a run's contact nodes.
+    """Pressure (phases, pairs, points), MPa, at common phases and offsets, in the middle of the face; zero beyond a run's contact nodes.
 
     Phases are those of the nearest steps: pressures between two steps are no average of both, for they move.
     """
+    run = in_middle_slice(run)
     phase, numbers = run["contact_mesh_phase"].values, run["contact_pair_number"]
     last, first = phase[-1], numbers.attrs["number_at_phase_0"]
     offsets = np.linspace(-0.5 * window, 0.5 * window, PRESSURE_POINTS)

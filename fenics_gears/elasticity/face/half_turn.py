@@ -1,0 +1,76 @@
+"""Ring of swept sectors whose section is symmetric about the tooth's centreline: half a turn about that line maps a sector on itself.
+
+It exchanges the cuts and takes z to -z. With P what it does to a cut's dofs (an involution), the harmonics D of the ring (`elasticity.ring`) have
+``P D P = conj(D)``: over P's eigenvectors the blocks of D for equal eigenvalues are real and those for opposite ones imaginary. Multiplied by i, the
+eigenvectors of one sign make D real and symmetric, which takes a quarter of the operations of a complex matrix.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+
+from fenics_gears.elasticity.cut_chain import CutResponse
+from fenics_gears.elasticity.ring import cyclic, definite_inverse, rotation
+from fenics_gears.errors import ComputationError
+
+# Of entries that the symmetry makes zero, in the largest entry.
+ROUND_OFF = 1e-9
+
+
+def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix, int]:
+    """Orthonormal eigenvectors (3k, 3k) of half a turn about a radial cut's middle line, and how many have the eigenvalue 1; they come first.
+
+    lower: (k, 3), X, Y, z of the cut's nodes, by height and then along the cut; every height has the same section nodes.
+    """
+    along, nodes = len(lower) // heights, np.arange(len(lower))
+    partner = along * (heights - 1 - nodes // along) + nodes % along
+    even, odd = [], []
+    # Along the cut a displacement keeps its sign, across it and along z it changes.
+    for component, sign in enumerate((1.0, -1.0, -1.0)):
+        for node, other in zip(nodes.tolist(), partner.tolist()):
+            dofs = 3 * node + component, 3 * other + component
+            if node == other:
+                (even if sign > 0.0 else odd).append({dofs[0]: 1.0})
+            elif node < other:
+                even.append({dofs[0]: 0.5**0.5, dofs[1]: sign * 0.5**0.5})
+                odd.append({dofs[0]: 0.5**0.5, dofs[1]: -sign * 0.5**0.5})
+    vectors = even + odd
+    rows = np.concatenate([[*vector] for vector in vectors])
+    columns = np.repeat(np.arange(len(vectors)), [len(vector) for vector in vectors])
+    values = np.concatenate([[*vector.values()] for vector in vectors])
+    angle = np.arctan2(lower[-1, 1], lower[-1, 0])
+    frame = sparse.kron(sparse.eye(len(lower)), rotation(angle, 3), format="csr")
+    return frame @ sparse.csr_matrix((values, (rows, columns)), shape=frame.shape), len(even)
+
+
+def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int], comm=None) -> CutResponse:
+    """As `ring.cut_response`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises ComputationError where it does not.
+
+    comm: communicator over whose ranks the harmonics are shared out; every rank calls this and gets the result.
+    """
+    vectors, even = basis
+    same, ahead = (vectors.T @ (vectors.T @ part.T).T for part in cyclic(link))
+    real, imaginary = ahead + ahead.T, ahead - ahead.T
+    off = max(abs(part[:even, even:]).max() for part in (same, real)), max(abs(imaginary[:even, :even]).max(), abs(imaginary[even:, even:]).max())
+    if max(off) > ROUND_OFF * abs(same).max():
+        raise ComputationError("ring of sectors: half a turn about the tooth's centreline does not map the sector on itself")
+    responses = np.zeros((reach + 1, *same.shape))
+    for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
+        angle = 2.0 * np.pi * harmonic / teeth
+        stiffness = same + np.cos(angle) * real
+        stiffness[:even, even:] = -np.sin(angle) * imaginary[:even, even:]
+        stiffness[even:, :even] = stiffness[:even, even:].T
+        inverse = definite_inverse(stiffness, "a harmonic")
+        weight = (1.0 if harmonic == 0 or 2 * harmonic == teeth else 2.0) / teeth
+        for offset, response in enumerate(responses):
+            cosine, sine = weight * np.cos(offset * angle), weight * np.sin(offset * angle)
+            response[:even, :even] += cosine * inverse[:even, :even]
+            response[even:, even:] += cosine * inverse[even:, even:]
+            response[:even, even:] += sine * inverse[:even, even:]
+            response[even:, :even] -= sine * inverse[even:, :even]
+    if comm is not None:
+        responses = comm.allreduce(responses)
+    for response in responses:
+        response[:] = vectors @ (vectors @ response.T).T
+    return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T

@@ -1,0 +1,72 @@
+"""Rules of three-dimensional scenes: what stands beside a helix angle, lead modifications, misalignment and places of bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, NOT_IN_THE_PLANE, Tree, dotted, material_sections, over_the_face, quantity_at, quantity_in, table, value_at
+from fenics_gears.inputs.written import as_written
+
+# Effects say themselves what they need.
+NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
+# Layers of elements thinner than this, in modules, are needles.
+THINNEST_LAYER = 0.02
+PLANE_ONLY = {
+    "element": ("Q1 incompatible",),
+    "condensation": ("every step",),
+    "model": ("rigid teeth", "stiffness table", "ISO 6336-1"),
+}
+INSTEAD = {"element": "P2", "condensation": "once", "model": "elastic"}
+
+
+def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
+    """A three-dimensional scene has elastic teeth in full contact, of equal sectors, condensed once."""
+    reasons = over_the_face(tree)
+    if not reasons:
+        return
+    why = f"cannot stand beside {dotted(reasons[0])}: flanks are then resolved over the face"
+    accuracy = table(tree, "accuracy") or {}
+    for name, refused in PLANE_ONLY.items():
+        if accuracy.get(name) in refused:
+            yield Problem(("accuracy", name), as_written(accuracy[name]), f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.')
+    if value_at(tree, "output", "root_stress") is True:
+        yield Problem(("output", "root_stress"), "true", f"{why}, where it is not recorded. Leave it out; `gears picture` shows the roots at a stored time.")
+    of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
+    if of_scene is None:
+        return
+    if "body_meshes" in tree:
+        yield Problem(("body_meshes",), "", f"{why.replace(dotted(reasons[0]), dotted(of_scene))}, and the mesh of a plane section is not. Leave one of the two out.")
+    if not material_sections(tree):
+        yield Problem(of_scene, as_written(value_at(tree, *of_scene)) or "", "needs teeth that give way. Add [gears.material], or leave it out.")
+
+
+def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
+    """Slices and layers belong to three-dimensional scenes, a hand to a helix, and layers have a thickness."""
+    accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
+    reasons = over_the_face(tree)
+    if not reasons:
+        for name in ("slices", "layers"):
+            if name in accuracy:
+                yield Problem(("accuracy", name), as_written(accuracy[name]), NOT_IN_THE_PLANE)
+    if "pinion_hand" in gears and "helix_angle" not in gears:
+        message = 'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand out.'
+        yield Problem(("gears", "helix_angle"), None, message)
+    if reasons:
+        yield from _layers_are_no_needles(tree)
+
+
+def _layers_are_no_needles(tree: Tree) -> Iterator[Problem]:
+    module, layers = quantity_at(tree, "gears", "module"), value_at(tree, "accuracy", "layers")
+    homes = [("gears", "face_width"), *(("gears", gear, "face_width") for gear in GEARS)]
+    given = {path: width for path in homes if (width := quantity_in(value_at(tree, *path))) is not None and width > 0.0}
+    if module is None or not given:
+        return
+    path = min(given, key=lambda each: given[each])
+    thinnest, width = THINNEST_LAYER * module, given[path]
+    if width < thinnest:
+        message = f"is less than a layer of elements. Allowed in three-dimensional scenes of this module: from {thinnest:g} mm."
+        yield Problem(path, as_written(value_at(tree, *path)), message)
+    elif type(layers) is int and layers * thinnest > width:
+        message = f"is too many for a face of {width:g} mm: layers would be {width / layers:.3g} mm thin. Allowed: up to {int(width / thinnest)}."
+        yield Problem(("accuracy", "layers"), as_written(layers), message)

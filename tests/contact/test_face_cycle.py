@@ -1,0 +1,134 @@
+"""Contact over a face, on gears without finite elements."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.stand_in import stand_in_body, stand_in_compliance
+
+from fenics_gears.contact.face import Face, even_slices
+from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.model.model import model_of
+
+STEPS, WIDTH = 24, 15.0
+GRID = ContactGrid(3.0, 45, closer_at_edges=True)
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["frictionless", "friction"])
+def model(request, paper_scene):
+    """The paper's pair on rigid shafts and bearings, quasi-static."""
+    alone = replace(paper_scene, inertia=None, damping=None, shafts=None, bearings=None)
+    return model_of(alone if request.param else replace(alone, friction=None))
+
+
+def face_of(slices, slope=0.0):
+    return Face(*even_slices(WIDTH, slices), slope)
+
+
+def no_opening(heights, positions):
+    return np.zeros(len(heights))
+
+
+def face_cycle(model, face, opening=no_opening, grid=GRID, steps=STEPS):
+    gears = (model.pair.pinion, model.pair.wheel)
+    flanks = Flanks(model.pair, tuple(map(stand_in_compliance, gears)))
+    bodies = tuple(stand_in_body(gear, WIDTH) for gear in gears)
+    return FaceCycle(flanks, bodies, face, opening, grid, steps, model.drivetrain.indices, model.scene.friction is not None)
+
+
+def plane_cycle(model, grid=GRID):
+    flanks = Flanks(model.pair, tuple(stand_in_compliance(gear) for gear in (model.pair.pinion, model.pair.wheel)))
+    return MeshCycle(flanks, grid, STEPS, model.drivetrain.indices, model.scene.friction is not None)
+
+
+def marched(model, cycle, steps=STEPS):
+    return Marcher(cycle, model.equations_of_motion).run(steps, steps + 1).records
+
+
+def errors(records):
+    return np.array([record.state.position[0] for record in records])
+
+
+@pytest.mark.parametrize("slices", [1, 4])
+def test_a_spur_pair_is_the_plane_one(model, slices):
+    """Identity: where nothing varies along the face, and the body's section is rigid along it, slices are the plane pair side by side."""
+    face, plane = marched(model, face_cycle(model, face_of(slices))), marched(model, plane_cycle(model))
+    np.testing.assert_allclose(errors(face), errors(plane), rtol=1e-12)
+    record, of_plane = face[7], plane[7]
+    nodes = of_plane.position.operator.nodes
+    by_slice = record.solution.forces[: record.position.operator.nodes]
+    assert by_slice.sum() == pytest.approx(of_plane.solution.forces[:nodes].sum(), rel=1e-12)
+
+
+def test_a_shorter_window_where_no_edge_is_near_changes_nothing(model):
+    """Exact: flanks do not touch outside it, so that the same nodes carry."""
+    face = face_of(5, slope=0.2)
+    whole, inner = (marched(model, face_cycle(model, face, grid=grid)) for grid in (GRID, replace(GRID, inner_length=1.6)))
+    assert inner[3].position.operator.nodes < 0.7 * whole[3].position.operator.nodes
+    np.testing.assert_allclose(errors(inner), errors(whole), rtol=1e-11)
+
+
+def test_hands_mirror_each_other(model):
+    """Symmetry: seen in a mirror across the axes a right-hand pinion is a left-hand one, and slices change sides."""
+
+    def opening(sign):
+        return lambda heights, positions: 2e-4 * (1.0 + sign * heights / WIDTH)
+
+    right = marched(model, face_cycle(model, face_of(6, 0.2), opening(1.0)))
+    left = marched(model, face_cycle(model, face_of(6, -0.2), opening(-1.0)))
+    np.testing.assert_allclose(errors(left), errors(right), rtol=1e-10)
+    loads = [_by_slice(records[5], 6) for records in (right, left)]
+    np.testing.assert_allclose(loads[1][::-1], loads[0], rtol=1e-9, atol=1e-6)
+
+
+def _by_slice(record, slices):
+    operator = record.position.operator
+    found = np.zeros(slices)
+    for nodes, pair in enumerate(operator.pairs):
+        found[pair.place.slice] += record.solution.forces[: operator.nodes][operator.node_pair == nodes].sum()
+    return found
+
+
+def test_any_start_and_a_whole_cycle_ahead(model):
+    """Identity: a face so wide that its ends are whole mesh cycles apart has the same pairs at either end, under other numbers."""
+    positions = np.array([-7.25, 7.25])
+    cycle = face_cycle(model, Face(positions, np.array([0.5, 0.5]), model.pair.base_pitch / np.ptp(positions)))
+    by_slice = [[pair for pair in cycle.pairs_at(5) if pair.place.slice == number] for number in (0, 1)]
+    assert [pair.place.index + 1 for pair in by_slice[1]] == [pair.place.index for pair in by_slice[0]]
+    for one, other in zip(*by_slice):
+        np.testing.assert_allclose(one.gap, other.gap, atol=1e-12)
+
+
+def test_torques_are_as_the_tooth_numbers_and_axial_forces_as_the_helix(model):
+    """Statics: without friction T1/rb1 = T2/rb2 = the forces' transverse part; the axial part is its tangent of the base helix angle."""
+    if model.scene.friction is not None:
+        pytest.skip("without friction")
+    cycle = face_cycle(model, face_of(5, slope=0.2))
+    record = marched(model, cycle, 4)[-1]
+    operator, pair = record.position.operator, model.pair
+    from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
+
+    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=cycle.face)
+    reaction = dict(zip(COORDINATES, rows.T @ record.solution.forces))
+    transverse = model.scene.load.wheel_torque / pair.wheel.base_radius
+    for name, value in (("rotation_1", 1.0), ("rotation_2", 1.0), ("centre_x1", 1.0), ("centre_x2", -1.0), ("axial_1", -0.2), ("axial_2", 0.2)):
+        assert abs(reaction[name]) == pytest.approx(abs(value) * transverse, rel=1e-12), name
+    assert reaction["axial_1"] == pytest.approx(-reaction["axial_2"], rel=1e-12)
+
+
+def test_slices_refined(model):
+    """Known order: the mean over slices of what varies along the face is the midpoint rule, of second order."""
+    if model.scene.friction is not None:
+        pytest.skip("without friction")
+
+    def mean(slices):
+        # Steps of a fraction of the mesh cycle at which the slices' phases do not repeat.
+        return errors(marched(model, face_cycle(model, face_of(slices, 0.3), grid=ContactGrid(3.0, 31)), 8)).mean()
+
+    finest = mean(24)
+    coarse, fine = abs(mean(3) - finest), abs(mean(6) - finest)
+    assert fine < 0.4 * coarse
