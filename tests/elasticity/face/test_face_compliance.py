@@ -143,7 +143,7 @@ def test_similar_gears_share_an_entry(both, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "message"), [({"section_size": 0.0}, "section_size is 0.0 mm"), ({"layers": 0}, "layers is 0"), ({"twist": 0.2}, "take 6 or more")]
+    ("change", "message"), [({"section_size": 0.0}, "section_size is 0.0 mm"), ({"layers": 0}, "layers is 0"), ({"twist": 0.2}, "take 8 or more")]
 )
 def test_impossible_bodies_are_refused(change, message):
     """What is wrong, and what is allowed."""
