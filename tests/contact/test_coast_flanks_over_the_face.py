@@ -119,7 +119,7 @@ def test_misalignment_opens_the_coast_flanks_as_a_tilt_does(hand):
     assert min(seen.values()) > 2
 
 
-@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize("hand", [pytest.param("right", marks=pytest.mark.nightly), "left"])
 def test_driven_backwards(hand):
     """Statics: the axial force turns round with the torque, F_a = F_t tan(beta), and so does its sign with the hand."""
     forces = {}

@@ -8,8 +8,8 @@ from tests.hard_cases.helical import BEARINGS, CROWNED, FRICTION, INERTIA, SHAFT
 from tests.hard_cases.invariants import Run, cycle_of, run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS
 
-from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.guidance import resolved_frequency
+from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import model_of
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder

@@ -15,7 +15,7 @@ TEETH = (18, 20)
 RELIEF = '\n[tip_relief]\ndepth = "40 um"\nstart = "HPSTC"\nshape = "parabolic"\n'
 
 
-def accuracy(slices=5, layers=2, body=1.5, nodes=13, steps=12):
+def accuracy(slices=5, layers=2, body=1.5, nodes=11, steps=8):
     return (
         f'slices = {slices}\nlayers = {layers}\nbody_element_size = "{body} mm"\nflank_element_size = "0.5 mm"\nelement = "P2"\n'
         f"contact_nodes = {nodes}\nsteps_per_mesh_cycle = {steps}"
@@ -53,7 +53,7 @@ def test_hands_in_the_mirror(run, measured):
 def test_slices_refined(run, measured):
     """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the layers (6 mm), where flanks enter contact
     smoothly; from slice to slice the phases fall differently on the steps, so that 1.2 is asked for."""
-    slices = (3, 6, 12, 24)
+    slices = (6, 12, 24)
     results = [run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=17, steps=7))["transmission_error"].values for number in slices]
     means, ranges = ([of(each) for each in results] for of in (np.mean, np.ptp))
     steps = np.abs(np.diff(means))
