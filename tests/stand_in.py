@@ -33,7 +33,7 @@ def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=
     return FlankCompliance(np.sqrt(2.0 * arc / gear.base_radius), element_order, np.array(blocks), flanks=2 if coast_flank else 1)
 
 
-def stand_in_body(gear, width, heights=5, *, elements=60, offsets=3, coast_flank=False, reach=None):
+def stand_in_body(gear, width, heights=5, *, elements=12, offsets=3, coast_flank=False, reach=None):
     """A body over a face, stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the width. Local yielding is in the sections.
 
     `reach` (of the width): how far a load bends the tooth more than elsewhere, as in a body that gives way along its axis too.

@@ -21,7 +21,7 @@ from fenics_gears.commands.shared import (
     shown_progress,
 )
 from fenics_gears.errors import ComputationError
-from fenics_gears.show import PICTURE_FILES
+from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.job import communicator
 
@@ -93,7 +93,7 @@ def _save(dataset, directory: Path, interruption: Interruption) -> Path:
     interruption.ignore()
     file = write_whole(directory / RUN_FILE, lambda path: results.save(dataset, path))
     remove(directory / JOURNAL)
-    for picture in PICTURE_FILES:
+    for picture in (*PICTURE_FILES, *FACE_PICTURE_FILES):
         # Those of an earlier run would be taken for pictures of this one.
         (directory / picture).unlink(missing_ok=True)
     return file

@@ -8,19 +8,20 @@ cos(beta_b) dF/dz on the line of contact, across which the section is in plane s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.face import Face
-from fenics_gears.contact.face_product import Views, face_product, views
+from fenics_gears.contact.face_product import Seen, Views, add_between_seen, at_contact_nodes, seen_by
 from fenics_gears.contact.interpolation import FlankInterpolation
 from fenics_gears.contact.operator import CompliancePairing, node_slices
-from fenics_gears.contact.rank import LAYER, dependent_rows
+from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
+from fenics_gears.errors import ComputationError
 
 # Over the slice's own width, by which all is divided in the end.
 UNIT_WIDTH = (1.0, 1.0)
@@ -38,11 +39,13 @@ class FacePairing:
 
     def __init__(self, flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face):
         self.face, self._nodes = face, tuple(len(body.roll_angle) for body in bodies)
-        sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
-        self.sections = sections
-        self._fine, self._coarse = (CompliancePairing(each, widths=UNIT_WIDTH) for each in (flanks, sections))
+        self.sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
+        self._fine, self._shares = CompliancePairing(flanks, widths=UNIT_WIDTH), face.cosine / face.widths
         self._bodies = tuple(
-            on_slices(body.blocks, slice_averages(body.heights, body.element_order, face.positions - middle, face.widths), body.flanks)
+            (
+                on_slices(body.blocks, slice_averages(body.heights, body.element_order, face.positions - middle, face.widths), body.flanks),
+                np.stack([body.plane.block(offset) for offset in range(-body.plane.offsets, body.plane.offsets + 1)]),
+            )
             for body, middle in zip(bodies, face.middles)
         )
 
@@ -50,47 +53,48 @@ class FacePairing:
         self, pairs: Sequence[FacePair], previous: Sequence[FacePair] | None, turned: tuple[float, float]
     ) -> tuple[np.ndarray, np.ndarray | None, int]:
         """C (m, m) and E (n, m before), mm/N, as of `CompliancePairing.compliance`; and the dependent rows, which have a thin layer each (`contact.rank`)."""
-        tangential = previous is not None
-        kinds, nodes, before = 2 if tangential else 1, _count(pairs), _count(previous or ())
-        compliance, earlier = np.zeros((kinds, nodes, kinds, nodes)), np.zeros((1, nodes, 2, before))
-        for gear, blocks in enumerate(self._bodies):
-            rows = self._views(gear, pairs, tangential)
-            face_product(blocks, rows, rows, compliance, True)
-            if tangential:
-                tangents = self._views(gear, pairs, tangential, turned[gear])
-                face_product(blocks, tangents, self._views(gear, previous, True), earlier, False)
-        dependent = self._add_local(compliance, earlier, pairs, previous, turned)
-        return compliance.reshape(kinds * nodes, kinds * nodes), earlier.reshape(nodes, 2 * before) if tangential else None, dependent
+        kinds, seen = 1 if previous is None else 2, seen_by([pair.coarse for pair in pairs])
+        now = [self._views(gear, pairs, seen, kinds == 2) for gear in range(2)]
+        compliance, earlier = self._seen_compliance(now, seen, now, seen, symmetric=True), None
+        if previous is not None:
+            seen_before = seen_by([pair.coarse for pair in previous])
+            before = [self._views(gear, previous, seen_before, True) for gear in range(2)]
+            earlier_tangents = [self._views(gear, pairs, seen, True, turned[gear]) for gear in range(2)]
+            earlier = self._seen_compliance(earlier_tangents, seen, before, seen_before)
+        dependent = self._add_fine(compliance, earlier, pairs, previous, turned)
+        rows = kinds * _count(pairs)
+        return compliance.reshape(rows, rows), None if previous is None else earlier.reshape(_count(pairs), 2 * _count(previous)), dependent
 
-    def _views(self, gear: int, pairs: Sequence[FacePair], tangential: bool, turned: float | None = None) -> Views:
+    def _seen_compliance(self, rows: list[Views], seen: Seen, columns: list[Views], seen_by_columns: Seen, symmetric: bool = False) -> np.ndarray:
+        """Between contact nodes (d, n, e, m), mm/N: of the bodies, less what their plane sections give in each slice."""
+        kinds, others = rows[0].axes.shape[1], columns[0].axes.shape[1]
+        sizes = (groups.seen[-1].stop if groups.seen else 0 for groups in (seen, seen_by_columns))
+        between = np.zeros((kinds, next(sizes), others, next(sizes)))
+        for (blocks, sections), own, other in zip(self._bodies, rows, columns):
+            _check_known(min(len(blocks), len(sections)) // 2, own.teeth, other.teeth)
+            add_between_seen(blocks, sections, self._shares, own, other, symmetric, between)
+        return at_contact_nodes(between, seen, seen_by_columns, symmetric)
+
+    def _views(self, gear: int, pairs: Sequence[FacePair], seen: Seen, tangential: bool, turned: float | None = None) -> Views:
         """How the pairs' nodes see one gear's body: along normal and tangent, or with `turned` (rad) along the tangent as it stood before."""
-        size, places = 3 * self._nodes[gear], [pair.place for pair in pairs]
-        return views(
-            [pair.coarse[gear] for pair in pairs],
-            [place.ahead(gear) for place in places],
-            [size * (place.flank * self.face.slices + place.slice) for place in places],
-            [self._directions(place, gear, tangential, turned) for place in places],
-        )
+        places = [pair.place for pair in pairs]
+        teeth, flanks, slices = np.array([(place.ahead(gear), place.flank, place.slice) for place in places], dtype=np.int64).reshape(-1, 3).T.copy()
+        first, nodes = seen.firsts[gear], self._nodes[gear]
+        plane = _plane_directions(gear, places, tangential, turned)
+        axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1))], axis=2)
+        if turned is None:
+            axes[:, 0] *= self.face.cosine
+            axes[:, 0, 2] = [self.face.axial_share(gear, place.turn) for place in places]
+        dofs = 3 * (nodes * (flanks * self.face.slices + slices) + first)
+        return Views(teeth, slices, seen.widths[gear], seen.places[gear], dofs, 2 * (nodes * flanks + first), axes, plane)
 
-    def _directions(self, place: Place, gear: int, tangential: bool, turned: float | None) -> np.ndarray:
-        """Unit vectors (d, 3) in the tooth's frame."""
-        if turned is not None:
-            return np.pad(directions(place.contact_rolls[gear] - place.turn * turned, True)[1:], ((0, 0), (0, 1)))
-        axes = np.pad(directions(place.contact_rolls[gear], tangential), ((0, 0), (0, 1)))
-        axes[0] *= self.face.cosine
-        axes[0, 2] = self.face.axial_share(gear, place.turn)
-        return axes
-
-    def _add_local(self, compliance, earlier, pairs, previous, turned) -> int:
-        """Add what the fine sections give more than the body's, in each slice; returns the dependent rows."""
+    def _add_fine(self, compliance, earlier, pairs, previous, turned) -> int:
+        """Add the compliance of the fine sections in each slice; returns the dependent rows."""
         now, before = _of_slices(pairs, self.face.slices), _of_slices(previous or (), self.face.slices)
         known, dependent = None, 0
-        for number in range(self.face.slices):
-            nodes, own = now[number]
-            nodes_before, own_before = before[number]
+        for (nodes, own), (nodes_before, own_before), share in zip(now, before, self._shares):
             if known is None or self.face.slope != 0.0:
-                known = self._local(own, own_before if previous is not None else None, turned)
-            share = self.face.cosine / self.face.widths[number]
+                known = self._fine_section(own, own_before if previous is not None else None, turned)
             more, more_before, rows = known
             compliance[:, nodes[:, None], :, nodes] += share * more.transpose(1, 3, 0, 2)
             if previous is not None:
@@ -98,20 +102,38 @@ class FacePairing:
             dependent += rows
         return dependent
 
-    def _local(self, pairs, previous, turned) -> tuple[np.ndarray, np.ndarray | None, int]:
+    def _fine_section(self, pairs, previous, turned) -> tuple[np.ndarray, np.ndarray | None, int]:
         """Of one slice, mm per N/mm: between its nodes (d, n, d, n), by those before (1, n, 2, before), and its dependent rows."""
         count, kinds = _count(pairs), 1 if previous is None else 2
-        fine, fine_before = self._fine.compliance(pairs, previous, turned)
-        coarse, coarse_before = self._coarse.compliance(_seen_coarsely(pairs), None if previous is None else _seen_coarsely(previous), turned)
-        dependent = dependent_rows(fine)
-        if dependent:
-            fine = fine + LAYER * fine.diagonal().max() * np.eye(len(fine))
-        more = (fine - coarse).reshape(kinds, count, kinds, count)
-        return more, None if previous is None else (fine_before - coarse_before).reshape(1, count, 2, -1), dependent
+        fine, before = self._fine.compliance(pairs, previous, turned)
+        fine, dependent = of_full_rank(fine)
+        return fine.reshape(kinds, count, kinds, count), None if before is None else before.reshape(1, count, 2, -1), dependent
 
 
-def _seen_coarsely(pairs: Sequence[FacePair]) -> list[FacePair]:
-    return [replace(pair, interpolation=pair.coarse) for pair in pairs]
+def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> None:
+    """Raise ComputationError for teeth (P,) that are further apart than the bodies' compliance is known: compiled code would not notice."""
+    if not len(responding) or not len(loaded):
+        return
+    apart = max(responding.max() - loaded.min(), loaded.max() - responding.min())
+    if apart > offsets:
+        raise ComputationError(f"compliance over the face: teeth {apart} pitches apart touch, it is known for {offsets}; ask face_compliance for a larger reach")
+
+
+def directions_on_face(place: Place, face: Face, gear: int, tangential: bool) -> np.ndarray:
+    """Unit vectors (1 or 2, 3) of the contact normal and of the tangent, in the tooth's frame at the slice's height."""
+    axes = np.pad(directions(place.contact_rolls[gear], tangential), ((0, 0), (0, 1)))
+    axes[0] *= face.cosine
+    axes[0, 2] = face.axial_share(gear, place.turn)
+    return axes
+
+
+def _plane_directions(gear: int, places: Sequence[Place], tangential: bool, turned: float | None) -> np.ndarray:
+    """Unit vectors (P, d, 2) in the transverse section, in the tooth's frame; with `turned` (rad) the tangent as it stood before."""
+    if turned is None:
+        found = [directions(place.contact_rolls[gear], tangential) for place in places]
+    else:
+        found = [directions(place.contact_rolls[gear] - place.turn * turned, True)[1:] for place in places]
+    return np.array(found).reshape(len(places), 2 if tangential and turned is None else 1, 2)
 
 
 def _of_slices(pairs: Sequence[FacePair], slices: int) -> list[tuple[np.ndarray, list[FacePair]]]:

@@ -1,102 +1,128 @@
-"""The compliance of a gear's face seen by contact nodes in slices: `N B N^T` in the directions of the contact normal and of friction (compiled)."""
+"""The compliance of two gears' bodies seen by contact nodes in slices of the face: `W M W^T`, with M between the flank nodes that they see.
+
+M is in the directions of contact: a flank node has as many displacements as a contact node, not three.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate, product
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
+from fenics_gears.contact.interpolation import FlankInterpolation
+
 
 class Views(NamedTuple):
-    """How groups (P,) of contact nodes see the nodes of a flank in their slice.
+    """How groups (P,) of contact nodes see one gear: its `teeth`; their `slices`; how many flank nodes they see (`widths`), and their `places` among all
+    that are seen; the first of their degrees of freedom in the body (`dofs`) and in its plane section (`plane_dofs`); the directions of contact in the
+    tooth's frame (`axes`, (P, d, 3)) and in the section (`plane_axes`, (P, d, 2))."""
 
-    `starts`, `counts`: their contact nodes among all; `teeth`: ordinal of their tooth; `dofs`: first degree of freedom that they see; `widths`: flank nodes
-    that they see; `places`: where their weights (counts x widths) begin in `weights`; `directions` (P, d, 3) in the tooth's frame.
-    """
-
-    starts: np.ndarray
-    counts: np.ndarray
     teeth: np.ndarray
-    dofs: np.ndarray
+    slices: np.ndarray
     widths: np.ndarray
     places: np.ndarray
-    weights: np.ndarray
-    directions: np.ndarray
+    dofs: np.ndarray
+    plane_dofs: np.ndarray
+    axes: np.ndarray
+    plane_axes: np.ndarray
 
 
-def views(interpolations: Sequence, teeth: Sequence[int], first_dofs: Sequence[int], directions: Sequence[np.ndarray]) -> Views:
-    """The views of groups of contact nodes, one after the other: `interpolations` (FlankInterpolation) of the flank nodes of their slice, whose first
-    degree of freedom is in `first_dofs`."""
-    starts, dofs, widths, places, weights, counts, total, size = [], [], [], [], [], [], 0, 0
-    for view, first in zip(interpolations, first_dofs):
-        lowest, nodes = int(view.first.min()), len(view.near)
-        width = int(view.first.max()) - lowest + view.near.shape[1]
-        seen = np.zeros((nodes, width))
-        np.put_along_axis(seen, (view.first - lowest)[:, None] + np.arange(view.near.shape[1]), view.near, axis=1)
-        starts.append(total)
-        counts.append(nodes)
-        dofs.append(first + 3 * lowest)
-        widths.append(width)
-        places.append(size)
-        weights.append(seen.ravel())
-        total, size = total + nodes, size + seen.size
-    shape = (0, 1, 3) if not len(directions) else (len(directions), *directions[0].shape)
+@dataclass(frozen=True)
+class Seen:
+    """Flank nodes that groups of contact nodes see, those of the pinion and then those of the wheel for each group.
 
-    def integers(values: Sequence[int]) -> np.ndarray:
-        return np.array(values, dtype=np.int64)
-
-    return Views(
-        integers(starts), integers(counts), integers(list(teeth)), integers(dofs), integers(widths), integers(places),
-        np.concatenate(weights) if weights else np.empty(0), np.array(directions, dtype=float).reshape(shape),
-    )  # fmt: skip
-
-
-@njit(cache=True)
-def face_product(blocks, rows, columns, result, symmetric):
-    """Add `N_a B N_b^T` between the contact nodes a of `rows` and b of `columns` to `result` (d, n, e, m), mm/N.
-
-    `blocks` (k, D, D), mm/N: the compliance between teeth; that of tooth i under forces on tooth j is number (k - 1)/2 + i - j. `symmetric`: rows and
-    columns are the same; what follows by symmetry is not computed again.
+    `weights`: (nodes, seen) of each group; `nodes`, `seen`: where its own stand among all; `firsts`, `widths`, `places` (2, P), of either gear: the first
+    flank node that a group sees, how many it sees, and where they stand among all seen.
     """
-    offsets = (len(blocks) - 1) // 2
-    most = 0
-    for group in range(len(rows.counts)):
-        most = max(most, rows.counts[group])
-    widest = 0
-    for group in range(len(columns.widths)):
-        widest = max(widest, columns.widths[group])
-    half = np.empty((most, widest))
-    for p in range(len(rows.starts)):
-        for q in range(p + 1 if symmetric else len(columns.starts)):
-            block = blocks[offsets + rows.teeth[p] - columns.teeth[q]]
-            for d in range(rows.directions.shape[1]):
-                for e in range(columns.directions.shape[1]):
-                    _between(block, rows, p, d, columns, q, e, half, result, symmetric)
+
+    weights: list[np.ndarray]
+    nodes: list[slice]
+    seen: list[slice]
+    firsts: np.ndarray
+    widths: np.ndarray
+    places: np.ndarray
+
+
+def seen_by(groups: Sequence[tuple[FlankInterpolation, FlankInterpolation]]) -> Seen:
+    """What groups of contact nodes see of pinion and wheel by their interpolations of either one."""
+    weights, firsts, widths = [], [], []
+    for views in groups:
+        dense, lowest = zip(*map(_dense, views))
+        weights.append(np.concatenate(dense, axis=1))
+        firsts.append(lowest)
+        widths.append([part.shape[1] for part in dense])
+    first, width = (np.array(numbers, dtype=np.int64).reshape(-1, 2).T for numbers in (firsts, widths))
+    seen = _one_after_the_other([part.shape[1] for part in weights])
+    begin = np.array([part.start for part in seen], dtype=np.int64)
+    return Seen(weights, _one_after_the_other([len(part) for part in weights]), seen, first, width, np.stack([begin, begin + width[0]]))
+
+
+def _dense(view: FlankInterpolation) -> tuple[np.ndarray, int]:
+    """Weights (n, w) of the flank nodes from the lowest to the highest that any contact node sees, and the lowest."""
+    lowest, (nodes, width) = int(view.first.min()), view.near.shape
+    found = np.zeros((nodes, int(view.first.max()) - lowest + width))
+    found[np.arange(nodes)[:, None], (view.first - lowest)[:, None] + np.arange(width)] = view.near
+    return found, lowest
+
+
+def _one_after_the_other(sizes: Sequence[int]) -> list[slice]:
+    ends = list(accumulate(sizes, initial=0))
+    return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
 
 
 @njit(cache=True)
-def _between(block, rows, p, d, columns, q, e, half, result, symmetric):
-    """The part of one group of rows and one of columns, in one direction of each."""
-    across, along = rows.directions[p, d], columns.directions[q, e]
-    n, m, wide, high = rows.counts[p], columns.counts[q], columns.widths[q], rows.widths[p]
-    half[:n, :wide] = 0.0
-    for i in range(high):
-        row = rows.dofs[p] + 3 * i
-        for j in range(wide):
-            column, value = columns.dofs[q] + 3 * j, 0.0
-            for a in range(3):
-                for b in range(3):
-                    value += across[a] * block[row + a, column + b] * along[b]
-            for node in range(n):
-                half[node, j] += rows.weights[rows.places[p] + node * high + i] * value
-    for node in range(n):
-        for other in range(m):
-            value = 0.0
-            for j in range(wide):
-                value += half[node, j] * columns.weights[columns.places[q] + other * wide + j]
-            here, there = rows.starts[p] + node, columns.starts[q] + other
-            result[d, here, e, there] += value
-            if symmetric and q < p:
-                result[e, there, d, here] += value
+def add_between_seen(blocks, sections, shares, rows, columns, symmetric, result):
+    """Add to `result` (d, s, e, s'), mm/N, one gear's compliance between the flank nodes that groups `rows` and `columns` see.
+
+    `blocks` (k, D, D), mm/N, of the body: that of tooth i under forces on tooth j is number (k - 1)/2 + i - j; less `sections` (k, D', D'), mm per N/mm,
+    times `shares` (S,), 1/mm, for groups in the same slice. `symmetric`: rows and columns are the same; of two groups only the later one has rows.
+    """
+    offsets, along = (len(blocks) - 1) // 2, np.empty(3)
+    for p in range(len(rows.teeth)):
+        for q in range(p + 1 if symmetric else len(columns.teeth)):
+            number = offsets + rows.teeth[p] - columns.teeth[q]
+            block, section, share = blocks[number], sections[number], 0.0
+            if rows.slices[p] == columns.slices[q]:
+                share = shares[rows.slices[p]]
+            for i in range(rows.widths[p]):
+                row, plane_row, place = rows.dofs[p] + 3 * i, rows.plane_dofs[p] + 2 * i, rows.places[p] + i
+                for d in range(rows.axes.shape[1]):
+                    across, across_plane = rows.axes[p, d], rows.plane_axes[p, d]
+                    for j in range(columns.widths[q]):
+                        column, other = columns.dofs[q] + 3 * j, columns.places[q] + j
+                        for b in range(3):
+                            along[b] = across[0] * block[row, column + b] + across[1] * block[row + 1, column + b] + across[2] * block[row + 2, column + b]
+                        for e in range(columns.axes.shape[1]):
+                            axis = columns.axes[q, e]
+                            value = along[0] * axis[0] + along[1] * axis[1] + along[2] * axis[2]
+                            if share != 0.0:
+                                at = columns.plane_dofs[q] + 2 * j
+                                for b in range(2):
+                                    in_plane = across_plane[0] * section[plane_row, at + b] + across_plane[1] * section[plane_row + 1, at + b]
+                                    value -= share * in_plane * columns.plane_axes[q, e, b]
+                            result[d, place, e, other] += value
+
+
+def at_contact_nodes(between: np.ndarray, rows: Seen, columns: Seen, symmetric: bool = False) -> np.ndarray:
+    """Compliance (d, n, e, m), mm/N, between contact nodes from that `between` (d, s, e, s') the flank nodes that they see.
+
+    `symmetric`: rows and columns are the same, and of two groups `between` is known where the later one has the rows.
+    """
+    kinds, others = between.shape[0], between.shape[2]
+    nodes, nodes_of_columns = (groups.nodes[-1].stop if groups.nodes else 0 for groups in (rows, columns))
+    found, half = np.empty((kinds, nodes, others, nodes_of_columns)), np.empty((between.shape[1], nodes_of_columns))
+    for d, e in np.ndindex(kinds, others):
+        # From the columns' side first, so that rows of the result are written in one piece.
+        for weights, own, seen in zip(columns.weights, columns.nodes, columns.seen):
+            known = slice(seen.start if symmetric else 0, None)
+            half[known, own] = between[d, known, e, seen] @ weights.T
+        for weights, own, seen in zip(rows.weights, rows.nodes, rows.seen):
+            np.matmul(weights, half[seen, : own.stop if symmetric else None], out=found[d, own, e, : own.stop if symmetric else None])
+    if symmetric:
+        for (d, e), own in product(np.ndindex(kinds, others), rows.nodes):
+            found[e, : own.start, d, own] = found[d, own, e, : own.start].T
+    return found

@@ -2,20 +2,27 @@
 
 Gears move about their mid-width. A tilt theta (rad, about x along and y off the line of action) displaces the shaft at the height z by
 theta_y z in x and by -theta_x z in y, so that bearings that do not stand at equal distances couple x with theta_y and y with theta_x.
-Gyroscopic moments are left out: they shift a tilting frequency f by half of J/J_t times the speed of rotation (1/s) at most, J_t being the moment of
-inertia about a diameter; of a disc that is 1 % where the gear turns at 1 % of f.
+Gyroscopic moments are left out: they shift a tilting frequency by half of J/J_t times the speed of rotation (1/s), J_t being the moment of inertia
+about a diameter. J is 2 J_t at most, a flat disc's.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.dynamics.drivetrain_data import Bearings
 from fenics_gears.geometry.pair import GearPair
 
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.frequencies import Vibration
+
+# Shifts of natural frequencies that give a warning.
+GYROSCOPIC = 0.05
 # Each gear's number in the names of its coordinates; the tilt that moves the shaft in a direction, and how.
 NUMBERS = {"pinion": "1", "wheel": "2"}
 TILTS = {"x": ("tilt_y", 1.0), "y": ("tilt_x", -1.0)}
@@ -30,6 +37,18 @@ class MeshOverFace:
 
     normals: np.ndarray
     across: np.ndarray
+
+
+def gyroscopic_warnings(vibrations: Iterable[Vibration], speeds: Mapping[str, float]) -> list[str]:
+    """A sentence where gyroscopic moments could matter to modes in which a gear tilts; `speeds` (1/s): of "pinion" and "wheel"."""
+    tilting = [(speed / each.frequency, each, gear) for each in vibrations for gear, speed in speeds.items() if each.motion == f"{gear} tilts"]
+    share, mode, gear = max(tilting, key=lambda found: found[0], default=(0.0, None, ""))
+    if share < GYROSCOPIC:
+        return []
+    return [
+        f"gyroscopic moments are left out: at {60.0 * speeds[gear]:.4g} rpm they shift the natural frequency of about {mode.frequency:.4g} Hz, at which the {gear} "
+        f"tilts, by up to {share:.0%}"
+    ]
 
 
 def add_bearings(stiffness: np.ndarray, names: tuple[str, ...], bearings: Bearings) -> None:

@@ -98,6 +98,16 @@ def _axial_stiffness_has_places(both: Tree) -> Iterator[Problem]:
             yield Problem(("bearings", *path, "axial_stiffness"), as_written(section["axial_stiffness"]), message)
 
 
+def warnings(bearings: Bearings, model) -> list[str]:
+    """A sentence where gears turn so fast that gyroscopic moments could matter."""
+    if bearings.places is None:
+        return []
+    from fenics_gears.dynamics.tilting import gyroscopic_warnings
+
+    fastest = model.scene.mesh_frequencies[1]
+    return gyroscopic_warnings(model.vibrations, {gear: fastest / getattr(model.scene.gears, gear).teeth for gear in GEARS})
+
+
 EFFECT = Effect(
     section="bearings",
     description="elastic support of the gear centres",
@@ -117,4 +127,5 @@ EFFECT = Effect(
         ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
     ),
     rules=supports_are_complete,
+    warnings=warnings,
 )

@@ -10,7 +10,7 @@ from fenics_gears.effects.effect import Effect
 from fenics_gears.geometry.eccentricity_data import Eccentricity
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, PLANE, Tree, flanks_have_width, table, too_large_for_the_module, value_at
+from fenics_gears.inputs.tree import GEARS, NOT_IN_THE_PLANE, Tree, over_the_face, table, too_large_for_the_module, value_at
 from fenics_gears.inputs.written import as_written
 
 
@@ -62,19 +62,15 @@ def run_out_is_small_and_of_some_gear(tree: Tree) -> Iterator[Problem]:
         for name in ("distance", "wobble"):
             path = ("eccentricity", gear, name)
             yield from too_large_for_the_module(tree, path, value_at(tree, *path))
-        if own is not None and "wobble" in own and not flanks_have_width(tree):
-            yield Problem(("eccentricity", gear, "wobble"), as_written(own["wobble"]), PLANE)
+        if own is not None and "wobble" in own and not over_the_face(tree):
+            yield Problem(("eccentricity", gear, "wobble"), as_written(own["wobble"]), NOT_IN_THE_PLANE)
 
 
 def gaps(eccentricity: Eccentricity, model):
     """What displaced base circles and leaning teeth add to the gaps."""
-    if any(own is not None and own.wobble for own in (eccentricity.pinion, eccentricity.wheel)):
-        from fenics_gears.contact.wobble import WobblingRunOut
+    from fenics_gears.contact.run_out import run_out
 
-        return WobblingRunOut(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
-    from fenics_gears.contact.run_out import RunOut
-
-    return RunOut(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
+    return run_out(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
 
 
 def period(eccentricity: Eccentricity, scene) -> int:

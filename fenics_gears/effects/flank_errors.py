@@ -21,9 +21,9 @@ from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
-    PLANE,
+    NOT_IN_THE_PLANE,
     Tree,
-    flanks_have_width,
+    over_the_face,
     quantity_at,
     quantity_in,
     table,
@@ -126,7 +126,7 @@ def check(errors: FlankErrors, scene, pair) -> None:
             raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: {problem}\nNothing was computed or written.")
         in_table = [name for name in HELIX if own.file is not None and getattr(own, name) is not None]
         if in_table and not scene.three_dimensional:
-            raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]} {PLANE}\nNothing was computed or written.")
+            raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]} {NOT_IN_THE_PLANE}\nNothing was computed or written.")
 
 
 def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) -> str:
@@ -165,8 +165,8 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
         own = table(errors, gear) or {}
         yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
         yield from _errors_are_small(tree, own, gear)
-        if not flanks_have_width(tree):
-            yield from (Problem(("flank_errors", gear, name), as_written(own[name]), PLANE) for name in HELIX if name in own)
+        if not over_the_face(tree):
+            yield from (Problem(("flank_errors", gear, name), as_written(own[name]), NOT_IN_THE_PLANE) for name in HELIX if name in own)
 
 
 def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
@@ -214,7 +214,7 @@ def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
         yield Problem(path, written, message)
     for gear in GEARS:
         width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
-        if flanks_have_width(tree) and width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
+        if over_the_face(tree) and width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
             message = f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed: lists of errors instead."
             yield Problem(path, written, message)
         diameter = module * (teeth_in(tree, gear) or 100)

@@ -17,12 +17,12 @@ FIELDS = ("crowning", "helix_slope", "end_relief")
 
 
 class EndReliefText(Section):
-    """``end_relief`` of ``[lead_modifications.pinion]`` and ``[lead_modifications.wheel]``, such as ``{ depth = "10 um", length = "4 mm" }``."""
+    """``[lead_modifications.pinion.end_relief]`` and the wheel's: also written ``end_relief = { depth = "10 um", length = "4 mm" }``."""
 
     depth: float = quantity("0 um", "100 mm", "10 um", meaning="depth at the end of the face, along the line of action")
     length: float = quantity("1e-3 um", "100 m", "4 mm", meaning="length of the relief along the axis, from its start to the end of the face")
     sides: Optional[Literal["both", "left", "right"]] = choice(
-        BOTH, LEFT, RIGHT, meaning="ends of the face that are relieved; z runs from the left end to the right one", otherwise="`both`"
+        BOTH, LEFT, RIGHT, meaning="ends of the face that are relieved", otherwise="`both`"
     )
     shape: Optional[Literal["linear", "parabolic"]] = choice(
         LINEAR, PARABOLIC, meaning="growth of the relief with the distance from its start: `linear` starts with a kink, `parabolic` without", otherwise="`linear`"
@@ -30,7 +30,7 @@ class EndReliefText(Section):
 
 
 class LeadModificationText(Section):
-    """``[lead_modifications.pinion]`` and ``[lead_modifications.wheel]``, over the gear's own face width; each field alone is enough."""
+    """``[lead_modifications.pinion]`` and ``[lead_modifications.wheel]``: over the gear's own face width; each field alone is enough."""
 
     crowning: Optional[float] = quantity(
         "0 um", "100 mm", "6 um", meaning="height of the crowning, a parabola: removed at both ends of the face, nothing in its middle", otherwise="no crowning"
@@ -46,7 +46,8 @@ class LeadModificationText(Section):
 
 
 class LeadModificationsText(Section):
-    """``[lead_modifications]``; amounts are measured along the line of action in the transverse section."""
+    """``[lead_modifications]``: amounts along the line of action in the transverse section. The right end of the face is the one from which the pinion
+    is seen to turn counter-clockwise."""
 
     pinion: Optional[LeadModificationText] = None
     wheel: Optional[LeadModificationText] = None

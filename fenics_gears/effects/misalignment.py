@@ -17,7 +17,9 @@ def _deviation(example: str, meaning: str):
 
 
 class MisalignmentText(Section):
-    """``[misalignment]``: departure of the wheel's axis from parallel (ISO/TR 10064-3), as lengths over the common face width."""
+    """``[misalignment]``: departure of the wheel's axis from parallel, as lengths over the common face width. ISO/TR 10064-3 has such deviations in the plane
+    of both axes and perpendicular to it; these are in the plane of action and perpendicular to it. The right end is the one from which the pinion is seen to
+    turn counter-clockwise."""
 
     in_plane: Optional[float] = _deviation(
         "12 um", "in the plane of action: positive where the right end of the wheel's axis moves away from the pinion along the line of action"

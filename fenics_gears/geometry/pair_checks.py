@@ -88,7 +88,7 @@ def _check_contact_ratio(pair: GearPair) -> None:
     if pair.contact_ratio < 1.0:
         refuse(
             "pair",
-            f"contact ratio {pair.contact_ratio:.4g}, must be at least 1, otherwise a tooth pair leaves before the next one "
+            f"{'transverse ' if pair.helix else ''}contact ratio {pair.contact_ratio:.4g}, must be at least 1, otherwise a tooth pair leaves before the next one "
             f"enters: raise gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance "
             f"({pair.centre_distance:.6g} mm)",
         )

@@ -62,13 +62,21 @@ def teeth_in(tree: Tree, gear: str) -> int | None:
     return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
 
 
-def flanks_have_width(tree: Tree) -> bool:
-    """Whether a scene names what only flanks over a face have, so that it is three-dimensional."""
-    sections = {"lead_modifications", "misalignment"} & set(tree)
-    return bool(sections) or value_at(tree, "gears", "helix_angle") is not None or value_at(tree, "bearings", "places") is not None
+# What makes a scene three-dimensional, in the order in which messages name it.
+OVER_THE_FACE: tuple[Path, ...] = (("gears", "helix_angle"), ("lead_modifications",), ("misalignment",), ("bearings", "places"))
 
 
-PLANE = "has no effect in a plane scene, which knows nothing of the face. Leave it out; gears.helix_angle, [lead_modifications], [misalignment] or bearings.places make a scene three-dimensional."
+def dotted(path: Path) -> str:
+    """A path in words: a section in brackets, a field with its section."""
+    return ".".join(path) if len(path) > 1 else f"[{path[0]}]"
+
+
+def over_the_face(tree: Tree) -> list[Path]:
+    """What of a scene makes it three-dimensional; nothing of a plane one."""
+    return [path for path in OVER_THE_FACE if (value_at(tree, *path) if len(path) > 1 else table(tree, path[0])) is not None]
+
+
+NOT_IN_THE_PLANE = f"is of three-dimensional scenes: allowed beside {', '.join(map(dotted, OVER_THE_FACE[:-1]))} or {dotted(OVER_THE_FACE[-1])}. Leave it out."
 
 
 def material_sections(tree: Tree) -> list[Path]:

@@ -6,19 +6,16 @@ from dataclasses import dataclass
 
 from fenics_gears.contact.face_cycle import face_places
 from fenics_gears.contact.window import flank_ends, node_offsets
+from fenics_gears.elasticity.face.cost import expected_memory, expected_size
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 
-# Nodes of a section whose elements are a third of the module, and the power by which they grow as these become smaller; nodes of a cut beside them (measured).
-SECTION_NODES, SIZE_POWER, CUT_NODES = 360.0, 1.5, 14.0
-# Seconds of an unknown of a body, of the cube of a cut's dofs for each tooth, and of the square of the flanks' for each slice.
-UNKNOWN, CUT_CUBE = 1e-4, 2e-10
+# Seconds of an unknown of a body, and of the cube of the unknowns that it is condensed onto.
+UNKNOWN, CONDENSED_CUBE = 6e-5, 2.5e-10
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of the square of contact nodes.
 PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE = 4e-4, 3e-8, 4e-9
 # With friction: of a position, of a step.
 POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.5, 2.5
-# Factor of MUMPS, the dense Schur complement and its copies: bytes of an unknown, and of the square of the dofs that are kept.
-BYTES_OF_AN_UNKNOWN, BYTES_OF_A_KEPT_SQUARE = 6e3, 60.0
 
 
 @dataclass(frozen=True)
@@ -27,7 +24,7 @@ class FaceCost:
 
     condensing: float
     marching: float
-    unknowns: tuple[float, float]
+    unknowns: tuple[int, int]
     memory: float
     operators: float
 
@@ -44,13 +41,10 @@ def face_cost(model: Model) -> FaceCost:
     """What the bodies and contact over the face cost beside the plane sections."""
     bodies, condensing, memory = [], 0.0, 0.0
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):
-        division = face_discretisation(model, number)
-        heights = 3.0 * (2 * division.layers + 1)
-        finer = (0.35 * gear.module / division.section_size) ** SIZE_POWER
-        unknowns, cut = SECTION_NODES * finer * heights, CUT_NODES * finer**0.5 * heights
+        unknowns, condensed = expected_size(gear, face_discretisation(model, number), model.scene.coast_flanks is not None)
         bodies.append(unknowns)
-        condensing += UNKNOWN * unknowns + CUT_CUBE * gear.teeth * cut**3
-        memory = max(memory, BYTES_OF_AN_UNKNOWN * unknowns + BYTES_OF_A_KEPT_SQUARE * (3.0 * cut) ** 2)
+        condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3
+        memory = max(memory, expected_memory(unknowns, condensed))
     pairs, nodes = contact_nodes(model)
     rubbing = model.scene.friction is not None
     positions = min(model.resolution.steps_per_mesh_cycle, model.steps + 2)

@@ -45,7 +45,7 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
 
 
 # Elements of the body's section and its layers, in normal modules.
-SECTION_SIZE, LAYER_THICKNESS = 0.35, 1.0
+SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.7
 FEWEST_LAYERS = 4
 
 

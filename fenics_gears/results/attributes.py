@@ -78,7 +78,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("total_contact_ratio", "1", "transverse contact ratio plus overlap ratio", OVER_FACE),
     ResultAttribute(
         "face_load_factor", "1",
-        "face load factor K_Hbeta: largest line load of the mesh, its tooth pairs summed at each place of the face, divided by its mean over the common face at the same step; largest value of the stored settled steps",
+        "face load factor K_Hbeta: largest line load of the mesh, its tooth pairs summed at each place of the face, divided by its mean over the common face at the same step; largest value of the stored settled steps. Of helical gears it is above 1 even for the same line load along all lines of contact, since some places have more pairs in contact than others",
         OVER_FACE_WITH_FIELDS,
     ),
     ResultAttribute(

@@ -122,6 +122,13 @@ def _rotation(result: xr.Dataset) -> list[str]:
                 f"the {name} turns by {largest:.3g} rad from its nominal motion; the model takes such rotations as small "
                 f"(below {LARGEST_ROTATION} rad): stiffen the shafts or lower the torque"
             )
+    tilts = [np.abs(result[name].values).max(axis=0, initial=0.0) for name in ("tilt_x", "tilt_y") if name in result]
+    for name, largest in zip(result["gear"].values, np.max(tilts, axis=0) if tilts else ()):
+        if largest > LARGEST_ROTATION:
+            found.append(
+                f"the {name} tilts by {largest:.3g} rad; the model takes such rotations as small (below {LARGEST_ROTATION} rad): "
+                "stiffen its bearings, move them apart or lower the torque"
+            )
     return found
 
 

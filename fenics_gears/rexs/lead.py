@@ -116,7 +116,8 @@ def _end_relief(component: Component, width: float) -> tuple[Value, Value, str]:
         raise ValueProblem(f"{place(component, 'shape_of_relief')} = {shape}. Allowed: {' or '.join(SHAPES)}, which a scene has.")
     at = abs(_stated(component, f"end_relief_evaluation_reference_{face}", 0.5 * width))
     if not isclose(at, 0.5 * width, rel_tol=SAME):
-        raise ValueProblem(f"{place(component, f'end_relief_evaluation_reference_{face}')} is {at:g} mm from mid-width. Allowed: the end of the face, {0.5 * width:g} mm.")
+        where = place(component, f"end_relief_evaluation_reference_{face}")
+        raise ValueProblem(f"{where} is {at:g} mm from mid-width. Allowed: the end of the face, {0.5 * width:g} mm.")
     return depth, length, shape
 
 
@@ -125,7 +126,10 @@ def _both_ends(reliefs: dict[str, tuple[Value, Value, str]]) -> Value:
     (side, (depth, length, shape)), *others = reliefs.items()
     for _, other in others:
         if not (isclose(other[0].number, depth.number, rel_tol=SAME) and isclose(other[1].number, length.number, rel_tol=SAME) and other[2] == shape):
-            raise ValueProblem(f"{depth.origin} is {depth.words}, {other[0].origin} is {other[0].words}, or lengths or shapes differ. Allowed: ends alike, or one end relieved.")
+            raise ValueProblem(
+                f"{depth.origin} is {depth.words}, {other[0].origin} is {other[0].words}, or lengths or shapes differ. "
+                "Allowed: ends alike, or one end relieved."
+            )
     sides = "both" if others else side
     written = f'{{ depth = {depth.written}, length = {length.written}, sides = "{sides}", shape = "{shape}" }}'
     return Value(depth.number, written, f"{depth.origin} and {length.origin}")

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, Tree, material_sections, quantity_at, quantity_in, table, value_at
+from fenics_gears.inputs.tree import GEARS, NOT_IN_THE_PLANE, Tree, dotted, material_sections, over_the_face, quantity_at, quantity_in, table, value_at
 from fenics_gears.inputs.written import as_written
 
-# What makes a scene three-dimensional, in the order in which messages name it.
-MAKES_IT_SO = (("gears", "helix_angle"), ("lead_modifications",), ("misalignment",), ("bearings", "places"))
 # Effects say themselves what they need.
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
 # Layers of elements thinner than this, in modules, are needles.
@@ -22,30 +20,23 @@ PLANE_ONLY = {
 INSTEAD = {"element": "P2", "condensation": "once", "model": "elastic"}
 
 
-def _reasons(tree: Tree) -> list[tuple[str, ...]]:
-    """What of the scene makes it three-dimensional."""
-    return [path for path in MAKES_IT_SO if (value_at(tree, *path) if len(path) > 1 else table(tree, path[0])) is not None]
-
-
-def _words(path: tuple[str, ...]) -> str:
-    return ".".join(path) if len(path) > 1 else f"[{path[0]}]"
-
-
 def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
     """A three-dimensional scene has elastic teeth in full contact, of equal sectors, condensed once."""
-    reasons = _reasons(tree)
+    reasons = over_the_face(tree)
     if not reasons:
         return
-    why = f"cannot stand beside {_words(reasons[0])}: flanks are then resolved over the face"
+    why = f"cannot stand beside {dotted(reasons[0])}: flanks are then resolved over the face"
     accuracy = table(tree, "accuracy") or {}
     for name, refused in PLANE_ONLY.items():
         if accuracy.get(name) in refused:
             yield Problem(("accuracy", name), as_written(accuracy[name]), f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.')
+    if value_at(tree, "output", "root_stress") is True:
+        yield Problem(("output", "root_stress"), "true", f"{why}, where it is not recorded. Leave it out; `gears picture` shows the roots at a stored time.")
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return
     if "body_meshes" in tree:
-        yield Problem(("body_meshes",), "", f"{why.replace(_words(reasons[0]), _words(of_scene))}, and the mesh of a plane section is not. Leave one of the two out.")
+        yield Problem(("body_meshes",), "", f"{why.replace(dotted(reasons[0]), dotted(of_scene))}, and the mesh of a plane section is not. Leave one of the two out.")
     if not material_sections(tree):
         yield Problem(of_scene, as_written(value_at(tree, *of_scene)) or "", "needs teeth that give way. Add [gears.material], or leave it out.")
 
@@ -53,13 +44,11 @@ def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
 def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
     """Slices and layers belong to three-dimensional scenes, a hand to a helix, and layers have a thickness."""
     accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
-    reasons = _reasons(tree)
+    reasons = over_the_face(tree)
     if not reasons:
-        causes = ", ".join(_words(path) for path in MAKES_IT_SO[:-1])
         for name in ("slices", "layers"):
             if name in accuracy:
-                message = f"is of three-dimensional scenes: allowed beside {causes} or {_words(MAKES_IT_SO[-1])}. Leave it out."
-                yield Problem(("accuracy", name), as_written(accuracy[name]), message)
+                yield Problem(("accuracy", name), as_written(accuracy[name]), NOT_IN_THE_PLANE)
     if "pinion_hand" in gears and "helix_angle" not in gears:
         message = 'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand out.'
         yield Problem(("gears", "helix_angle"), None, message)

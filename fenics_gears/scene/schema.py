@@ -40,7 +40,7 @@ class Gear(Section):
     )
     face_width: Optional[float] = _face_width("face width of this gear", "that of `[gears]`")
     axial_offset: Optional[float] = quantity(
-        "-100 m", "100 m", "2 mm", meaning="mid-width of this gear along the axis, from a place common to both gears, positive to the right", otherwise="0 mm"
+        "-100 m", "100 m", "2 mm", meaning="mid-width of this gear along the axis, from a place common to both gears, positive to the right, the end from which the pinion is seen to turn counter-clockwise", otherwise="0 mm"
     )
     material: Optional[OwnMaterialText] = None
 
@@ -62,7 +62,7 @@ class Gears(Section):
         "right", "left", meaning="hand of the pinion's helix; the wheel has the other", otherwise="`right`; has no meaning without `helix_angle`"
     )
     centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the axes")
-    face_width: Optional[float] = _face_width("face width of both gears; gears of unequal width mesh over the smaller one, centred", "each gear has its own `face_width`")
+    face_width: Optional[float] = _face_width("face width of both gears; gears of unequal width mesh over the smaller one, centred unless they have an `axial_offset`", "each gear has its own `face_width`")
     pinion: Gear
     wheel: Gear
     material: Optional[MaterialText] = None

@@ -75,11 +75,17 @@ def wheels_shaft(run: Run) -> list[Chart]:
 
 def _shafts(run: Run) -> list[Chart]:
     """Either gear, the output shaft's end; load and speed, where they vary."""
-    caption, sides = "Displacement of the gears' centres", {"centre_x": "along", "centre_y": "off"} if "friction_force" in run.dataset else {"centre_x": "along"}
+    caption, sides = "Displacement of the gears' centres", {"centre_x": "along", "centre_y": "off"}
+    # Without friction gears that do not tilt stay on the line of action.
+    if not {"friction_force", "tilt_x"} & set(run.dataset):
+        del sides["centre_y"]
     centres = [of_variables(run, f"{caption} {words} the line of action", "Displacement", "µm", {name: ""}, least=LEAST_LENGTH) for name, words in sides.items()]
     alone: dict[str, Any] = {"colours": PALETTE[3:], "height": 300}
     return [
         *sum(centres, []),
+        *of_variables(run, "Displacement of the gears along their axes", "Displacement", "µm", {"axial_position": ""}, least=LEAST_LENGTH),
+        *of_variables(run, "Tilt of the gears about the line of action", "Tilt", "µrad", {"tilt_x": ""}, least=LEAST_ANGLE),
+        *of_variables(run, "Tilt of the gears in the plane of action", "Tilt", "µrad", {"tilt_y": ""}, least=LEAST_ANGLE),
         *of_variables(run, "Rotation of the hubs from their nominal motion", "Rotation", "µrad", {"rotation": ""}, least=LEAST_ANGLE),
         *of_variables(run, "Rotation of the output shaft's end", "Rotation", "µrad", {"shaft_end_rotation": "rotation"}, least=LEAST_ANGLE, **alone),
         *of_variables(run, "Torque on the wheel's shaft", "Torque", "N m", {"wheel_couple": "torque"}, least=1e-6, **alone),

@@ -17,7 +17,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.show import PICTURE_FILES
+from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import LETTERS, picture
 from fenics_gears.show.forces import mesh_forces, pair_forces, shaft_torques
@@ -55,6 +55,18 @@ SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
     (OF_ERROR, _orders),
 )
 PICTURES = dict(zip(PICTURE_FILES, SUBJECTS))
+
+
+def _of_face(run: Run) -> dict[str, tuple[str, Callable[[Run], Iterable[Chart]]]]:
+    """The pictures of flanks that are resolved over the face; none of a plane run."""
+    if not run.is_over_face:
+        return {}
+    from fenics_gears.show.contact_pattern import contact_patterns
+    from fenics_gears.show.line_load import line_loads
+
+    return dict(zip(FACE_PICTURE_FILES, (("Contact pattern", contact_patterns), ("Line load along the face", line_loads))))
+
+
 ROWS_AT_ONCE = 16
 
 
@@ -79,7 +91,7 @@ def _drawn(dataset: xr.Dataset) -> dict[str, tuple[str, list[Chart], str]]:
     """Heading, charts and colour of each picture that there is, by file name."""
     run = Run(dataset)
     _check_steps(run)
-    drawn = {name: (_heading(run, subject), list(charts(run)), DARK if run.complete else WARNING) for name, (subject, charts) in PICTURES.items()}
+    drawn = {name: (_heading(run, subject), list(charts(run)), DARK if run.complete else WARNING) for name, (subject, charts) in (PICTURES | _of_face(run)).items()}
     return {name: what for name, what in drawn.items() if what[1]}
 
 

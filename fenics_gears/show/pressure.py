@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
 from fenics_gears.show.panels import DARK
 from fenics_gears.show.run import Run
@@ -49,6 +50,8 @@ def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np
     field = pressure_field(pressure, place, phase)
     highest = float(np.nanmax(field.values, initial=0.0))
     caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
+    if run.is_over_face:
+        caption += f", in the slice at {float(in_middle_slice(run.dataset)['face_position']):.2f} mm from the middle of the face"
     if highest > field.limit * (1 + 1e-9):
         # Of cycles that repeat, the last.
         step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]
@@ -96,9 +99,13 @@ def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -
     np.maximum.at(values, (np.clip(row, 0, ROWS - 1), step), pressure[known][each])
     found = pressure[known]
     highest = float(found.max(initial=0.0)) or 1.0
-    common = float(np.percentile(found, COMMON_SHARE)) if found.size else highest
-    limit = common if highest > CLIPPED * common else highest
-    return Field(columns, rows, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)
+    return Field(columns, rows, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", colour_limit(found, highest), COLOURS)
+
+
+def colour_limit(pressures: np.ndarray, highest: float) -> float:
+    """Where the colours of pressures (n,), MPa, end: at the highest, or below it where few are beyond."""
+    common = float(np.percentile(pressures, COMMON_SHARE)) if pressures.size else highest
+    return common if highest > CLIPPED * common else highest
 
 
 def node_edges(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -15,7 +15,7 @@ import xarray as xr
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.results.pairs import lives
+from fenics_gears.results.pairs import in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
@@ -27,6 +27,8 @@ TOO_FEW = "Fewer than two steps are stored; a curve needs two."
 MOST_CYCLES = 4.0
 # Cycles whose least and largest values differ by less than this part of the largest span are alike.
 ALIKE = 0.01
+# Effects that open the flanks along the face.
+ALONG_THE_FACE = ("lead_modifications", "misalignment")
 
 
 @dataclass(frozen=True)
@@ -156,12 +158,22 @@ class Run:
                 curves.append((f"pair {life.number}", np.where(_with_ends(there), own, np.nan), life.number))
         return curves
 
-    def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), the steps' mesh cycles
-        (step,) and the pairs' numbers (step, slot), in the last cycles whose fields are stored; side: how the result's variables of that
-        side begin."""
+    @property
+    def is_over_face(self) -> bool:
+        """Whether the flanks are resolved over the face."""
+        return "face_position" in self.dataset.dims
+
+    @cached_property
+    def last_fields(self) -> xr.Dataset:
+        """The last cycles whose contact fields are stored, no more than can be told apart."""
         phase = self.dataset["contact_mesh_phase"].values
-        part = self.dataset.isel(contact_time=phase >= phase[-1] - MOST_CYCLES - 1e-9)
+        return self.dataset.isel(contact_time=phase >= phase[-1] - MOST_CYCLES - 1e-9)
+
+    def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), in the middle of the face if they
+        are resolved over it; the steps' mesh cycles (step,) and the pairs' numbers (step, slot), in the last cycles whose fields are stored; side:
+        how the result's variables of that side begin."""
+        part = in_middle_slice(self.last_fields)
         order = ("contact_time", "slot", "contact_node")
         pressure = in_unit(part[f"{side}contact_pressure"].transpose(*order), "MPa")
         place = in_unit(part[f"{side}contact_roll_angle"].transpose(*order), "deg")
@@ -190,6 +202,8 @@ def conditions(scene: Scene) -> str:
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
     friction = "no friction" if scene.friction is None else f"friction coefficient {scene.friction.coefficient:g}"
-    shapes = "".join(f", {each.section.replace('_', ' ')}" for each in effects_on(scene) if each.removal or each.gaps)
+    helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
+    shaping = (each for each in effects_on(scene) if each.removal or each.gaps or each.section in ALONG_THE_FACE)
+    shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)
     ripple = "" if scene.torque_ripple is None else ", torque ripple"
     return f"{torque:g} N m on the wheel, {speed}, {friction}{shapes}{ripple}"

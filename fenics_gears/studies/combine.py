@@ -38,7 +38,9 @@ NUMBERS = {
     "wall_time": ("s", "wall time of the run"),
 }
 # Curves of the last cycles, taken where a run has them.
-CURVES = ("transmission_error", "centre_x", "centre_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness")
+CURVES = (
+    "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from fenics_gears.studies.axis import Axis
 
 TIP, ROOT, SHIFT, CENTRES = "tip_diameter", "root_diameter", "profile_shift", "centre_distance"
 OF_ONE_GEAR = {SHIFT: (TIP, ROOT), "teeth": (TIP, ROOT)}
-OF_BOTH_GEARS = {"module": (TIP, ROOT), "pressure_angle": (), CENTRES: (SHIFT, TIP)}
+OF_BOTH_GEARS = {"module": (TIP, ROOT), "helix_angle": (TIP, ROOT), "pressure_angle": (), CENTRES: (SHIFT, TIP)}
 
 
 def kept_sizes(axes: Iterable[Axis]) -> list[str]:

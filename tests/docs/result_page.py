@@ -9,7 +9,7 @@ from tests.docs.markdown import table
 from tests.effects.examples import EXAMPLES, text_of
 
 from fenics_gears.contact.step_solver import METHODS
-from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, conflicts, effect_named
+from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, FACE_VARIABLES, conflicts, effect_named
 from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.read import scene_from_text
@@ -70,9 +70,12 @@ DIMENSIONS = {
     "fillet_point": "points along both fillets of a tooth, from the root circle to the form circle, first on the drive side, then on the coast side",
     "fillet": '"drive", "coast": the two sides of a tooth',
 }
+OVER_THE_FACE = """The common face is divided into slices. Their middles are the coordinate `face_position`: the distance along the axes, mm, from the middle of the common face, towards the end from which
+the pinion is seen to turn counter-clockwise. Fields of contact nodes have the dimension `face_position` between `slot` and `contact_node`. Forces of tooth pairs and of the mesh are along the contact normal, which leans along
+the axes by the base helix angle. Further variables are:"""
 ROOT_STRESS = "`[output] root_stress`"
-# Bodies read from meshes exclude other effects and have no variables of their own.
-NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes}
+# Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional excludes root stress.
+NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes} | {"lead_modifications", "misalignment"}
 
 
 def run_with_everything() -> xr.Dataset:
@@ -92,6 +95,7 @@ def page(result: xr.Dataset | None = None) -> str:
         if each.variables:
             lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
     lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
+    lines += ["### Three-dimensional scenes", "", OVER_THE_FACE, "", *_over_face(), ""]
     lines += [UNFINISHED]
     lines += ["## Attributes", "", *_attributes(), ""]
     lines += [f"Further attributes give the number of steps that each method solved, Newton's and its [fallbacks](model.md#fallbacks): `{RUNG}newton` and so on"]
@@ -120,6 +124,10 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
         beside = f" (only with `[{effect_named(each.needs).written}]`)" if each.needs else ""
         rows.append((name, dimensions, units, words + beside))
     return table(("variable", "dimensions", "units", "meaning"), rows)
+
+
+def _over_face() -> list[str]:
+    return table(("variable", "dimensions", "units", "meaning"), [(f"`{each.name}`", ", ".join(each.dims), each.units, each.long_name) for each in FACE_VARIABLES])
 
 
 def _root_stress(result: xr.Dataset) -> list[str]:

@@ -8,9 +8,9 @@ import pytest
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES, COORDINATES
 from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, GearInertia, Inertia, Support
-from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
+from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations
 from fenics_gears.dynamics.gear_inertia import LumpedGear
-from fenics_gears.dynamics.tilting import mesh_over_face, moved
+from fenics_gears.dynamics.tilting import gyroscopic_warnings, mesh_over_face, moved
 from fenics_gears.geometry.helix import Helix
 from fenics_gears.model.drivetrain import drivetrain
 
@@ -190,6 +190,24 @@ def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
     assert [each.motion for each in found if each.motion][:3] == ["wheel moves along its axis", "pinion tilts", "pinion tilts"]
     assert {each.motion for each in found} == {"", "wheel moves along its axis", "pinion tilts", "wheel tilts", "pinion moves along its axis"}
     assert not found[0].excited and all(not each.motion for each in vibrations(drivetrain(replace(scene, bearings=replace(soft, places=None)), paper_pair), 1e3))
+
+
+def test_gyroscopic_moments_are_told_where_they_shift_a_tilting_frequency(on_bearings, paper_pair):
+    """Closed form: J_t th_x'' + J w th_y' + k th_x = 0 and its twin have f +- J w/(4 pi J_t) where that is small; a flat disc's J is 2 J_t, so that the shift is
+    the speed of rotation. The warning gives that bound, from 5 % on.
+    """
+    stiffness, moment, turns = 1e9, 2.0, 60.0
+    state = np.zeros((4, 4))
+    state[:2, 2:] = np.eye(2)
+    state[2:, :2] = -stiffness / moment * np.eye(2)
+    state[2:, 2:] = 2.0 * moment * 2.0 * pi * turns / moment * np.array([[0.0, -1.0], [1.0, 0.0]])
+    frequencies = np.unique(np.round(np.abs(np.linalg.eigvals(state).imag) / (2.0 * pi), 6))
+    still = sqrt(stiffness / moment) / (2.0 * pi)
+    assert frequencies - still == pytest.approx([-turns, turns], rel=0.05)
+    modes = [Vibration(0.5 * still, 0.01, True), Vibration(still, 0.01, True, "wheel tilts"), Vibration(2.0 * still, 0.01, True, "pinion tilts")]
+    assert gyroscopic_warnings(modes, {"pinion": 0.06 * still, "wheel": 0.04 * still}) == []
+    (said,) = gyroscopic_warnings(modes, {"pinion": 0.09 * still, "wheel": 0.06 * still})
+    assert "at which the wheel tilts, by up to 6%" in said and f"at {60 * 0.06 * still:.4g} rpm" in said
 
 
 def test_damping_by_ratios_and_by_rayleigh_reaches_the_tilts(on_bearings, paper_scene, paper_pair):

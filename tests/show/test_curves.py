@@ -7,7 +7,9 @@ from tests.show.synthetic import BARE, made_up_run, right_scale, words
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results import by_pair
+from fenics_gears.show.motion import motion_charts
 from fenics_gears.show.plots import run_figures
+from fenics_gears.show.run import Run
 from fenics_gears.show.ticks import ticks, written
 from fenics_gears.show.units import factor, in_unit
 
@@ -229,3 +231,18 @@ def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logar
     places = ticks(ends, 5.0, logarithmic)
     assert written(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))
+
+
+def test_gears_that_tilt_have_their_tilts_shown_and_all_motions_of_their_centres():
+    """Authority: model.md section 4; axial forces tilt the shafts off the plane of action and so move their centres off the line, without friction too."""
+    run = made_up_run().drop_vars("friction_force")
+    run["centre_x"] = run["centre_y"]
+    assert not [chart.caption for chart in motion_charts(Run(run)) if "off the line" in chart.caption or "Tilt" in chart.caption]
+    for name, unit in (("axial_position", "mm"), ("tilt_x", "rad"), ("tilt_y", "rad")):
+        run[name] = run["centre_y"].assign_attrs(units=unit)
+    captions = [chart.caption for chart in motion_charts(Run(run))]
+    for expected in (
+        "Displacement of the gears' centres off the line of action", "Displacement of the gears along their axes",
+        "Tilt of the gears about the line of action", "Tilt of the gears in the plane of action",
+    ):  # fmt: skip
+        assert expected in captions

@@ -19,6 +19,7 @@ def axis(dotted):
         (["gears.pinion.profile_shift"], ["gears.pinion.tip_diameter, gears.pinion.root_diameter and gears.centre_distance are kept"]),
         (["gears.wheel.profile_shift", "gears.wheel.tip_diameter", "gears.wheel.root_diameter"], ["gears.centre_distance is kept"]),
         (["gears.wheel.teeth", "gears.wheel.tip_diameter", "gears.wheel.root_diameter", "gears.centre_distance"], ["gears.pinion.profile_shift, gears.wheel.profile_shift and gears.pinion.tip_diameter are"]),
+        (["gears.helix_angle", "gears.centre_distance"], ["gears.pinion.profile_shift", "gears.pinion.tip_diameter, gears.wheel.tip_diameter, gears.pinion.root_diameter and gears.wheel.root_diameter are"]),
         (["gears.pressure_angle"], ["gears.centre_distance is kept"]),
         (["gears.face_width", "gears.pinion.bore_diameter", "motion.mesh_frequency", "friction.coefficient"], []),
     ],

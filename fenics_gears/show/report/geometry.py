@@ -17,8 +17,9 @@ def geometry(run: Run) -> Section:
     if run.pair is None:
         return Section("geometry", "Geometry", [Words(NO_SCENE, warns=True)])
     given, rows = run.scene.gears, characteristics(run.pair)
+    normal = "normal " if given.helix_angle else ""
     of_pair: list[tuple[str, object, str]] = [
-        ("module", given.module, "mm"), ("pressure angle", degrees(given.pressure_angle), "deg"),
+        (f"{normal}module", given.module, "mm"), (f"{normal}pressure angle", degrees(given.pressure_angle), "deg"),
         ("centre distance", given.centre_distance, "mm"), ("face width", given.face_width, "mm"),
     ]  # fmt: skip
     of_pair += [row for row in rows if not row[0].startswith(GEARS)]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.show.report.curves import forces, motion, pressure, spectra
 from fenics_gears.show.report.effects import effects
@@ -10,7 +12,7 @@ from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.numbers import numbers
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
 from fenics_gears.show.report.overview import summary, warnings
-from fenics_gears.show.report.page import Page
+from fenics_gears.show.report.page import Page, Section
 from fenics_gears.show.report.root_stress import root_stress
 from fenics_gears.show.report.solver import solver
 from fenics_gears.show.report.stress import stress
@@ -24,16 +26,26 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
     """The page of a run. Raises SceneError where a time is asked for that the run has not stored."""
     progress = progress or SilentProgress()
     progress.stage("sections")
-    sections = []
-    for done, make in enumerate(SECTIONS):
-        progress.update(done, len(SECTIONS), make.__name__.replace("_", " "))
+    sections, makers = [], _sections(run)
+    for done, make in enumerate(makers):
+        progress.update(done, len(makers), make.__name__.replace("_", " "))
         sections.append(make(run))
     attributes = run.dataset.attrs
     sections += [version_section(attributes, run.file), scene_section(str(attributes.get("scene", "")))]
-    progress.update(len(SECTIONS), len(SECTIONS))
+    progress.update(len(makers), len(makers))
     title = " ".join(str(attributes.get("title", "")).split()) or run.file.stem
     subtitle = conditions(run.scene) if run.scene is not None else ""
     return Page("Gear pair: report on a run", title, subtitle, sections, made_by(), _alarm(run))
+
+
+def _sections(run: Run) -> list[Callable[[Run], Section]]:
+    """What makes the sections: of flanks resolved over the face one more, after the contact pressure."""
+    makers = list(SECTIONS)
+    if run.is_over_face:
+        from fenics_gears.show.report.face import face
+
+        makers.insert(makers.index(pressure) + 1, face)
+    return makers
 
 
 def _alarm(run: Run) -> str:

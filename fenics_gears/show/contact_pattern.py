@@ -1,0 +1,98 @@
+"""The contact pattern: the largest pressure at each point of a flank while it is in mesh, over face and height of the tooth."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
+from fenics_gears.show.chart import Chart, Curve, Field
+from fenics_gears.show.panels import DARK, GREY
+from fenics_gears.show.pressure import COLOURS, colour_limit, has_pressure, node_edges
+from fenics_gears.show.run import Run
+
+ACROSS = "Distance along the axes from the middle of the common face (mm)"
+ROWS = 200
+NOTE = "The pressure of single contact nodes; between steps it moves along with the contact."
+# The colours end at this part of the largest pressure off the edges, in which single nodes scatter.
+ABOVE_PEAK = 1.1
+GEARS = ("pinion", "wheel")
+
+
+def contact_patterns(run: Run) -> list[Chart]:
+    """Patterns on the flanks of pinion and wheel that carry, in the last cycles whose contact fields are stored."""
+    if not has_pressure(run) or run.pair is None:
+        return []
+    side = "coast_" if run.on_coast_flanks else ""
+    order = ("contact_time", "slot", "face_position", "contact_node")
+    part = run.last_fields
+    pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
+    touched = (pressure > 0.0) & np.isfinite(rolls)
+    if not touched.any():
+        return []
+    found = pressure[touched]
+    # Edges press with several times as much.
+    limit = min(colour_limit(found, float(found.max())), ABOVE_PEAK * run.dataset.attrs.get("peak_contact_pressure", np.inf) or np.inf)
+    beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
+    both = (rolls, _rolls_on_wheel(run, side, rolls))
+    return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
+
+
+def _rolls_on_wheel(run: Run, side: str, rolls: np.ndarray) -> np.ndarray:
+    """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the point of contact, on the other side."""
+    pair, part = run.pair, run.last_fields
+    numbers = part["contact_pair_number"]
+    since = part["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
+    xi = pair.path_start + since[..., None, None] * pair.base_pitch + (pair.slope * part["face_position"].values)[:, None]
+    of_pinion, of_wheel = (coast_roll_angles if side else contact_roll_angles)(pair, xi)
+    along = 0.5 * pair.pinion.base_radius * (rolls**2 - of_pinion**2)
+    return np.sqrt(np.maximum(of_wheel**2 - 2.0 * along / pair.wheel.base_radius, 0.0))
+
+
+def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyond: str) -> Chart:
+    pair, name = run.pair, GEARS[gear]
+    data = getattr(pair, name)
+    ends = data.form_roll_angle, data.tip_roll_angle
+    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, _slice_ends(run), limit)
+    pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
+    active = 2.0 * data.radius((contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear])
+    face = np.array(pair.common_face)
+    lines = [("pitch cylinder", pitch, DARK, "dash"), ("start of the active profile", active, GREY, "dot")]
+    flank = " (coast flank)" if side else ""
+    return Chart(
+        f"Largest contact pressure on the {name}'s flank{flank}{beyond}", [Curve(words, face, np.full(2, d), colour, dash, 1.0) for words, d, colour, dash in lines],
+        ACROSS, f"Diameter on the {name} (mm)", x_range=pair.common_face, y_range=(2.0 * data.radius(ends[0]), 2.0 * data.radius(ends[1])),
+        field=field, height=380, note=NOTE,
+    )  # fmt: skip
+
+
+def _slice_ends(run: Run) -> np.ndarray:
+    """Ends (S + 1,), mm, of the slices."""
+    z = run.dataset["face_position"].values
+    low, high = run.pair.common_face
+    return np.concatenate([[low], 0.5 * (z[1:] + z[:-1]), [high]])
+
+
+def _swept(run: Run, gear, rolls: np.ndarray, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Roll angles between which each node's pressure acts: half-way to its neighbours, and half a step along the flank as the gears turn."""
+    phase = run.last_fields["contact_mesh_phase"].values
+    half = 0.5 * float(np.diff(phase).min()) * run.pair.base_pitch / gear.base_radius
+    low, high = node_edges(rolls)
+    return np.clip(low - half, *ends), np.clip(high + half, *ends)
+
+
+def pattern(pressure, low, high, ends: tuple[float, float], radius, slices: np.ndarray, limit: float) -> Field:
+    """The largest pressure (MPa) in cells of slices and diameter, of pressures (step, slot, slice, node) that act between roll angles `low` and `high`.
+
+    ends: roll angles between which the cells lie; radius: mm, of a roll angle; slices: their ends (S + 1,), mm.
+    """
+    diameters = np.linspace(2.0 * radius(ends[0]), 2.0 * radius(ends[1]), ROWS + 1)
+    pressed = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
+    first, last = (np.searchsorted(diameters, 2.0 * radius(each[pressed])) - 1 for each in (low, high))
+    column = np.nonzero(pressed)[2]
+    values = np.full((ROWS, len(slices) - 1), -np.inf)
+    first = np.clip(first, 0, ROWS - 1)
+    count = np.maximum(np.clip(last, 0, ROWS - 1) - first + 1, 1)
+    each = np.repeat(np.arange(len(first)), count)
+    row = first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+    np.maximum.at(values, (row, column[each]), pressure[pressed][each])
+    return Field(slices, diameters, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)
