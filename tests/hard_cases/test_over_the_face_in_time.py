@@ -15,12 +15,14 @@ from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 
 DAMPED = INERTIA + '\n[damping]\nstiffness_proportional = "3e-6 s"\nmass_proportional = "500 1/s"\n'
+FEW = "slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 16"
+BY_NIGHT = pytest.mark.nightly
 BOTH = "\n[coast_flanks]\n"
 
 
 def run(more="", **changes):
     """A run of a scene; it must not fail."""
-    model = model_of(helical_scene(more, **changes))
+    model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
     found = run_of(model, on_stand_in_bodies(model))
     assert found.failure is None, str(found.failure)
     return found
@@ -28,7 +30,7 @@ def run(more="", **changes):
 
 def with_torque(more, part, **changes):
     """A run whose load is multiplied by `part(step)`; it starts in equilibrium under the whole load."""
-    model = model_of(helical_scene(more, **changes))
+    model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
     cycle, load = cycle_of(model, on_stand_in_bodies(model)), (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
     marcher, recorder = Marcher(cycle, replace(model.equations_of_motion, loads=load)), Recorder(model, cycle, loads=load)
     march = marcher.run(model.steps, model.steps + 1, observe=recorder.take)
@@ -43,7 +45,7 @@ def obeys_the_laws(found):
     return worst["penetration"]
 
 
-@pytest.mark.parametrize("more", [INERTIA + FRICTION + SHAFTS, INERTIA + BEARINGS, DAMPED + BEARINGS + SHAFTS + FRICTION], ids=["shafts", "bearings", "whole drivetrain"])
+@pytest.mark.parametrize("more", [pytest.param(INERTIA + FRICTION + SHAFTS, marks=BY_NIGHT), pytest.param(INERTIA + BEARINGS, marks=BY_NIGHT), DAMPED + BEARINGS + SHAFTS + FRICTION], ids=["shafts", "bearings", "whole drivetrain"])
 def test_account_of_energy_closes(more, measured):
     """Row 4. Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of contact."""
     result = run(more + CROWNED).result
@@ -56,7 +58,7 @@ def test_account_of_energy_closes(more, measured):
     assert defect <= 1e-9
 
 
-@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize("hand", [pytest.param("right", marks=BY_NIGHT), "left"])
 def test_torque_reversed_while_running(hand, measured):
     """Row 17. The teeth part, fly, cross the backlash, touch on their coast flanks and come back; axial forces turn round with the flank; laws hold."""
     found = with_torque(DAMPED + BOTH + BEARINGS, lambda step: -1.0 if 20 <= step < 100 else 1.0, hand=hand, cycles=10)
@@ -96,7 +98,7 @@ def test_resonance_without_damping(measured):
     assert penetration <= 1e-4 and np.all(np.isfinite(energy))
 
 
-@pytest.mark.parametrize("more", [FRICTION + BEARINGS, CROWNED], ids=["tilting, friction", "rigid shafts"])
+@pytest.mark.parametrize("more", [FRICTION + BEARINGS, pytest.param(CROWNED, marks=BY_NIGHT)], ids=["tilting, friction", "rigid shafts"])
 def test_slow_is_quasi_static(more, measured):
     """Row 23. Known limit: at 0.01 Hz inertia does nothing."""
     slow, static = (run(more + extra, frequency=0.01).result["transmission_error"].values for extra in (DAMPED, ""))
@@ -113,10 +115,10 @@ def test_fast_gears_follow_the_mean_motion(measured):
     assert ratio < 0.1
 
 
-@pytest.mark.parametrize("damping", [True, False])
+@pytest.mark.parametrize("damping", [pytest.param(True, marks=BY_NIGHT), False])
 def test_large_steps(damping, measured):
     """Row 24. Energy: finite and bounded by twice the static one with two steps to a mesh cycle; a warning names what is resolved."""
-    accuracy = "slices = 5\ncontact_nodes = 13\nsteps_per_mesh_cycle = 2"
+    accuracy = "slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 2"
     changes = {"frequency": 17.0, "cycles": 30, "accuracy": accuracy}
     found, static = run((DAMPED if damping else INERTIA) + BEARINGS + FRICTION, **changes), run(BEARINGS + FRICTION, **changes)
     ratio = float(found.result["energy"].values.max() / static.result["energy"].values.max())

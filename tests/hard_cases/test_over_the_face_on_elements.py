@@ -15,7 +15,7 @@ TEETH = (18, 20)
 RELIEF = '\n[tip_relief]\ndepth = "40 um"\nstart = "HPSTC"\nshape = "parabolic"\n'
 
 
-def accuracy(slices=5, layers=2, body=1.5, nodes=13, steps=12):
+def accuracy(slices=5, layers=2, body=1.5, nodes=11, steps=8):
     return (
         f'slices = {slices}\nlayers = {layers}\nbody_element_size = "{body} mm"\nflank_element_size = "0.5 mm"\nelement = "P2"\n'
         f"contact_nodes = {nodes}\nsteps_per_mesh_cycle = {steps}"
@@ -53,8 +53,8 @@ def test_hands_in_the_mirror(run, measured):
 def test_slices_refined(run, measured):
     """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the layers (6 mm), where flanks enter contact
     smoothly; from slice to slice the phases fall differently on the steps, so that 1.2 is asked for."""
-    slices = (3, 6, 12, 24)
-    results = [run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=21, steps=13))["transmission_error"].values for number in slices]
+    slices = (6, 12, 24)
+    results = [run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=17, steps=7))["transmission_error"].values for number in slices]
     means, ranges = ([of(each) for each in results] for of in (np.mean, np.ptp))
     steps = np.abs(np.diff(means))
     measured("finite elements, slices 12 to 24: change of mean, of peak-to-peak transmission error", f"{steps[-1] / means[-1]:.1e}, {abs(ranges[-1] / ranges[-2] - 1.0):.1e}", "3e-3, recorded", row=22)
@@ -62,6 +62,7 @@ def test_slices_refined(run, measured):
     assert steps[-1] <= 3e-3 * means[-1] and steps[-1] < 2.0**-1.2 * steps[-2]
 
 
+@pytest.mark.nightly
 def test_nearly_incompressible_bodies(run, measured):
     """Row 14. Second-order wedges do not lock: halving the elements moves the deflection little more than at 0.3, and softer material in shear is not stiffer."""
     changes = {}
@@ -75,7 +76,7 @@ def test_nearly_incompressible_bodies(run, measured):
     assert max(changes.values()) <= 0.02
 
 
-@pytest.mark.parametrize("elasticities", [(206e3, 2e3), (2e3, 206e3), (206e3, 206e9)])
+@pytest.mark.parametrize("elasticities", [(206e3, 2e3), pytest.param((2e3, 206e3), marks=pytest.mark.nightly), pytest.param((206e3, 206e9), marks=pytest.mark.nightly)])
 def test_gears_of_different_stiffness(elasticities, run, measured):
     """Row 16. Equilibrium and the laws at every step, whatever the ratio of the moduli; torques are carried."""
     result = run(BEARINGS + FRICTION, elasticities=elasticities, torque=20e3)
