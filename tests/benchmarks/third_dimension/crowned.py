@@ -32,7 +32,8 @@ NAME = "crowned"
 # Modules: half of the ellipse's length, the face, layers of the body; and elements of its section.
 LONG_AXIS, WIDTH, SECTION = 0.5, 1.5, 0.2
 LAYERS, SLICES, RATIOS = 8, 31, (3.0, 5.0, 10.0, 20.0, 40.0)
-FEW_LAYERS, THEIR_RATIO = (4, 2), 10.0
+# Layers and slices of a coarser body, and of slices that are too narrow for it.
+COARSER, THEIR_RATIO = ((4, 8), (2, 4), (2, 31)), 10.0
 # Flank elements in half the short axis, window in short half-axes, distance of contact nodes in elements, the smaller load.
 ELEMENTS, WINDOW, SPACING, SMALLER = 4, 5.0, 0.7, 0.25
 QUANTITIES = ("peak_pressure", "short_axis", "long_axis", "line_load")
@@ -104,8 +105,8 @@ class CrownedFlanks:
 def measure() -> list[Row]:
     """The ladders of axis ratios and of layers."""
     rows: list[Row] = []
-    for ratio, layers in [*((ratio, LAYERS) for ratio in RATIOS), *((THEIR_RATIO, layers) for layers in FEW_LAYERS)]:
-        rows.append({"ratio": ratio, "layer": WIDTH / layers / LONG_AXIS, **CrownedFlanks(ratio, layers).errors()})
+    for ratio, layers, slices in [*((ratio, LAYERS, SLICES) for ratio in RATIOS), *((THEIR_RATIO, *coarser) for coarser in COARSER)]:
+        rows.append({"ratio": ratio, "layer": WIDTH / layers / LONG_AXIS, "slices": slices / layers, **CrownedFlanks(ratio, layers, slices).errors()})
         write_rows(NAME, rows)
     return rows
 
@@ -113,6 +114,6 @@ def measure() -> list[Row]:
 def section() -> str:
     """Table."""
     names = (*QUANTITIES, "approach")
-    lines = [[f"{row['ratio']:g}", f"{row['layer']:.2g}", *(f"{100 * row[name]:+.1f}" for name in names)] for row in read_rows(NAME)]
-    headings = ["axis ratio", "layer in half-lengths", "peak pressure, %", "half-width, %", "half-length, %", "line load at the middle, %", "approach, %"]
+    lines = [[f"{row['ratio']:g}", f"{row['layer']:.2g}", f"{row['slices']:.2g}", *(f"{100 * row[name]:+.1f}" for name in names)] for row in read_rows(NAME)]
+    headings = ["axis ratio", "layer in half-lengths", "slices in a layer", "peak pressure, %", "half-width, %", "half-length, %", "line load at the middle, %", "approach, %"]
     return "\n".join(table(headings, lines))

@@ -42,6 +42,11 @@ def foundation(z: np.ndarray, width: float, stiffness: float, misalignment: floa
     return np.maximum(2.0 * mean * width / touching * (1.0 - (z + 0.5 * width) / touching), 0.0)
 
 
+def tilting_stiffness(z: np.ndarray, load: np.ndarray, width: float, misalignment: float) -> float:
+    """Stiffness (N/mm^2) of the foundation that has the same moment under a misalignment (mm over the width): c f b^2/12 of line loads (k,) at z (k,)."""
+    return -12.0 * float(np.mean(load * z)) / (misalignment * width)
+
+
 def single_pair_step(result) -> int:
     """The step nearest to the middle of those in which one pair of teeth carries."""
     alone = np.flatnonzero(result.loaded_pairs.values == 1)
@@ -103,7 +108,13 @@ def section() -> str:
     """Picture and table."""
     rows = read_rows(NAME)
     picture(rows, read_rows(LINES)).savefig(PICTURES / f"{NAME}.png")
-    names = ("single_pair", "cycle_mean", "secant_foundation", "tangent_foundation", "iso_6336")
+    least, width = rows[1]["misalignment"], WIDTH * MODULE
+    z, load = np.array([(line["z"], line["line_load"]) for line in read_rows(LINES) if line["misalignment"] == least]).T
+    tilting = tilting_stiffness(z, load, width, 1e-3 * least)
+    for row in rows:
+        row["tilting"] = face_load_factor(0.5e-3 * tilting * row["misalignment"] / LINE_LOAD)
+    names = ("single_pair", "cycle_mean", "secant_foundation", "tilting", "iso_6336")
     lines = [[f"{row['misalignment']:g}", *(f"{row[name]:.3f}" for name in names)] for row in rows]
-    headings = ["misalignment, µm", "K_Hβ, one pair", "mean of the mesh cycle", "foundation, secant stiffness", "foundation, tangent stiffness", "ISO 6336-1, method C"]
+    stiffness = (f"foundation of {1e-3 * c:.1f} N/(mm µm)" for c in (1e3 * rows[0]["stiffness"], tilting))
+    headings = ["misalignment, µm", "K_Hβ, one pair", "mean of the mesh cycle", *stiffness, "ISO 6336-1, method C"]
     return "\n".join([f"![Line load of a misaligned pair](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)])
