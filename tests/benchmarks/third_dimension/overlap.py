@@ -59,9 +59,10 @@ def picture(rows: list[Row]) -> Figure:
     for whole in range(1, int(overlaps.max()) + 1):
         axes.axvline(whole, color=GREY, linewidth=1.0, linestyle=":")
     axes.axhline(0.1 * spans[0], color=PALETTE[1], linewidth=1.2, linestyle="--")
-    axes.text(overlaps.max(), 0.1 * spans[0], "a tenth of the spur pair", color=PALETTE[1], ha="right", va="bottom")
-    axes.plot(overlaps, spans, "-o", color=PALETTE[0], markersize=6)
-    axes.annotate("spur pair", (0.0, spans[0]), (0.08, spans[0]), color=DARK, va="center")
+    axes.text(0.0, 0.1 * spans[0], "a tenth of the spur pair", color=PALETTE[1], va="bottom")
+    axes.plot(overlaps[1:], spans[1:], "-o", color=PALETTE[0], markersize=6)
+    axes.plot(0.0, spans[0], "s", color=DARK, markersize=8)
+    axes.text(0.04, spans[0], "spur pair", color=DARK, va="center")
     axes.set_ylim(0.0, None)
     axes.set_xlim(-0.04, None)
     axes.set_xlabel(r"Overlap ratio $\varepsilon_\beta$, by the face width")
