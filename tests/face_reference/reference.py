@@ -18,7 +18,7 @@ FORCE = 1500.0
 # What opens the flanks along n (mm) at heights z (mm).
 OPENINGS = {
     "plain": np.zeros_like,
-    "misaligned": lambda z: 0.020 * z / FACE_WIDTH,
+    "misaligned": lambda z: 0.010 * z / FACE_WIDTH,
     "crowned": lambda z: 0.010 * (2.0 * z / FACE_WIDTH) ** 2,
 }
 # Sizes that fit 2 GB; `Sizes()` itself is the finer model, which has not been run yet.
