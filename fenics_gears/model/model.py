@@ -150,6 +150,10 @@ class Model:
         found += locking_warnings(self.resolution, self.scene.gears.materials)
         for sentences in from_effects(self.scene, "warnings", self):
             found += sentences
+        if self.face is not None:
+            from fenics_gears.model.face_resolution import face_warnings
+
+            found += face_warnings(self)
         if self.corner is not None:
             from fenics_gears.contact.corner import edge_warnings
 
