@@ -156,11 +156,12 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
                     its_cost = runs.cost(sizes)
                 except TargetNotReached as reason:
                     its_cost, refused = inf, refused or str(reason)
-                cost = min(cost, its_cost)
                 if its_cost < least:
                     best, least = sizes, its_cost
-                elif its_cost > DEARER * least:
+                # With more slices fewer steps are needed, so that costs fall before they rise.
+                if its_cost > DEARER * cost:
                     break
+                cost = min(cost, its_cost)
             if cost > DEARER * least:
                 break
     if best is None:

@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from fenics_gears.studies.accuracy_target.choose import EXTRAPOLATED, RATIO, ROUND_STEPS, _chosen, errors_at, first_sizes, round_steps, search
-from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, STEPS, Sizes, TargetNotReached
+from fenics_gears.studies.accuracy_target.choose import EXTRAPOLATED, RATIO, RATIO_OF_SLICES, ROUND_STEPS, _chosen, errors_at, first_sizes, round_steps, search
+from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
 MODULE = 4.5
@@ -98,3 +98,32 @@ def test_first_sizes_go_with_the_root_of_the_target(target):
     sizes, coarser = (first_sizes(each, FEWEST_STEPS, True) for each in (target, 4.0 * target))
     assert coarser.mesh <= 2.0 * sizes.mesh * (1.0 + 1e-12) and sizes.steps <= 2 * coarser.steps
     assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS == round_steps(1)
+
+
+class KnownRunsOverFace(KnownRuns):
+    """With slices: an error of order 2 in them, and a cost of their square."""
+
+    slices = 20
+
+    def errors(self, sizes):
+        return super().errors(sizes) | {SLICES: self.of_slices / sizes.slices**2}
+
+    def cost(self, sizes):
+        return super().cost(sizes) + 0.01 * sizes.slices**2 * sizes.steps
+
+    of_slices = 0.04 * 14**2
+
+
+@pytest.mark.parametrize("steps_matter", [True, False])
+def test_slices_are_chosen_beside_mesh_and_steps(steps_matter):
+    """Brute force over all meshes of the search and every number of slices: nothing that reaches the target is much cheaper."""
+    runs = KnownRunsOverFace((0.002, 0.004 * 60**2), steps_matter=steps_matter)
+    tried = first_sizes(0.01, FEWEST_STEPS, steps_matter, runs.slices)
+    assert tried.slices == 14
+    errors = runs.errors(tried)
+    found = search(runs, tried, errors, 0.01)
+    assert sum(errors_at(tried, errors, found).values()) <= 0.01 and found.slices > tried.slices
+    candidates = [Sizes(tried.mesh / RATIO**place, steps, slices) for place in range(12) for slices in range(14, 90) for steps in range(tried.steps, 400, ROUND_STEPS)]
+    least = min(runs.cost(sizes) for sizes in candidates if sum(errors_at(tried, errors, sizes).values()) <= 0.01)
+    # Numbers of slices of the search rise by a fifth.
+    assert runs.cost(found) <= least * RATIO_OF_SLICES**2

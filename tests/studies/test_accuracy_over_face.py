@@ -1,0 +1,81 @@
+"""`gears accuracy` and `[accuracy] target` of scenes whose flanks are resolved over the face: what is refined and chosen, without running it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.helical import helical_scene
+
+from fenics_gears.model.face_resolution import face_discretisation
+from fenics_gears.model.model import model_of
+from fenics_gears.studies.accuracy import report as reports
+from fenics_gears.studies.accuracy.measures import CURVE, SPAN
+from fenics_gears.studies.accuracy.over_face import LAYERS, PLANE, SLICES, in_the_plane
+from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS, fine, refinements
+from fenics_gears.studies.accuracy.setting import own_setting
+from fenics_gears.studies.accuracy_target import trial_runs
+from fenics_gears.studies.accuracy_target.trial_runs import MESH, SAFETY, SAFETY_OF_SLICES, Sizes, TrialRuns
+
+LEAD = '[lead_modifications.pinion]\ncrowning = "6 um"\n'
+TILTING = '[bearings]\nstiffness = "1e6 N/mm"\naxial_stiffness = "1e5 N/mm"\nplaces = { wheel = ["-40 mm", "40 mm"] }\n'
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return helical_scene(LEAD + TILTING)
+
+
+def test_a_setting_gives_the_face_that_it_says(scene):
+    """Identity: the scene's own setting is that of its model, and a scene with a setting has its slices, layers and body elements."""
+    own, model = own_setting(scene), model_of(scene)
+    assert (own.slices, own.layers, own.body) == (model.face.slices, face_discretisation(model, 0).layers, 1.0)
+    again = model_of(own.of(scene))
+    assert again.face.slices == own.slices and face_discretisation(again, 1) == face_discretisation(model, 1)
+    other = model_of(replace(own, slices=9, layers=3, body=2.0).of(scene))
+    assert other.face.slices == 9 and face_discretisation(other, 0).layers == 3
+    assert face_discretisation(other, 0).section_size == pytest.approx(2.0 * face_discretisation(model, 0).section_size)
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_slices_layers_and_body_elements_are_refined_one_at_a_time(scene, quick):
+    """Definition: levels differ from the base in their own field alone and run from coarse to fine; choices of the plane are left out."""
+    found = {each.name: each for each in refinements(scene, quick)}
+    assert set(found) == {SLICES, LAYERS, BODY, FAMILY, STEPS, LENGTH}
+    for name, field in ((SLICES, "slices"), (LAYERS, "layers"), (BODY, "body")):
+        each = found[name]
+        assert each.base == fine(scene, quick) and each.fields == (field,)
+        assert all(replace(level.setting, **{field: getattr(each.base, field)}) == each.base for level in each.levels)
+        sizes = [level.size for level in each.levels]
+        assert sizes == sorted(sizes, reverse=True) and len(set(sizes)) == len(sizes) >= 2
+    assert own_setting(scene).slices in [level.setting.slices for level in found[SLICES].levels]
+
+
+def test_the_plane_rung_is_the_transverse_section_in_plane_strain(scene):
+    """Authority: ISO 21771; the transverse section of a helical pair has its base circles and transverse contact ratio, and nothing over the face is left."""
+    plane = in_the_plane(scene)
+    assert not plane.three_dimensional and model_of(plane).face is None and reports.scene_of(scene, PLANE, None) == plane
+    section, whole = model_of(plane).pair, model_of(scene).pair
+    assert section.pinion.base_radius == pytest.approx(whole.pinion.base_radius, rel=1e-12)
+    assert section.wheel.base_radius == pytest.approx(whole.wheel.base_radius, rel=1e-12)
+    assert section.contact_ratio == pytest.approx(whole.contact_ratio, rel=1e-9)
+    assert plane.bearings.places is None and plane.bearings.axial("wheel") is None and plane.bearings.stiffness == scene.bearings.stiffness
+
+
+def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch):
+    """Exact: with runs that err by the square of the mesh's size and of that of a slice the estimates are those errors times their factors of safety."""
+    mesh_error, slice_error, seen = 1e-3, 0.5, []
+
+    def answer(self, sizes):
+        seen.append(sizes)
+        return {CURVE: np.ones(4), SPAN: np.array([1.0 + mesh_error * sizes.mesh**2 + slice_error / sizes.slices**2])}
+
+    monkeypatch.setattr(trial_runs.TrialRuns, "_answer", answer)
+    monkeypatch.setattr(trial_runs.TrialRuns, "_with_window_long_enough", lambda self, sizes: None)
+    runs = TrialRuns(scene, lambda words: None)
+    assert runs.slices == model_of(scene).face.slices
+    found = runs.errors(Sizes(2.0, 40, 14))
+    assert found[MESH] == pytest.approx(SAFETY * mesh_error * 4.0, rel=0.05)
+    assert found[trial_runs.SLICES] == pytest.approx(SAFETY_OF_SLICES * slice_error / 14**2, rel=0.05)
+    assert set(seen) == {Sizes(2.0, 40, 14), Sizes(2.0, 40, 7), Sizes(4.0, 40, 7)}
+    setting = runs.setting(Sizes(2.0, 40, 14))
+    assert setting.slices == 14 and setting.layers == -(-own_setting(scene).layers // 2) and setting.body == 2.0
