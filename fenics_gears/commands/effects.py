@@ -37,7 +37,7 @@ def _print(report, files) -> None:
     from fenics_gears.system.console import print_rows, print_table
 
     heading = f"{report.scene.title}: effects, one more than the bare scene and one less than all"
-    print_table(heading, [table.HEADINGS, table.UNITS], table.table_rows(report))
+    print_table(heading, table.headings(report), table.table_rows(report))
     print_rows("Remarks", [(f"[{number}]", remark, "") for number, remark in enumerate(table.remarks(report), 1)])
     if report.skipped:
         print_rows("Not run", [(each.name, each.reason, "") for each in report.skipped])

@@ -169,7 +169,7 @@ def _face_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
     over_face = face_cost(model)
     sections = tuple((gear.words, gear.unknowns) for gear in gears)
     bodies = tuple((f"the {name}'s body", unknowns) for name, unknowns in zip(("pinion", "wheel"), over_face.unknowns))
-    memory = CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.operators, over_face.memory)
+    memory = CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.kept + over_face.operators, over_face.memory)
     return ExpectedCost(condensing + over_face.condensing, over_face.marching, memory, over_face.operators, (*sections, *bodies))
 
 

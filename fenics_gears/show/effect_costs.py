@@ -17,6 +17,7 @@ from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_p
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
 LINE_HEIGHT = 0.36
+OF_FACE = (("face_load_factor", "K$_{Hβ}$"), ("peak_pressure", "Peak pressure (MPa)"))
 LABEL = {"xytext": (5, 0), "textcoords": "offset points", "va": "center", "fontsize": 10.5, "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.4}}
 
 
@@ -29,13 +30,17 @@ def effect_costs(report: EffectReport) -> Figure:
     figure = Figure(figsize=(15.0, height), layout="constrained")
     # Room for three lines below.
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.6 / height, 1, 1 - 0.6 / height))
-    axes = figure.subplots(1, 4, sharey=True, gridspec_kw={"width_ratios": (1.0, 1.1, 1.1, 1.1)})
+    panels = OF_FACE if report.over_face else ()
+    figure.set_figwidth(15.0 + 3.4 * len(panels))
+    axes = figure.subplots(1, 4 + len(panels), sharey=True, gridspec_kw={"width_ratios": (1.0, *[1.1] * (3 + len(panels)))})
     places = _places(rows)
     _unknowns(axes[0], rows, places)
     _bars(axes[1], report, places, "step_time", MICRO, "Time per step (µs, median)")
     _whiskers(axes[1], rows, places)
     _bars(axes[2], report, places, "transmission_error", MILLI, "T$_{EPP}$ (µm)")
     _bars(axes[3], report, places, "peak_force", 1.0, "Peak contact force (N)")
+    for panel, (name, title) in zip(axes[4:], panels):
+        _bars(panel, report, places, name, 1.0, title)
     axes[0].set_yticks(places, [row.subset.name + ("*" if own_remarks(report, row) else "") for row in rows])
     axes[0].set_ylim(max(places) + 0.8, -0.8)
     for panel in axes:
@@ -66,18 +71,19 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 
 def _bars(axes: Axes, report: EffectReport, places: np.ndarray, name: str, factor: float, title: str) -> None:
-    """One number of every row, with its change, and the bare and the full scene's as lines to compare with."""
+    """One number of every row that has it, with its change, and the bare and the full scene's as lines to compare with."""
     rows = report.rows
-    values = np.array([getattr(row, name) for row in rows]) * factor
+    values = np.nan_to_num([getattr(row, name) * factor for row in rows])
     axes.barh(places, values, color=[COLOURS.get(row.subset.kind, GREY) for row in rows], height=0.7)
     for kind, style in ((BARE, ":"), (ALL, "--")):
         row = report.row(kind)
-        if row is not None:
+        if row is not None and not np.isnan(getattr(row, name)):
             axes.axvline(getattr(row, name) * factor, color=GREY, linestyle=style, linewidth=1.2, zorder=0.5)
     ends = np.array([max(row.step_times) for row in rows]) * factor if name == "step_time" else values
     for place, value, end, row in zip(places, values, ends, rows):
         changed = change(report, row, name)
-        axes.annotate(_number(value, values.max()) + ("" if changed is None else f"  {in_percent(changed)}"), (end, place), **LABEL)
+        words = "none" if np.isnan(getattr(row, name)) else _number(value, values.max())
+        axes.annotate(words + ("" if changed is None else f"  {in_percent(changed)}"), (end, place), **LABEL)
     axes.set_xlim(0, 1.8 * max(ends.max(), 1e-300))
     axes.set_title(title)
 

@@ -47,7 +47,7 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
     _logarithmic(axes, [*report.settings, *report.models], report.floor)
     _labels(axes, front)
     axes.set_title("Total error (sum of the errors of all settings, or difference from the reference)")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=10.5)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=_columns(report), fontsize=10.5)
 
 
 def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
@@ -87,7 +87,12 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
     axes.set_yscale("log")
     _percent_over_seconds(axes)
     axes.set_title("Each setting alone, all others fine")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, fontsize=9.5, columnspacing=1.0)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=_columns(report), fontsize=9.5, columnspacing=1.0)
+
+
+def _columns(report: AccuracyReport) -> int:
+    """Of either legend: over a face all settings on the right have an order in words, too long for two."""
+    return 1 if report.scene.three_dimensional else 2
 
 
 def _percent_over_seconds(axes: Axes) -> None:

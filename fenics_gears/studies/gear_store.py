@@ -12,7 +12,7 @@ from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle
-from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
+from fenics_gears.simulation.routes import CONDENSED, ON_FACE, prepared, route_of
 from fenics_gears.system.progress import Progress
 
 GEARS = ("pinion", "wheel")
@@ -31,6 +31,7 @@ class GearStore:
 
     def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, FlankCompliance] = {}
+        self._bodies: dict[tuple, object] = {}
         self._most, self._cycles = most, cycles
         self._operators_key: tuple | None = None
         self._operators: tuple[Compliances, Cycle] | None = None
@@ -61,13 +62,32 @@ class GearStore:
         return self._gears[key]
 
     def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, Cycle]:
-        if route_of(model) is not CONDENSED:
+        if route_of(model) not in (CONDENSED, ON_FACE):
             return prepared(model, progress, cache)
         reach = model.touching.reach
         compliances = tuple(self.gear(model, name, reach, cache) for name in GEARS)
-        while self._most is not None and len(self._gears) > self._most:
-            del self._gears[next(iter(self._gears))]
-        return compliances, mesh_cycle(model, compliances)
+        self._forget(self._gears)
+        if model.face is None:
+            return compliances, mesh_cycle(model, compliances)
+        # Imported here: plane scenes have none.
+        from fenics_gears.simulation.face_route import face_cycle
+
+        bodies = tuple(self._body(model, name, reach, cache) for name in GEARS)
+        self._forget(self._bodies)
+        return (*compliances, *bodies), face_cycle(model, compliances, bodies)
+
+    def _body(self, model: Model, name: str, reach: Reach, cache: Cache | None):
+        """Compliance of the "pinion" or the "wheel" over its face, kept, from the cache, or condensed."""
+        from fenics_gears.model.face_resolution import face_discretisation
+        from fenics_gears.simulation.face_route import gear_body
+
+        key = getattr(model.pair, name), model.scene.gears.material_of(name), face_discretisation(model, GEARS.index(name)), reach
+        self._bodies[key] = self._bodies.pop(key, None) or gear_body(model, name, reach, cache)
+        return self._bodies[key]
+
+    def _forget(self, kept: dict) -> None:
+        while self._most is not None and len(kept) > self._most:
+            del kept[next(iter(kept))]
 
 
 @functools.lru_cache(maxsize=1)
@@ -104,7 +124,17 @@ def operators_key(model: Model) -> tuple:
     apart = model.removal == (None, None) or differs_in_gaps_alone(model)
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
     own = None if apart else _reliefs(scene)
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs), own, tuple(model.drivetrain.indices), scene.friction is not None
+    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs, _over_face(model)), own, tuple(model.drivetrain.indices), scene.friction is not None
+
+
+def _over_face(model: Model) -> tuple | None:
+    """What operators over a face depend on beside; None in the plane."""
+    if model.face is None:
+        return None
+    from fenics_gears.model.face_resolution import face_discretisation
+
+    divided = tuple(face_discretisation(model, gear) for gear in range(len(GEARS)))
+    return model.face.slices, divided, model.scene.lead_modifications, model.scene.misalignment
 
 
 def cycle_key(model: Model) -> tuple:

@@ -1,6 +1,6 @@
 """Expected cost beside measured, of the examples: `python -m tests.benchmarks.expected_cost [NAME ...]`.
 
-Every demo's scene, the paper's scene with one effect more or less than it has, and a pair of 23 and 47 teeth with and without coast flanks.
+Every demo's scene, the paper's scene with one effect more or less than it has, a pair of 23 and 47 teeth with and without coast flanks, and helical pairs.
 Each runs in a process of its own on one thread with an empty cache; seconds are the processor's, which are those of an idle machine
 whatever else this one does. Memory is the process's peak.
 """
@@ -37,6 +37,22 @@ wheel_torque = "200 N m"
 mesh_frequency = "200 Hz"
 mesh_cycles = 4
 """
+HELICAL_PAIR = """
+[gears]
+module = "3 mm"
+pressure_angle = "20 deg"
+helix_angle = "15 deg"
+centre_distance = "86.9632 mm"
+face_width = "20 mm"
+pinion = { teeth = 24, profile_shift = 0, tip_diameter = "80.54 mm", root_diameter = "67.04 mm", bore_diameter = "30 mm" }
+wheel = { teeth = 32, profile_shift = 0, tip_diameter = "105.387 mm", root_diameter = "91.887 mm", bore_diameter = "40 mm" }
+material = { youngs_modulus = "210 GPa", poissons_ratio = 0.3 }
+[load]
+wheel_torque = "300 N m"
+[motion]
+mesh_frequency = "200 Hz"
+mesh_cycles = 2
+"""
 
 
 def cases() -> dict[str, str]:
@@ -52,6 +68,8 @@ def cases() -> dict[str, str]:
     found |= {f"paper + {name}": f"{paper}\n{EXAMPLES[name]}" for name in more}
     found["paper, ISO 6336"] = _without(paper, "accuracy") + '\n[accuracy]\nmodel = "ISO 6336-1"\n'
     found["paper, its own condensation"] = _without(bare, "accuracy") + '\n[accuracy]\ncondensation = "every step"\ncontact_nodes = 11\nsteps_per_mesh_cycle = 10\n'
+    found |= {"helical": HELICAL_PAIR, "helical, 10 slices, friction": HELICAL_PAIR + "[accuracy]\nslices = 10\n[friction]\ncoefficient = 0.06\n"}
+    found["helical, coarse body, 40 slices"] = HELICAL_PAIR + '[accuracy]\nslices = 40\nlayers = 4\nbody_element_size = "1.8 mm"\nsteps_per_mesh_cycle = 40\n'
     return found | {"23/47": LARGER_PAIR, "23/47 + coast_flanks": LARGER_PAIR + "[coast_flanks]\n"}
 
 

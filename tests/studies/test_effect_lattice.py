@@ -11,10 +11,12 @@ from tests.effects.examples import scene_of, text_of, with_needs
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import EFFECTS
 from fenics_gears.errors import SceneError
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.effect_lattice import measured, table
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, NOTHING, lattice
+from fenics_gears.studies.gear_store import operators_key
 
 TEETH = "tooth_elasticity"
 PAPER = (TEETH, "shafts", "bearings", "inertia", "damping", "friction")
@@ -142,7 +144,7 @@ def test_all_accuracy_is_that_of_the_whole_scene():
     assert "[accuracy]" not in text and "[gears.material]" in text
     scene = measured.at_one_accuracy(scene_from_text(text))
     # What these leave out is the same in every scene of the same gears.
-    alike = ("body_element_size", "interpolation", "elastic_teeth", "model", "target")
+    alike = ("body_element_size", "interpolation", "elastic_teeth", "model", "target", "slices", "layers")
     assert None not in [value for name, value in vars(scene.accuracy).items() if name not in alike]
     assert {subset.scene.accuracy for subset in lattice(scene)[0]} == {scene.accuracy}
 
@@ -229,3 +231,47 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     assert main(["effects", "small.toml", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err
     assert not (tmp_path / "there").exists()
+
+
+OVER_FACE = """
+[lead_modifications.pinion]
+crowning = "6 um"
+end_relief = { depth = "10 um", length = "4 mm" }
+[misalignment]
+in_plane = "12 um"
+[bearings]
+stiffness = "0.155e6 N/mm"
+axial_stiffness = "0.1e6 N/mm"
+places = { pinion = ["-40 mm", "60 mm"] }
+"""
+
+
+def test_parts_of_effects_over_the_face_are_left_out_one_at_a_time():
+    """Authority: definition; each lead modification, tilting and axial motion, the rest of the scene as it is; without all of them it is a plane scene."""
+    whole = scene_from_text(text_of(TEETH).replace("[accuracy]", "[accuracy]\nslices = 7") + OVER_FACE)
+    assert whole.three_dimensional
+    found = subsets(whole)
+    bare, crowned = found["bare"].scene, found["all - crowning"].scene
+    assert not bare.three_dimensional and model_of(bare).face is None
+    assert crowned.lead_modifications.pinion == replace(whole.lead_modifications.pinion, crowning=0.0)
+    assert replace(crowned, lead_modifications=whole.lead_modifications) == whole
+    assert found["all - end_relief"].scene.lead_modifications.pinion.end_relief is None and "all - helix_slope" not in found
+    assert found["all - tilting and axial motion"].scene.bearings.places is None
+    held = found["all - axial motion"].scene.bearings
+    assert held.places == whole.bearings.places and held.axial("pinion") is None
+    assert all(each.kind == LEFT_OUT for name, each in found.items() if each.sections == found["all"].sections and name != "all")
+
+
+def test_scenes_over_the_face_share_operators_only_where_these_are_the_same():
+    """Definition: slices, layers, lead modifications and misalignment are in the gaps and compliances; the speed is not."""
+    scene = scene_from_text(text_of(TEETH) + OVER_FACE)
+    key = operators_key(model_of(scene))
+    assert operators_key(model_of(replace(scene, motion=replace(scene.motion, mesh_frequency=2.0 * scene.motion.mesh_frequency)))) == key
+    flatter = replace(scene.lead_modifications.pinion, crowning=1e-3)
+    changed = [
+        replace(scene, lead_modifications=replace(scene.lead_modifications, pinion=flatter)),
+        replace(scene, misalignment=replace(scene.misalignment, in_plane=1e-3)),
+        replace(scene, accuracy=replace(scene.accuracy, slices=9)),
+        replace(scene, accuracy=replace(scene.accuracy, layers=9)),
+    ]
+    assert all(operators_key(model_of(each)) != key for each in changed)

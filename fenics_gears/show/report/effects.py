@@ -10,6 +10,7 @@ from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
 from fenics_gears.show.report.page import Block, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run
+from fenics_gears.studies.effect_lattice.subsets import ALL
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS, MICRO, MILLI, in_percent
 
 # The columns that hold a number in each line.
@@ -69,7 +70,7 @@ def _lines(file: Path) -> list[dict[str, str]] | None:
 def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
     """Whether the scene as a whole is there, with this run's transmission error."""
     whole = {each.section for each in effects_on(run.scene)}
-    found = next((line for line in lines if line["step_time_s"] and set(line["sections"].split()) == whole), None)
+    found = next((line for line in lines if line["step_time_s"] and line["effects"] == ALL and set(line["sections"].split()) == whole), None)
     if found is None:
         return False
     answer = run.dataset.attrs.get("peak_to_peak_transmission_error", math.nan) * run.micrometres

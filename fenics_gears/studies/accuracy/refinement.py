@@ -10,6 +10,8 @@ from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP, NODE_SPACING, ONCE
 from fenics_gears.scene.data import Scene
+from fenics_gears.studies.accuracy import over_face
+from fenics_gears.studies.accuracy.over_face import LAYERS, SLICES
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings
 
 FLANK, NODES, BODY, STEPS, LENGTH = "flank element size", "contact node spacing", "body element size", "steps per mesh cycle", "contact length"
@@ -35,6 +37,8 @@ BESIDE = {FAMILY: {STEPS: 40, LENGTH: 0.75}, BODY: {FLANK: 2.0}, LENGTH: {FLANK:
 REMESHED_FINE = {FLANK: 2.0, NODES: 2.0, BODY: 1.0, STEPS: 20}
 CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)}
 QUICK_CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
+# Settings that are numbers, whose inverse is a size.
+COUNTED = ("steps", SLICES, LAYERS)
 # Whose value a level has that stands between the others.
 SCENE, DEFAULT = "scene", "default"
 
@@ -99,11 +103,14 @@ def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
         FAMILY: (2.0, "both have h^2"),
         BODY: (2.0, "straight sides along the outline: h^2"),
         STEPS: _order_in_time(scene),
+        **over_face.ORDERS,
     }
 
 
 def fine(scene: Scene, quick: bool = False) -> Setting:
     """The setting in which one at a time is refined."""
+    if scene.three_dimensional:
+        return _setting(scene, over_face.QUICK_FINE if quick else over_face.FINE)
     return _setting(scene, QUICK_FINE if quick else FINE)
 
 
@@ -112,31 +119,49 @@ def _setting(scene: Scene, values: dict[str, float]) -> Setting:
     unit, length = half_width(scene), model_of(without_settings(scene)).resolution.contact_grid.length
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
-    return Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * length, values[BODY], values[STEPS])
+    found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * length, values[BODY], values[STEPS])
+    if not scene.three_dimensional:
+        return found
+    default = own_setting(without_settings(scene))
+    return replace(found, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers))
+
+
+def _whole(part: float, default: int) -> int:
+    """A part of a number of slices or layers."""
+    return max(2, round(part * default))
 
 
 def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     """All settings with their levels, the values of the scene and of the program's defaults among them."""
-    values, unit, orders = QUICK if quick else FULL, half_width(scene), expected_orders(scene)
+    choices = QUICK_CHOICES if quick else CHOICES
+    if scene.three_dimensional:
+        values, choices = over_face.QUICK if quick else over_face.FULL, {}
+    else:
+        values = QUICK if quick else FULL
+    unit, orders, default = half_width(scene), expected_orders(scene), own_setting(without_settings(scene))
     orders[LENGTH] = (None, "nothing, once all that touches is inside")
     whole_length = fine(scene, quick).length
-    sizes: dict[str, list[dict]] = {
-        FAMILY: [{"flank": unit / each, "spacing": NODE_SPACING * unit / each} for each in values[FAMILY]],
-        FLANK: [{"flank": unit / each} for each in values[FLANK]],
-        NODES: [{"spacing": unit / each} for each in values[NODES]],
-        BODY: [{"body": each} for each in values[BODY]],
-        STEPS: [{"steps": each} for each in values[STEPS]],
-        LENGTH: [{"length": each * whole_length} for each in values[LENGTH]],
-        **{field: [{field: each} for each in options] for field, options in (QUICK_CHOICES if quick else CHOICES).items()},
-        "elastic teeth": [{"elastic_teeth": each} for each in (1, None)],
+    of_value = {
+        FAMILY: lambda each: {"flank": unit / each, "spacing": NODE_SPACING * unit / each},
+        FLANK: lambda each: {"flank": unit / each},
+        NODES: lambda each: {"spacing": unit / each},
+        BODY: lambda each: {"body": each},
+        STEPS: lambda each: {"steps": each},
+        LENGTH: lambda each: {"length": each * whole_length},
+        SLICES: lambda each: {"slices": _whole(each, default.slices)},
+        LAYERS: lambda each: {"layers": _whole(each, default.layers)},
     }
+    sizes: dict[str, list[dict]] = {name: [of_value[name](each) for each in levels] for name, levels in values.items()}
+    sizes |= {field: [{field: each} for each in options] for field, options in choices.items()}
+    if not scene.three_dimensional:
+        sizes["elastic teeth"] = [{"elastic_teeth": each} for each in (1, None)]
     found = []
     for name, levels in sizes.items():
-        base = _setting(scene, QUICK_FINE if quick else {**FINE, **BESIDE.get(name, {})})
+        base = fine(scene, quick) if quick or scene.three_dimensional else _setting(scene, {**FINE, **BESIDE.get(name, {})})
         expected = orders.get(name, (None, "a choice"))
         found.append(Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base))
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
-    if not quick and scene.coast_flanks is None and scene.corner_contact is None:
+    if not quick and not scene.three_dimensional and scene.coast_flanks is None and scene.corner_contact is None:
         found.append(condensation(scene))
     mine = {SCENE: own_setting(scene), DEFAULT: own_setting(without_settings(scene))}
     return tuple(_with_own(each, mine, unit) for each in found)
@@ -163,7 +188,7 @@ def _order_in_time(scene: Scene) -> tuple[float, str]:
 def _level(base: Setting, values: dict, unit: float, own: str = "") -> Level:
     """The level at which fields of `base` have other values; what goes to zero is the size, or the length of a step."""
     field, value = next(iter(values.items()))
-    size = 1.0 / value if field == "steps" else value if field in ("flank", "spacing", "body") else None
+    size = 1.0 / value if field in COUNTED else value if field in ("flank", "spacing", "body") else None
     return Level(_label(field, value, unit), replace(base, **values), size, own)
 
 
@@ -171,7 +196,7 @@ def _label(field: str, value, unit: float) -> str:
     """A value in words; `unit`: the half-width in mm, in which sizes are given, too."""
     if field in ("flank", "spacing"):
         return f"{value:.3g} mm = {value / unit:.2g} half-widths"
-    words = {"length": f"{value:.3g} mm" if field == "length" else "", "body": f"default x {value:.3g}" if field == "body" else "", "steps": f"{value}"}
+    words = {"length": f"{value:.3g} mm" if field == "length" else "", "body": f"default x {value:.3g}" if field == "body" else "", **dict.fromkeys(COUNTED, f"{value}")}
     return words.get(field, "all that can be loaded" if value is None else str(value))
 
 

@@ -16,6 +16,7 @@ from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import LAST_TERMS, Limit, last_of, richardson, together
 from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, comparable, distance, distances, judged
+from fenics_gears.studies.accuracy.over_face import PLANE, in_the_plane
 from fenics_gears.studies.accuracy.refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, checked_model, fine, refinements
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
@@ -26,6 +27,7 @@ from fenics_gears.system.progress import Progress, SilentProgress
 ROUNDS, QUICK_ROUNDS = 5, 1
 # Most seconds for repeating the runs of single settings to time them, unless the user gives another limit.
 SECONDS_ON_SINGLE = 60.0
+# Cheaper models; of flanks resolved over the face there is one, the plane.
 MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
 OWN, DEFAULTS = "the scene's own", "the program's defaults"
 
@@ -119,7 +121,8 @@ def measure(
 
     Raises SceneError, GeometryError, ComputationError.
     """
-    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or (QUICK_ROUNDS if quick else ROUNDS), seconds_on_single)
+    usual = QUICK_ROUNDS if quick or scene.three_dimensional else ROUNDS
+    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual, seconds_on_single)
     results = study.refine()
     reference, uncertainty = study.reference(results)
     settings, models = study.whole_runs(results, reference)
@@ -161,7 +164,7 @@ class AccuracyStudy:
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
-        base, value, uncertainty = self._known[self.base][0], {}, {}
+        base, value, uncertainty = self._known[self.base][0], {}, dict.fromkeys(MEASURES, float("nan"))
         moved = [(each.limits, self._known[each.refinement.base][0]) for each in results if each.refinement.name not in (*OF_FAMILY, CONDENSATION)]
         for name in base:
             limit = together(base[name], [(limits[name], own_base[name]) for limits, own_base in moved], name)
@@ -181,7 +184,7 @@ class AccuracyStudy:
             chosen[DEFAULTS] = own_setting(plain)
         for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH):
             chosen[setting.words] = setting
-        chosen |= dict.fromkeys(MODELS)
+        chosen |= dict.fromkeys((PLANE,) if self.scene.three_dimensional else MODELS)
         answers, times = self._in_turns({name: scene_of(self.scene, name, setting) for name, setting in chosen.items()})
         found = []
         for name in answers:
@@ -208,7 +211,7 @@ class AccuracyStudy:
 
     def _answer(self, run: xr.Dataset, scene: Scene, cycle: Cycle) -> Answer:
         """All measures; root stress only where contact is resolved on one mesh. Its time is not counted."""
-        recovered = scene.resolves_contact and scene.accuracy.condensation != EVERY_STEP
+        recovered = scene.resolves_contact and not scene.three_dimensional and scene.accuracy.condensation != EVERY_STEP
         return answer(run, self.window, peak_root_stress(run, scene, cycle) if recovered else None)
 
     def _time_single_settings(self) -> None:
@@ -255,7 +258,7 @@ class AccuracyStudy:
 def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
     """The scene with a whole setting, or with the cheaper model of a name. Its own and the default settings are left as they are decided there."""
     if setting is None:
-        return replace(scene, accuracy=_accuracy_of(scene, name))
+        return in_the_plane(scene) if name == PLANE else replace(scene, accuracy=_accuracy_of(scene, name))
     return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)
 
 

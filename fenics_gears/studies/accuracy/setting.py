@@ -8,13 +8,16 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.model.model import model_of
-from fenics_gears.model.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, EVERY_STEP, ONCE
+from fenics_gears.model.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, ELEMENTS_PER_HALF_WIDTH_ON_FACE, EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Scene
 
 
 @dataclass(frozen=True)
 class Setting:
-    """Element; sizes along flank and between contact nodes and window (mm); body elements in parts of the default; steps, and the rest."""
+    """Element; sizes along flank and between contact nodes and window (mm); body elements in parts of the default; steps, and the rest.
+
+    `slices`, `layers`: of flanks resolved over the face, whose body elements are those of the swept section; None in the plane.
+    """
 
     element: str
     flank: float
@@ -25,6 +28,8 @@ class Setting:
     interpolation: str = AVERAGED
     elastic_teeth: int | None = None
     condensation: str = ONCE
+    slices: int | None = None
+    layers: int | None = None
 
     @property
     def grid(self) -> ContactGrid:
@@ -48,10 +53,12 @@ class Setting:
             contact_length=self.grid.length,
             contact_nodes=self.grid.nodes,
             steps_per_mesh_cycle=self.steps,
-            body_element_size=self.body * DEFAULT_SIZES[self.order].body * module,
+            body_element_size=self.body * body_size(self.order, self.slices is not None) * module,
             interpolation=None if remeshed else self.interpolation,
             elastic_teeth=self.elastic_teeth,
             condensation=self.condensation,
+            slices=self.slices,
+            layers=self.layers,
         )
 
     def of(self, scene: Scene) -> Scene:
@@ -64,23 +71,40 @@ class Setting:
         teeth = "" if self.elastic_teeth is None else f", teeth {self.elastic_teeth}"
         collocated = "" if self.interpolation == AVERAGED else f", {self.interpolation}"
         remeshed = "" if self.condensation == ONCE else f", condensed {self.condensation}"
-        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:.3g}{collocated}{teeth}{remeshed}"
+        face = "" if self.slices is None else f", {self.slices} slices, {self.layers} layers"
+        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:.3g}{face}{collocated}{teeth}{remeshed}"
+
+
+def body_size(order: int, over_face: bool) -> float:
+    """The default size of body elements, in modules."""
+    if not over_face:
+        return DEFAULT_SIZES[order].body
+    # Imported here: plane scenes have none.
+    from fenics_gears.model.face_resolution import SECTION_SIZE
+
+    return SECTION_SIZE
 
 
 def half_width(scene: Scene) -> float:
     """The contact half-width (mm) in which sizes are given: Hertz's, within bounds, for it vanishes with the load."""
-    return model_of(without_settings(scene)).resolution.flank_element_size * ELEMENTS_PER_HALF_WIDTH
+    elements = ELEMENTS_PER_HALF_WIDTH_ON_FACE if scene.three_dimensional else ELEMENTS_PER_HALF_WIDTH
+    return model_of(without_settings(scene)).resolution.flank_element_size * elements
 
 
 def own_setting(scene: Scene) -> Setting:
     """The setting that the scene has, its defaults included."""
-    resolution = model_of(scene).resolution
+    model = model_of(scene)
+    resolution, slices, layers = model.resolution, None, None
     grid, size = resolution.contact_grid, resolution.body_element_size
     order = 2 if resolution.element.endswith("2") else 1
-    body = 1.0 if size is None else size / (DEFAULT_SIZES[order].body * scene.gears.module)
+    if model.face is not None:
+        from fenics_gears.model.face_resolution import face_discretisation
+
+        slices, layers = model.face.slices, max(face_discretisation(model, gear).layers for gear in (0, 1))
+    body = 1.0 if size is None else size / (body_size(order, slices is not None) * scene.gears.module)
     return Setting(
         resolution.element, resolution.flank_element_size, grid.spacing, grid.length, body, resolution.steps_per_mesh_cycle,
-        grid.interpolation, resolution.elastic_teeth,
+        grid.interpolation, resolution.elastic_teeth, slices=slices, layers=layers,
     )  # fmt: skip
 
 

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil, inf, sqrt
 
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, STEPS, Sizes, TargetNotReached, TrialRuns
+from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import Progress
 
 # Sizes at which errors are estimated first for a target of 1 %, the mesh also for larger ones.
 FIRST_MESH, FIRST_STEPS = 2.5, 60.0
+# Slices of the first trial runs for a target of 1 %, in the default number; at least the second.
+FIRST_SLICES, FEWEST_SLICES = 0.7, 4
+# Ratio of neighbouring numbers of slices in the search for the cheapest, and how many there are.
+RATIO_OF_SLICES, SLICINGS = 2.0**0.25, 13
 # Steps in a mesh cycle are multiples of this, so that curves of different runs have phases in common.
 ROUND_STEPS = 20
 # Ratio of neighbouring meshes in the search for the cheapest, and how many there are: down to 1/32 of the tried one.
@@ -77,21 +82,31 @@ def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
 
 def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
     """Estimate errors and choose; once more from finer sizes where the chosen ones are much finer."""
-    tried = _within_limits(runs, first_sizes(target, runs.fewest_steps, runs.steps_matter))
+    tried = _within_limits(runs, first_sizes(target, runs.fewest_steps, runs.steps_matter, runs.slices))
     for _ in range(MOST_ROUNDS):
         errors = runs.errors(tried)
         sizes = _cheapest(runs, tried, errors, target)
-        if tried.mesh <= EXTRAPOLATED * sizes.mesh and sizes.steps <= EXTRAPOLATED * tried.steps:
+        if tried.mesh <= EXTRAPOLATED * sizes.mesh and sizes.steps <= EXTRAPOLATED * tried.steps and sizes.slices <= EXTRAPOLATED * tried.slices:
             setting = runs.setting(sizes)
             return Chosen(setting.accuracy(module), setting, errors_at(tried, errors, sizes), runs.runs)
-        tried = Sizes(min(COARSER_FIRST * sizes.mesh, tried.mesh), max(round_steps(sizes.steps / COARSER_FIRST), tried.steps))
+        tried = Sizes(
+            min(COARSER_FIRST * sizes.mesh, tried.mesh),
+            max(round_steps(sizes.steps / COARSER_FIRST), tried.steps),
+            max(even(sizes.slices / COARSER_FIRST), tried.slices),
+        )  # fmt: skip
     raise TargetNotReached(f"errors do not fall with order 2 down to {runs.setting(tried).words}")
 
 
-def first_sizes(target: float, fewest_steps: int, steps_matter: bool) -> Sizes:
-    """Sizes of the first trial runs, somewhat coarser than those that will be chosen."""
+def first_sizes(target: float, fewest_steps: int, steps_matter: bool, slices: int = 0) -> Sizes:
+    """Sizes of the first trial runs, somewhat coarser than those that will be chosen; `slices`: the default number, 0 in the plane."""
     finer = sqrt(0.01 / target)
-    return Sizes(FIRST_MESH / max(finer, 1.0), round_steps(max(FIRST_STEPS * finer, fewest_steps) if steps_matter else fewest_steps))
+    steps = round_steps(max(FIRST_STEPS * finer, fewest_steps) if steps_matter else fewest_steps)
+    return Sizes(FIRST_MESH / max(finer, 1.0), steps, max(even(FIRST_SLICES * finer * slices), FEWEST_SLICES) if slices else 0)
+
+
+def even(number: float) -> int:
+    """An even whole number from this on: half of it is whole."""
+    return 2 * ceil(0.5 * number - 1e-9)
 
 
 def _within_limits(runs: TrialRuns, sizes: Sizes) -> Sizes:
@@ -112,7 +127,7 @@ def round_steps(steps: float) -> int:
 
 def errors_at(tried: Sizes, errors: Errors, sizes: Sizes) -> Errors:
     """Errors at other sizes than the tried ones: of order 2."""
-    ratios = {MESH: sizes.mesh / tried.mesh, STEPS: tried.steps / sizes.steps}
+    ratios = {MESH: sizes.mesh / tried.mesh, STEPS: tried.steps / sizes.steps, SLICES: tried.slices / (sizes.slices or 1)}
     return {name: error * ratios[name] ** 2 for name, error in errors.items()}
 
 
@@ -135,15 +150,30 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
     for mesh in (tried.mesh / RATIO**place for place in range(MESHES)):
         left = target - errors[MESH] * (mesh / tried.mesh) ** 2
         if left > 0.0:
-            sizes = Sizes(mesh, round_steps(tried.steps * max(1.0, sqrt(errors.get(STEPS, 0.0) / left))))
-            try:
-                cost = runs.cost(sizes)
-            except TargetNotReached as reason:
-                cost, refused = inf, refused or str(reason)
+            cost = inf
+            for sizes in _beside(mesh, tried, errors, left):
+                try:
+                    its_cost = runs.cost(sizes)
+                except TargetNotReached as reason:
+                    its_cost, refused = inf, refused or str(reason)
+                cost = min(cost, its_cost)
+                if its_cost < least:
+                    best, least = sizes, its_cost
+                elif its_cost > DEARER * least:
+                    break
             if cost > DEARER * least:
                 break
-            if cost < least:
-                best, least = sizes, cost
     if best is None:
         raise TargetNotReached(refused or "no mesh is fine enough")
     return best
+
+
+def _beside(mesh: float, tried: Sizes, errors: Errors, left: float) -> Iterator[Sizes]:
+    """Sizes with a mesh and as many slices and steps as what is `left` of the error for them asks for, from the fewest slices on."""
+    slicings = [tried.slices * RATIO_OF_SLICES**place for place in range(SLICINGS)] if tried.slices else [0.0]
+    for slices in map(ceil, slicings):
+        for_steps = left - (errors.get(SLICES, 0.0) * (tried.slices / slices) ** 2 if slices else 0.0)
+        if for_steps > 0.0:
+            yield Sizes(mesh, round_steps(tried.steps * max(1.0, sqrt(errors.get(STEPS, 0.0) / for_steps))), slices)
+            if not errors.get(STEPS):
+                return

@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics
 import time
 from dataclasses import dataclass, replace
+from math import nan
 
 import xarray as xr
 
@@ -33,7 +34,8 @@ class Row:
 
     `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s; `condense`: both gears, s,
     zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on the wheel's base circle;
-    `peak_force`: largest contact force of the mesh, N; `remarks`: what to know of this row.
+    `peak_force`: largest contact force of the mesh, N; `remarks`: what to know of this row; `peak_pressure`: MPa, tip edges left out, NaN of rigid flanks;
+    `face_load_factor`: K_Hbeta, NaN where flanks are not resolved over the face.
     """
 
     subset: Subset
@@ -48,6 +50,8 @@ class Row:
     transmission_error: float
     peak_force: float
     remarks: tuple[str, ...]
+    peak_pressure: float = nan
+    face_load_factor: float = nan
 
     @property
     def elastic(self) -> bool:
@@ -87,6 +91,11 @@ class EffectReport:
     rows: tuple[Row, ...]
     skipped: tuple[Skipped, ...]
     machine: dict[str, str]
+
+    @property
+    def over_face(self) -> bool:
+        """Whether the scene's flanks are resolved over the face."""
+        return self.scene.three_dimensional
 
     def row(self, kind: str, effect: str = "") -> Row | None:
         """The row of that kind of subset; None where it is not there."""
@@ -205,6 +214,8 @@ class Bench:
             transmission_error=run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"],
             peak_force=largest_normal_force(run),
             remarks=tuple(_remarks(self.subset, run)),
+            peak_pressure=float(run.attrs.get("peak_contact_pressure", nan)),
+            face_load_factor=float(run.attrs.get("face_load_factor", nan)),
         )
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from fenics_gears.effects import EFFECTS, effect_named, effects_on, without
+from fenics_gears.inputs.tree import over_the_face
 from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import broken_rules
@@ -80,7 +81,17 @@ def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
             left = every - sections
             found[sections] = Subset(kind, name, sections, without(scene, *in_order(left)), _beside(kind, name, sections, left))
     whole, *others = found.values()
-    return [*others, whole], skipped
+    return [*others, *_parts(whole), whole], skipped
+
+
+def _parts(whole: Subset) -> list[Subset]:
+    """The whole scene without a part of an effect over the face."""
+    if not whole.scene.three_dimensional:
+        return []
+    # Imported here: plane scenes have none.
+    from fenics_gears.studies.effect_lattice.parts import without_parts
+
+    return [Subset(LEFT_OUT, name, whole.sections, scene) for name, scene in without_parts(whole.scene)]
 
 
 def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:
@@ -113,6 +124,10 @@ def _problem(scene: Scene, sections: Sections) -> str:
         if each.section not in sections:
             *homes, name = each.within or (each.section,)
             functools.reduce(lambda table, home: table.get(home, {}), homes, tree).pop(name, None)
+    if not over_the_face(tree):
+        # What is left is a plane scene, in which they mean nothing.
+        for name in ("slices", "layers"):
+            tree.get("accuracy", {}).pop(name, None)
     return "; ".join(f"{'.'.join(problem.path)}: {problem.message}" for problem in broken_rules(tree))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import statistics
+from math import isnan, nan
 from pathlib import Path
 
 from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
@@ -16,6 +17,17 @@ HEADINGS = (
     "effects", "unknowns", "closed nodes", "Newton iterations per step", "time per step", "operators", "condensing", "T_EPP", "peak force", "",
 )  # fmt: skip
 UNITS = ("", "centre + contact", "mean (most)", "", "us", "s", "s", "um", "N", "remark")
+
+
+# Of scenes over the face, before the remarks.
+FACE_HEADINGS, FACE_UNITS = ("K_Hbeta", "peak pressure"), ("", "MPa")
+
+
+def headings(report: EffectReport) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The table's headings and their units."""
+    if not report.over_face:
+        return HEADINGS, UNITS
+    return (*HEADINGS[:-1], *FACE_HEADINGS, HEADINGS[-1]), (*UNITS[:-1], *FACE_UNITS, UNITS[-1])
 
 
 def table_rows(report: EffectReport) -> list[tuple[str, ...]]:
@@ -35,24 +47,34 @@ def _cells(report: EffectReport, row: Row, numbers: dict[str, int]) -> tuple[str
         f"{row.condense:.2f}" if row.elastic else "none",
         _with_change(row.transmission_error * MILLI, report, row, "transmission_error", 3),
         _with_change(row.peak_force, report, row, "peak_force", 0),
+        *_face_cells(report, row),
         " ".join(f"[{numbers[_words(remark)]}]" for remark in row.remarks),
     )
 
 
+def _face_cells(report: EffectReport, row: Row) -> tuple[str, ...]:
+    if not report.over_face:
+        return ()
+    return _with_change(row.face_load_factor, report, row, "face_load_factor", 2), _with_change(row.peak_pressure, report, row, "peak_pressure", 0)
+
+
 def _with_change(value: float, report: EffectReport, row: Row, name: str, digits: int) -> str:
+    if isnan(value):
+        return "none"
     changed = change(report, row, name)
     return f"{value:.{digits}f}" + ("" if changed is None else f" ({in_percent(changed)})")
 
 
 def change(report: EffectReport, row: Row, name: str) -> float | None:
-    """Relative change of "transmission_error", "peak_force" or "step_time" against what the row is compared with; None without that."""
+    """Relative change of a number of the rows, such as "transmission_error", against what the row is compared with; None without that."""
     reference = report.reference(row)
     return None if reference is None else relative_change(reference, row, name)
 
 
 def relative_change(reference: Row, row: Row, name: str) -> float | None:
     """Relative change of a number from one row to another; None where there is nothing to be relative to."""
-    return getattr(row, name) / getattr(reference, name) - 1.0 if getattr(reference, name) else None
+    changed = getattr(row, name) / getattr(reference, name) - 1.0 if getattr(reference, name) else nan
+    return None if isnan(changed) else changed
 
 
 def in_percent(changed: float) -> str:
@@ -115,7 +137,7 @@ CSV_COLUMNS = (
     "effects", "sections", "centre_coordinates", "contact_rows", "closed_nodes_mean", "closed_nodes_max", "newton_iterations_per_step",
     "operations_per_step", "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
     "transmission_error_peak_to_peak_mm", "peak_force_N", "change_of_transmission_error", "change_of_peak_force", "compared_with",
-    "remarks", "processor", "load", "threads", "versions",
+    "remarks", "peak_contact_pressure_MPa", "face_load_factor", "processor", "load", "threads", "versions",
 )  # fmt: skip
 
 
@@ -131,5 +153,5 @@ def _line(report: EffectReport, row: Row) -> tuple:
         row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes, row.most_closed_nodes,
         row.iterations, row.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators, row.condense,
         row.transmission_error, row.peak_force, change(report, row, "transmission_error"), change(report, row, "peak_force"),
-        "" if reference is None else reference.subset.name, "; ".join(row.remarks),
+        "" if reference is None else reference.subset.name, "; ".join(row.remarks), row.peak_pressure, row.face_load_factor,
     )  # fmt: skip

@@ -14,7 +14,7 @@ MODULE = 4.5
 class KnownRuns:
     """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the limits."""
 
-    fewest_steps = FEWEST_STEPS
+    fewest_steps, slices = FEWEST_STEPS, 0
 
     def __init__(self, constants, powers=(2.0, 1.0), finest=0.0, order=2.0, steps_matter=True):
         self.constants, self.powers, self.finest, self.order = constants, powers, finest, order
