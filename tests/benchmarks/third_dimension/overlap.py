@@ -19,7 +19,7 @@ from fenics_gears.simulation.simulate import simulate
 
 NAME = "overlap"
 HELIX_ANGLE = radians(20.0)
-OVERLAPS = (0.2, 0.4, 0.5, 0.6, 0.8, 0.9, 1.0, 1.1, 1.5, 2.0, 1.25, 1.75, 2.2, 1.9)
+OVERLAPS = (0.2, 0.4, 0.5, 0.6, 0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.2)
 STEPS, SLICE_WIDTH, LAYER_THICKNESS, SECTION_SIZE = 40, 0.25, 1.5, 0.6
 
 
