@@ -11,9 +11,10 @@ from functools import cached_property
 
 import numpy as np
 from scipy import sparse
-from tests.face_reference.swept_gear import SweptGear, line_shapes
 
+from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
+from tests.face_reference.swept_gear import SweptGear, line_shapes
 
 # Gauss points of a cell across the contact line and along the face.
 ACROSS, ALONG = 4, 3
@@ -98,7 +99,8 @@ class PairPoints:
 
 def pair_points(position: Position, index: int, y: np.ndarray, gears: tuple[SweptGear, SweptGear], opening) -> PairPoints | None:
     """Contact nodes of a tooth pair; None where its flanks do not face each other. `opening(z)`: what opens the flanks along n, mm, at heights (k,), mm."""
-    heights = gears[0].sweep.heights
+    # Pressure varies straight between the layers' boundaries: with nodes at their middles as well it oscillates from node to node.
+    heights = gears[0].sweep.heights[::2]
     at_y, weight_y, hat_y = _cells(y, ACROSS)
     at_z, weight_z, hat_z = _cells(heights, ALONG)
     many_y, many_z = (each.ravel() for each in np.meshgrid(at_y, at_z))

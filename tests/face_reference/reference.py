@@ -8,6 +8,7 @@ from math import radians
 from pathlib import Path
 
 import numpy as np
+
 from tests.face_reference.cases import FACE_WIDTH, Assembled, Sizes, assembled
 from tests.face_reference.section_mesh import SectionSizes
 from tests.face_reference.unilateral import pressed
