@@ -17,7 +17,7 @@ from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.root_stress import face_root_stress_rows
-from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_weights
+from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
 from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.scene.data import Load, Output
@@ -64,7 +64,7 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
 
 def _at_fillets(recovery, data, stress):
     """Stress (S, 2, p) of both fillets from that (S, n, 3, 3) at the section's nodes."""
-    curve, body = fillet_curve(data.of_module_one), recovery.body
+    curve, body = fillet_curve(data.of_module_one, POINTS_OVER_FACE), recovery.body
     held = np.unique(np.concatenate([body.lower, body.upper, body.hub]) % len(body.section.points))
     found = []
     for side in (0, 1):
