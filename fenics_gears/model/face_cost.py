@@ -23,6 +23,8 @@ FLANK_NODES, POWER, WITH_COPIES = 17.0, 0.6, 1.25
 
 # Of root stress, seconds: an unknown for each column solved, and a step for each stress of a tooth per force on one (measured; several loaded teeth).
 SOLVED_UNKNOWN, STEP_STRESS = 4e-7, 5e-9
+# Bytes of what takes a contact force at a position to the flank nodes of both gears (measured).
+ON_FLANKS = 200.0
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,8 @@ def face_cost(model: Model) -> FaceCost:
     positions = min(model.resolution.steps_per_mesh_cycle, model.steps + 2)
     position = (PAIR_IN_SLICE * pairs + NODES_SQUARE * nodes**2) * (POSITION_WITH_FRICTION if rubbing else 1.0)
     step = (STEP_NODES_SQUARE * nodes**2 + STEP_NODES_CUBE * nodes**3) * (STEP_WITH_FRICTION if rubbing else 1.0)
+    if model.scene.output.root_stress:
+        kept += ON_FLANKS * positions * nodes * (2.0 if rubbing else 1.0)
     # Normals alone, or both kinds and by the forces of the step before.
     operators = WITH_COPIES * 8.0 * positions * nodes**2 * (6.0 if rubbing else 1.0)
     return FaceCost(condensing, positions * position + model.steps * (step + stress_step), (bodies[0], bodies[1]), memory, operators, kept)

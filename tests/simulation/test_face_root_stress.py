@@ -15,6 +15,7 @@ from fenics_gears.elasticity.face.root_stress import face_root_stress_rows
 from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
 from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.slice_averages import slice_averages
+from fenics_gears.model.model import model_of
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.stored_forces import stored_forces
 
@@ -71,6 +72,13 @@ def test_largest_values_are_those_over_the_face():
         np.testing.assert_array_equal(result["root_stress_at_30_degrees"].values, over_face.values)
         assert (np.isnan(along.values).all(axis=1) == (result["pair_number"].values == 0)).all()
         assert result.attrs["largest_root_stress_pinion"] > 0.0
+
+
+def test_memory_is_as_it_was_counted():
+    """Count: what `gears check` counts is what the result's arrays over time take, to the byte."""
+    scene, result = root_stress_run(coast=False)
+    held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
+    assert held == model_of(scene).stored_bytes
 
 
 @pytest.mark.parametrize("gear", [PINION, standard_gear(40)])
