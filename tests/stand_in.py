@@ -35,7 +35,7 @@ def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=
 
 def stand_in_body(gear, width, heights=5):
     """A body over a face that is stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the width. Local yielding is in the sections."""
-    plane = stand_in_compliance(gear, local=0.0)
+    plane = stand_in_compliance(gear, local=0.0, elements=12)
     nodes = len(plane.roll_angle)
     section = np.zeros((len(plane.blocks), nodes, 3, nodes, 3))
     section[:, :, :2, :, :2] = plane.blocks.reshape(-1, nodes, 2, nodes, 2) / width
