@@ -33,11 +33,18 @@ def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=
     return FlankCompliance(np.sqrt(2.0 * arc / gear.base_radius), element_order, np.array(blocks), flanks=2 if coast_flank else 1)
 
 
-def stand_in_body(gear, width, heights=5):
-    """A body over a face that is stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the width. Local yielding is in the sections."""
-    plane = stand_in_compliance(gear, local=0.0, elements=12)
-    nodes = len(plane.roll_angle)
-    section = np.zeros((len(plane.blocks), nodes, 3, nodes, 3))
-    section[:, :, :2, :, :2] = plane.blocks.reshape(-1, nodes, 2, nodes, 2) / width
-    section = section.reshape(len(plane.blocks), 3 * nodes, 3 * nodes)
-    return FaceCompliance(plane.roll_angle, plane.element_order, np.linspace(-0.5, 0.5, heights) * width, np.tile(section, (1, heights, heights)), plane)
+def stand_in_body(gear, width, heights=5, *, elements=12, offsets=3, coast_flank=False, reach=None):
+    """A body over a face, stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the width. Local yielding is in the sections.
+
+    `reach` (of the width): how far a load bends the tooth more than elsewhere, as in a body that gives way along its axis too.
+    """
+    plane = stand_in_compliance(gear, elements=elements, local=0.0, offsets=offsets, coast_flank=coast_flank)
+    flanks, nodes, places = plane.flanks, len(plane.roll_angle), np.linspace(-0.5, 0.5, heights) * width
+    section = np.zeros((len(plane.blocks), flanks, nodes, 3, flanks, nodes, 3))
+    section[..., :2, :, :, :2] = plane.blocks.reshape(-1, flanks, nodes, 2, flanks, nodes, 2) / width
+    along = np.ones((heights, heights))
+    if reach is not None:
+        along += np.exp(-np.abs(places[:, None] - places) / (reach * width))
+    blocks = np.einsum("kfaicbj,hg->kfhaicgbj", section, along)
+    size = flanks * heights * nodes * 3
+    return FaceCompliance(plane.roll_angle, plane.element_order, places, blocks.reshape(-1, size, size), plane, flanks=flanks)

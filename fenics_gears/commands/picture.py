@@ -17,7 +17,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; write them for ParaView")
     add_run_argument(command)
     command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help="mesh cycles after the first step with contact fields (default: 0)")
-    command.add_argument("--scale", type=_scale, metavar="N", help="displacements are drawn N times as large (default: the largest suitable scale)")
+    command.add_argument("--scale", type=_scale, metavar="N", help="displacements are drawn N times as large (default: the largest suitable scale; in three dimensions 1)")
     command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"file to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)")
     command.add_argument("--animate", action="store_true", help="draw an animation of the mesh cycles with contact fields (.gif, or .mp4 where ffmpeg is installed)")
     command.add_argument("--vtu", type=Path, metavar="FILE", help="also write displacement and stress of both gears for ParaView")
@@ -35,9 +35,12 @@ def picture(options: argparse.Namespace) -> int:
     from fenics_gears.simulation.stored_forces import stored_index
 
     index = stored_index(dataset, options.at)
+    over_face = "face_position" in dataset.dims
+    if over_face and options.animate:
+        raise SceneError(f"{file}: --animate draws plane runs; this one has its flanks resolved over the face. Draw single times with --at, or write --pvd for ParaView.")
     with closing(shown_progress(options.quiet)) as progress:
         progress.stage("factorise sectors")
-        written = _written(options, dataset, scene, index, output if drawn else None, progress)
+        written = (_written_over_face if over_face else _written)(options, dataset, scene, index, output if drawn else None, progress)
     print_files(written, options.quiet)
     return 0
 
@@ -60,6 +63,32 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
         if output is not None:
             progress.stage("draw")
             written.append(write_whole(output, lambda path: _draw(options, runs, dataset, index, path, progress)))
+    return written
+
+
+def _written_over_face(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
+    """What is asked for of a run whose flanks are resolved over the face, in three dimensions."""
+    from fenics_gears.show.face_grid import save_vtu
+    from fenics_gears.simulation.face_stresses import FaceStresses
+    from fenics_gears.system.output import write_whole
+
+    written: list[Path] = []
+    with FaceStresses(dataset, scene, progress=progress) as runs:
+        mesh = runs.at(index)
+        if options.vtu is not None:
+            written.append(write_whole(options.vtu, lambda path: save_vtu(mesh, path)))
+        if options.pvd is not None:
+            from fenics_gears.show.stress_series import save_series
+
+            progress.stage("recover stresses")
+            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update, save_vtu)))
+    if output is not None:
+        from fenics_gears.show.face_picture import face_picture
+        from fenics_gears.show.stress_picture import save_picture
+
+        progress.stage("draw")
+        figure = face_picture(mesh, dataset, 1.0 if options.scale is None else options.scale)
+        written.append(write_whole(output, lambda path: save_picture(figure, path)))
     return written
 
 

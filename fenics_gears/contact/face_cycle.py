@@ -13,12 +13,16 @@ from fenics_gears.contact.face import Face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
 from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position, pair_places
 from fenics_gears.contact.operator import operator_on_lines, turned
-from fenics_gears.contact.tooth_pair import DRIVE, Flanks, Place, ToothPair, flank_points, interpolations, tooth_pair
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, Place, ToothPair, flank_points, interpolations, tooth_pair
 from fenics_gears.contact.touching import Touching, touching_at
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 Opening = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+def _nothing(heights: np.ndarray, positions: np.ndarray) -> np.ndarray:
+    return np.zeros(len(heights))
 
 
 def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks: bool = False, corner=None) -> list[Place]:
@@ -36,7 +40,7 @@ class FaceCycle(Cycle):
     """Contact nodes in the slices of a `face`, that see the gears' `bodies` in three dimensions and their flanks through fine plane sections.
 
     `opening`: what modifications along the face and misalignment open the flanks, mm along the line of action, at places (k,), mm, along the axes where
-    contact stands at positions (k,), mm from T1. Other arguments as of MeshCycle.
+    contact stands at positions (k,), mm from T1; `coast_opening` the same of the coast flanks, None where nothing opens them. Other arguments as of MeshCycle.
     """
 
     traits = CycleTraits(divisible=True)
@@ -52,9 +56,10 @@ class FaceCycle(Cycle):
         coordinates: list[int],
         tangential: bool,
         corner=None,
+        coast_opening: Opening | None = None,
     ):
         super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2, corner=corner)
-        self.face, self.flanks, self.opening = face, flanks, opening
+        self.face, self.flanks, self._openings_of = face, flanks, (opening, coast_opening or _nothing)
         self._bodies, self._coordinates, self._tangential = bodies, coordinates, tangential
 
     @property
@@ -79,10 +84,12 @@ class FaceCycle(Cycle):
         return tuple(found)
 
     def _openings(self, places: list[Place]) -> list[float]:
-        """What opens the flanks at each place, mm along the line of action; coast flanks are not modified along the face."""
-        positions = self.pair.pinion.base_radius * np.array([place.contact_rolls[0] for place in places])
-        found = self.opening(np.array([place.height for place in places]), positions)
-        return np.where([place.flank == DRIVE for place in places], found, 0.0).tolist()
+        """What opens the flanks at each place, mm along the line of action."""
+        flanks, heights = np.array([place.flank for place in places], dtype=int), np.array([place.height for place in places])
+        positions, found = self.pair.pinion.base_radius * np.array([place.contact_rolls[0] for place in places]), np.zeros(len(places))
+        for flank, opening in zip((DRIVE, COAST), self._openings_of):
+            found[flanks == flank] = opening(heights[flanks == flank], positions[flanks == flank])
+        return found.tolist()
 
     def _pair(self, place: Place) -> FacePair | None:
         """The contact nodes of a tooth pair in a slice, with the gap of flanks that are not modified along the face, along the line of action."""

@@ -21,6 +21,7 @@ from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
+from fenics_gears.errors import ComputationError
 
 # Over the slice's own width, by which all is divided in the end.
 UNIT_WIDTH = (1.0, 1.0)
@@ -70,6 +71,7 @@ class FacePairing:
         sizes = (groups.seen[-1].stop if groups.seen else 0 for groups in (seen, seen_by_columns))
         between = np.zeros((kinds, next(sizes), others, next(sizes)))
         for (blocks, sections), own, other in zip(self._bodies, rows, columns):
+            _check_known(min(len(blocks), len(sections)) // 2, own.teeth, other.teeth)
             add_between_seen(blocks, sections, self._shares, own, other, symmetric, between)
         return at_contact_nodes(between, seen, seen_by_columns, symmetric)
 
@@ -106,6 +108,23 @@ class FacePairing:
         fine, before = self._fine.compliance(pairs, previous, turned)
         fine, dependent = of_full_rank(fine)
         return fine.reshape(kinds, count, kinds, count), None if before is None else before.reshape(1, count, 2, -1), dependent
+
+
+def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> None:
+    """Raise ComputationError for teeth (P,) that are further apart than the bodies' compliance is known: compiled code would not notice."""
+    if not len(responding) or not len(loaded):
+        return
+    apart = max(responding.max() - loaded.min(), loaded.max() - responding.min())
+    if apart > offsets:
+        raise ComputationError(f"compliance over the face: teeth {apart} pitches apart touch, it is known for {offsets}; ask face_compliance for a larger reach")
+
+
+def directions_on_face(place: Place, face: Face, gear: int, tangential: bool) -> np.ndarray:
+    """Unit vectors (1 or 2, 3) of the contact normal and of the tangent, in the tooth's frame at the slice's height."""
+    axes = np.pad(directions(place.contact_rolls[gear], tangential), ((0, 0), (0, 1)))
+    axes[0] *= face.cosine
+    axes[0, 2] = face.axial_share(gear, place.turn)
+    return axes
 
 
 def _plane_directions(gear: int, places: Sequence[Place], tangential: bool, turned: float | None) -> np.ndarray:

@@ -54,3 +54,13 @@ def displacement(offset: Offset, sense: float, turned: float) -> tuple[float, fl
     """Centre of a base circle from its axis (x along the line of action, y across it), mm, when the gear has turned by `turned` (rad)."""
     angle = sense * (turned + offset.phase)
     return offset.distance * cos(angle), offset.distance * sin(angle)
+
+
+def run_out(pair: GearPair, eccentricity: Eccentricity, steps: int) -> RunOut:
+    """The gaps of gears that run out, with those of teeth that wobble where a gear's do; `steps` of a mesh cycle."""
+    if not any(own is not None and own.wobble for own in (eccentricity.pinion, eccentricity.wheel)):
+        return RunOut(pair, eccentricity, steps)
+    # Imported here: it is of faces, and itself a run-out.
+    from fenics_gears.contact.wobble import WobblingRunOut
+
+    return WobblingRunOut(pair, eccentricity, steps)

@@ -123,7 +123,8 @@ def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
     if grid.inner_length is None:
         return offsets
     # Beside an edge within the window: as far beyond it, or beyond the line.
-    near, half = 0.5 * grid.inner_length, 0.5 * grid.length
+    # A node by itself has no cell to average over.
+    near, half = max(0.5 * grid.inner_length, grid.spacing), 0.5 * grid.length
     low = inside[0] if inside[0] > -half else min(-near, inside[1] - 2.0 * near)
     high = inside[1] if inside[1] < half else max(near, inside[0] + 2.0 * near)
     return offsets[(offsets >= low - 1e-9 * half) & (offsets <= high + 1e-9 * half)]
@@ -137,7 +138,9 @@ def _in_window(inside: tuple[float, float], ends: Ends, grid: ContactGrid) -> np
     below, above = (grid.edge_cells if tip else NO_CELLS for tip in (tip_1 >= form_2, tip_2 <= form_1))
     if cut_low and cut_high:
         even = round(length / grid.spacing - below.sum() - above.sum())
-        cells = np.concatenate([below, np.ones(even), above[::-1]]) if even >= 0 else np.ones(max(1, round(length / grid.spacing)))
+        cells = np.concatenate([below, np.ones(max(even, 0)), above[::-1]])
+        if even < 0 or not len(cells):
+            cells = np.ones(max(1, round(length / grid.spacing)))
         return start + length / cells.sum() * np.concatenate([[0.0], np.cumsum(cells)])
     # As far as the window reaches, one cell at least; the tolerance keeps the node count of an uncut window whole in spite of round-off.
     distances = grid.beside_an_edge if cut_low and len(below) or cut_high and len(above) else grid.evenly

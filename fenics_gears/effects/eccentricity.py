@@ -68,13 +68,9 @@ def run_out_is_small_and_of_some_gear(tree: Tree) -> Iterator[Problem]:
 
 def gaps(eccentricity: Eccentricity, model):
     """What displaced base circles and leaning teeth add to the gaps."""
-    if any(own is not None and own.wobble for own in (eccentricity.pinion, eccentricity.wheel)):
-        from fenics_gears.contact.wobble import WobblingRunOut
+    from fenics_gears.contact.run_out import run_out
 
-        return WobblingRunOut(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
-    from fenics_gears.contact.run_out import RunOut
-
-    return RunOut(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
+    return run_out(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
 
 
 def period(eccentricity: Eccentricity, scene) -> int:

@@ -18,7 +18,9 @@ COLUMNS_AT_ONCE = 64
 
 
 class Factor:
-    """Cholesky factor of a symmetric matrix (scipy's, or PETSc's of one process), positive definite on all dofs but `schur_dofs` (k,).
+    """Cholesky factor of a symmetric matrix (scipy's, or PETSc's), positive definite on all dofs but `schur_dofs` (k,).
+
+    Of a matrix over several processes (`distributed`) only the Schur complement is there for the taking: all of them make the factor and call `schur`.
 
     `what`: the matrix's name in messages. Raises ComputationError when the factorisation fails. Release the memory by `close`.
     """
@@ -27,7 +29,9 @@ class Factor:
         self._schur_size = 0 if schur_dofs is None else len(schur_dofs)
         if sparse.issparse(matrix):
             matrix = _petsc_matrix(matrix)
-        matrix.setOption(PETSc.Mat.Option.SPD, True)
+        # Of a matrix declared definite, MUMPS over several processes gives back the diagonal of the Schur complement alone.
+        self._rank, alone = matrix.comm.rank, matrix.comm.size == 1
+        matrix.setOption(PETSc.Mat.Option.SPD if alone else PETSc.Mat.Option.SYMMETRIC, True)
         self._preconditioner = PETSc.PC().create(matrix.comm)
         self._preconditioner.setOperators(matrix)
         self._preconditioner.setType("cholesky")
@@ -36,7 +40,9 @@ class Factor:
         self._factor = self._preconditioner.getFactorMatrix()
         try:
             if schur_dofs is not None:
-                indices = PETSc.IS().createGeneral(np.asarray(schur_dofs, dtype=PETSc.IntType), matrix.comm)
+                # Rank 0 has them all; PETSc refuses to share them out.
+                listed = np.asarray(schur_dofs if self._rank == 0 else [], dtype=PETSc.IntType)
+                indices = PETSc.IS().createGeneral(listed, PETSc.COMM_SELF)
                 _call("MatFactorSetSchurIS", _handle(self._factor), _handle(indices))
                 indices.destroy()
             self._preconditioner.setUp()
@@ -68,10 +74,13 @@ class Factor:
             dense.destroy()
         return result
 
-    def schur(self) -> np.ndarray:
-        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load; symmetrised."""
+    def schur(self) -> np.ndarray | None:
+        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load; symmetrised. None on all ranks but 0."""
         schur, entries = ctypes.c_void_p(), ctypes.c_void_p()
         _call("MatFactorCreateSchurComplement", _handle(self._factor), ctypes.byref(schur), None)
+        if self._rank > 0:
+            _call("MatDestroy", ctypes.byref(schur))
+            return None
         _call("MatDenseGetArray", schur, ctypes.byref(entries))
         values = np.ctypeslib.as_array((ctypes.c_double * self._schur_size**2).from_address(entries.value)).reshape((self._schur_size,) * 2)
         symmetric = 0.5 * (values + values.T)
@@ -90,6 +99,14 @@ def _petsc_matrix(matrix: sparse.csr_matrix) -> PETSc.Mat:
     matrix.sort_indices()
     csr = (matrix.indptr.astype(PETSc.IntType), matrix.indices.astype(PETSc.IntType), matrix.data)
     return PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
+
+
+def distributed(rows: sparse.csr_matrix, comm) -> PETSc.Mat:
+    """PETSc matrix of which every rank of a communicator gives its consecutive rows (k, n)."""
+    rows.sort_indices()
+    csr = (rows.indptr.astype(PETSc.IntType), rows.indices.astype(PETSc.IntType), rows.data)
+    local, size = rows.shape
+    return PETSc.Mat().createAIJ(((local, size), (local, size)), csr=csr, comm=comm)
 
 
 def schur_complement(matrix: PETSc.Mat, dofs: np.ndarray) -> np.ndarray:

@@ -40,7 +40,7 @@ class NodalStress:
 
 def nodal_stress(nodes: ElementNodes, poissons_ratio: float) -> NodalStress:
     """The operator of a body in plane strain."""
-    gradients, areas = _gradients_at_nodes(nodes)
+    gradients, areas = gradients_at_nodes(nodes)
     cells, count = nodes.cells, len(nodes.points)
     per_cell = cells.shape[1]
     # Stress xx, yy, xy of (cell, node) by displacement x, y of (cell, other node).
@@ -60,7 +60,7 @@ def nodal_stress(nodes: ElementNodes, poissons_ratio: float) -> NodalStress:
     return NodalStress(weighted, weight)
 
 
-def _gradients_at_nodes(nodes: ElementNodes) -> tuple[np.ndarray, np.ndarray]:
+def gradients_at_nodes(nodes: ElementNodes) -> tuple[np.ndarray, np.ndarray]:
     """Gradients (cells, nodes, nodes, 2) of the shape functions (third index) that count at each node (second), and areas (cells,)."""
     square = nodes.corners == 4
     reference = (SQUARE_NODES if square else TRIANGLE_NODES)[: nodes.cells.shape[1]]

@@ -17,7 +17,7 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.nodal_stress import nodal_stress
-from fenics_gears.elasticity.ring import cyclic, rotation, turned_nodes
+from fenics_gears.elasticity.ring import cyclic, cyclic_motion, rotation, turned_nodes
 from fenics_gears.elasticity.sector_interior import SectorInterior
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
@@ -107,16 +107,8 @@ class GearRecovery:
         return np.einsum("xa,scak->scxk", turn, vectors.reshape(len(vectors), -1, 2, vectors.shape[-1])).reshape(vectors.shape)
 
     def cut_motion(self, loads: np.ndarray) -> np.ndarray:
-        """Displacement (teeth, 2 c, k) of the sectors' lower cuts under loads (teeth, 2 c, k) on them, Young's modulus 1 MPa.
-
-        The cyclic system ``ahead^T c[s-1] + same c[s] + ahead c[s+1] = loads[s]``: one small system for each harmonic.
-        """
-        harmonics = np.fft.rfft(loads, axis=0)
-        phase = np.exp(2j * np.pi * np.arange(len(harmonics)) / self.gear.teeth)
-        for k, turn in enumerate(phase):
-            stiffness = self._same + self._ahead * turn + self._ahead.T * np.conj(turn)
-            harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
-        return np.fft.irfft(harmonics, n=self.gear.teeth, axis=0)
+        """Displacement (teeth, 2 c, k) of the sectors' lower cuts under loads (teeth, 2 c, k) on them, Young's modulus 1 MPa."""
+        return cyclic_motion(self._same, self._ahead, loads)
 
     def _link(self) -> np.ndarray:
         """Stiffness (4 c, 4 c) of one sector between its cuts, the upper one's dofs in the frame of the next sector."""

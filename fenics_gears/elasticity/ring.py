@@ -47,12 +47,12 @@ def check_congruent(sector: CondensedBody, teeth: int) -> None:
 
 
 def ring_compliance(
-    sector: CondensedBody, teeth: int, offsets: int, respond: Callable[[np.ndarray, int, int], CutResponse] | None = None
+    sector: CondensedBody, teeth: int, offsets: int, respond: Callable[[np.ndarray, int, int], CutResponse] | None = None, comm=None
 ) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
 
     Of sectors in three dimensions (offsets + 1, 3n, 3n): they may twist along z, as a pitch still turns one cut into the other.
-    respond: a quicker way of `cut_response` that this sector allows.
+    respond: a quicker way of `cut_response` that this sector allows. comm: communicator over whose ranks the last products are shared out.
 
     With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]`` with
     ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its inverse's flank block is
@@ -66,7 +66,10 @@ def ring_compliance(
     # One sector between its cuts, its flank free.
     link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts
     joint = (respond or cut_response)(link, teeth, offsets + 1)
-    blocks = np.stack([to_cuts @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
+    own = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
+    blocks = np.stack([own @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
+    if comm is not None:
+        blocks = np.concatenate(comm.allgather(blocks), axis=1)
     blocks[0] += flank_compliance
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
@@ -95,6 +98,19 @@ def cyclic(link: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Of a ring of sectors between their cuts (2 c, 2 c): stiffness (c, c) of a cut, and force on it per motion of the cut ahead."""
     cut = len(link) // 2
     return link[:cut, :cut] + link[cut:, cut:], link[:cut, cut:]
+
+
+def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.ndarray:
+    """Displacement (teeth, c, k) of the cuts of a ring under loads (teeth, c, k) on them.
+
+    The cyclic system ``ahead^T u[s-1] + same u[s] + ahead u[s+1] = loads[s]``: one small system for each harmonic.
+    """
+    harmonics = np.fft.rfft(loads, axis=0)
+    phase = np.exp(2j * np.pi * np.arange(len(harmonics)) / len(loads))
+    for k, turn in enumerate(phase):
+        stiffness = same + ahead * turn + ahead.T * np.conj(turn)
+        harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
+    return np.fft.irfft(harmonics, n=len(loads), axis=0)
 
 
 def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:

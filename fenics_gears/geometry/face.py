@@ -50,7 +50,23 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
     return removed
 
 
-def misalignment_opening(pair: GearPair, misalignment: Misalignment, z, position) -> np.ndarray:
+def coast_face_opening(pair: GearPair, misalignment: Misalignment | None, z, position) -> np.ndarray:
+    """What opens the coast flanks along their own line of action at places z on the face and positions (mm from its start) of the contact.
+
+    Misaligned axes open or close them too; lead modifications are made on the drive flanks.
+    """
+    if misalignment is None:
+        return np.zeros_like(np.asarray(z, dtype=float))
+    double = 2.0 * pair.operating_pressure_angle
+    cosine, sine = np.cos(double), np.sin(double)
+    # In the mirror, the line of centres being the mirror's line: the misalignment as it is seen there, and the other hand.
+    seen = Misalignment(
+        -cosine * misalignment.in_plane - sine * misalignment.out_of_plane, -sine * misalignment.in_plane + cosine * misalignment.out_of_plane
+    )
+    return misalignment_opening(pair, seen, z, position, -pair.slope)
+
+
+def misalignment_opening(pair: GearPair, misalignment: Misalignment, z, position, slope: float | None = None) -> np.ndarray:
     """What a tilted axis of the wheel opens (mm, along the line of action) at places z on the face and positions (mm from T1) of the contact.
 
     The wheel turns by small angles about the point of its axis in the middle of the common face, by which the point of contact, at
@@ -61,7 +77,9 @@ def misalignment_opening(pair: GearPair, misalignment: Misalignment, z, position
       the point of contact, rb2 off the axis, moves along the axis. This is alike at all z and nothing for a spur pair.
 
     Both angles are the scene's amounts over the common face width. Terms of second order (an angle times the flanks' own curvature) are left out.
+    `slope`: of the lines of contact, the pair's unless given.
     """
-    leaning = pair.slope * (np.asarray(position, dtype=float) - pair.line_of_action_length)
+    slope = pair.slope if slope is None else slope
+    leaning = slope * (np.asarray(position, dtype=float) - pair.line_of_action_length)
     in_plane, out_of_plane = misalignment.in_plane / pair.face_width, misalignment.out_of_plane / pair.face_width
-    return in_plane * (np.asarray(z, dtype=float) + leaning) + out_of_plane * pair.slope * pair.wheel.base_radius
+    return in_plane * (np.asarray(z, dtype=float) + leaning) + out_of_plane * slope * pair.wheel.base_radius

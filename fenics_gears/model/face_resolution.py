@@ -45,15 +45,32 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
 
 
 # Elements of the body's section and its layers, in normal modules.
-SECTION_SIZE, LAYER_THICKNESS = 0.35, 1.0
+SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.7
 FEWEST_LAYERS = 4
+# A layer is of second order: it tells two slices apart. With 16 in a layer, line loads that vary over it are wrong by up to half, the mean over the face is not.
+SLICES_OF_A_LAYER, MOST_SLICES_OF_A_LAYER = 2, 4
 
 
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     """How the body of the pinion (0) or the wheel (1) is divided over its face."""
     asked, pair, module = model.scene.accuracy, model.pair, model.scene.gears.module
     width = pair.face_widths[gear]
-    layers = asked.layers or max(ceil(width / (LAYER_THICKNESS * module)), FEWEST_LAYERS)
+    slices = model.face.slices * width / pair.face_width
+    layers = asked.layers or max(ceil(width / (LAYER_THICKNESS * module)), ceil(slices / SLICES_OF_A_LAYER - 1e-9), FEWEST_LAYERS)
     body = (pair.pinion, pair.wheel)[gear]
     twist = (1.0, -1.0)[gear] * pair.slope / body.base_radius
     return FaceDiscretisation(asked.body_element_size or SECTION_SIZE * module, layers, width, twist)
+
+
+def face_warnings(model: Model) -> list[str]:
+    """A sentence where the layers of a body do not tell the slices of the face apart."""
+    found = []
+    for gear, name in enumerate(("pinion", "wheel")):
+        division = face_discretisation(model, gear)
+        slices = model.face.slices * division.face_width / model.pair.face_width
+        if slices > MOST_SLICES_OF_A_LAYER * division.layers:
+            found.append(
+                f"accuracy.layers = {division.layers}: the {name}'s body has {slices / division.layers:.3g} slices of the face to a layer, which it cannot tell apart; a line load that "
+                f"varies over a layer is then wrong. Take accuracy.layers = {ceil(slices / SLICES_OF_A_LAYER - 1e-9)}, or fewer accuracy.slices"
+            )
+    return found

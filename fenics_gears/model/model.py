@@ -106,6 +106,12 @@ class Model:
 
         return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
 
+    def coast_face_opening(self, z: np.ndarray, position: np.ndarray) -> np.ndarray:
+        """What misalignment opens between the coast flanks, along their line of action; arguments as of `face_opening`."""
+        from fenics_gears.geometry.face import coast_face_opening
+
+        return coast_face_opening(self.pair, self.scene.misalignment, z, position)
+
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
         gears = self.scene.gears
@@ -144,6 +150,10 @@ class Model:
         found += locking_warnings(self.resolution, self.scene.gears.materials)
         for sentences in from_effects(self.scene, "warnings", self):
             found += sentences
+        if self.face is not None:
+            from fenics_gears.model.face_resolution import face_warnings
+
+            found += face_warnings(self)
         if self.corner is not None:
             from fenics_gears.contact.corner import edge_warnings
 

@@ -74,7 +74,9 @@ def stored_forces(result: xr.Dataset, model: Model, cycle: Cycle, index: int) ->
 def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, slot: int | None) -> np.ndarray:
     side = {DRIVE: "", COAST: "coast_"}[pair.place.flank]
     count = len(pair.offsets)
-    rolls = np.empty(0) if slot is None else result[f"{side}contact_roll_angle"].values[index, slot]
+    # Over a face each slice has its own nodes.
+    place = (index, slot) if model.face is None else (index, slot, pair.place.slice)
+    rolls = np.empty(0) if slot is None else result[f"{side}contact_roll_angle"].values[place]
     if np.count_nonzero(~np.isnan(rolls)) != count or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS:
         raise ComputationError(
             "the stored contact nodes are not those of the scene that the result carries; stresses are recovered from runs whose scene is "
@@ -86,5 +88,5 @@ def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, sl
     missing = [name for name in kinds if name not in result]
     if missing:
         raise ComputationError(f"the result has no {', '.join(missing)}, which the stresses need; run the scene again with this version")
-    area = pair.lengths * model.pair.face_width
-    return np.concatenate([result[name].values[index, slot, :count] * area for name in kinds])
+    area = pair.lengths * (model.pair.face_width if model.face is None else model.face.contact_widths[pair.place.slice])
+    return np.concatenate([result[name].values[place][:count] * area for name in kinds])

@@ -50,3 +50,12 @@ def test_grid_moves_continuously_with_the_position(paper_pair):
 def test_far_pairs_have_no_nodes(paper_pair):
     """Beyond the reach of its tip a pair cannot touch."""
     assert len(node_offsets(paper_pair, paper_pair.path_start - 8.0, GRID)) == 0
+
+
+def test_any_window_has_two_nodes_at_least(paper_pair):
+    """What averages need: nodes further apart than the flanks or a shortened window are long."""
+    for nodes, length, inner in ((2, 20.0, None), (2, 20.0, 0.1), (3, 6.0, 0.2), (4, 6.0, 0.2), (13, 3.0, 0.1)):
+        grid = ContactGrid(length, nodes, closer_at_edges=True, inner_length=inner)
+        for xi in np.linspace(paper_pair.path_start, paper_pair.path_end, 23)[1:-1]:
+            offsets = node_offsets(paper_pair, xi, grid)
+            assert len(offsets) >= 2 and np.all(np.diff(offsets) > 0.0)

@@ -72,7 +72,13 @@ DIMENSIONS = {
 }
 OVER_THE_FACE = """The common face is divided into slices. Their middles are the coordinate `face_position`: the distance along the axes, mm, from the middle of the common face, towards the end from which
 the pinion is seen to turn counter-clockwise. Fields of contact nodes have the dimension `face_position` between `slot` and `contact_node`. Forces of tooth pairs and of the mesh are along the contact normal, which leans along
-the axes by the base helix angle. Further variables are:"""
+the axes by the base helix angle. Further variables are those below, and the load factors of ISO 6336-1 are among the attributes, read off the computed contact of the drive flanks by the standard's definitions:
+
+* **`face_load_factor`**: at each stored settled step the line loads of all tooth pairs are summed at each place of the face; the largest sum is divided by their mean over the common face; the largest of all steps counts. Of helical
+  gears this is above 1 even if the line load is the same along all lines of contact, since at any time some places have more pairs in contact than others.
+* **`face_load_factor_at_pitch_cylinder`**: of one tooth pair, the line load that each place of the face has when its contact passes the pitch point, largest over mean. The same line load along all lines of contact gives 1.
+* **`transverse_load_factor`**: the standard's K_Halpha is the largest load of a tooth divided by that of a pair without deviations. Here both are shares in the mesh force at the same step, so that no dynamic factor is in them; the
+  shares without deviations are those of the same line load along all lines of contact, as the standard's contact ratio factor assumes."""
 ROOT_STRESS = "`[output] root_stress`"
 # Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional excludes root stress.
 NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes} | {"lead_modifications", "misalignment"}

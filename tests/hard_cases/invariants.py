@@ -9,12 +9,14 @@ import xarray as xr
 from tests.contact.laws_of_contact import law_residual
 
 from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import Model
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.simulation.elastic_route import Compliances, mesh_cycle
+from fenics_gears.simulation.face_route import face_cycle
 from fenics_gears.simulation.rigid_route import rigid_cycle
 
 
@@ -39,9 +41,16 @@ class Run:
 NODES_OF_THEIR_OWN, SHARES = ("contact_offset", "contact_roll_angle", "_opening", "load_share", "pressure_roll_angle"), ("pair_normal_force", "pair_coast_normal_force")
 
 
-def run_of(model: Model, compliances: Compliances | None) -> Run:
-    """March a scene on given gears (None: rigid ones) and keep every step; its result is made too, and is of numbers where it can be."""
-    cycle = rigid_cycle(model) if compliances is None else mesh_cycle(model, compliances)
+def cycle_of(model: Model, compliances) -> Cycle:
+    """Contact on given gears: rigid ones (None), plane ones, or over a face, of which there are the sections and the bodies."""
+    if compliances is None:
+        return rigid_cycle(model)
+    return mesh_cycle(model, compliances) if model.face is None else face_cycle(model, *compliances)
+
+
+def run_of(model: Model, compliances: Compliances | tuple | None) -> Run:
+    """March a scene on given gears (as of `cycle_of`) and keep every step; its result is made too, and is of numbers where it can be."""
+    cycle = cycle_of(model, compliances)
     without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
     marcher = Marcher(cycle, model.equations_of_motion)
     recorder = Recorder(model, cycle)
@@ -107,7 +116,7 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
     """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero, whatever the forces are."""
     pair = run.model.pair
     (radius_1, radius_2), frictional = operator.base_radii, len(forces) > operator.nodes
-    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential=frictional)
+    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential=frictional, face=operator.face)
     on_pinion, on_wheel = -(rows.T @ forces)[:3], -(rows.T @ forces)[3:6]
     total = float(np.abs(forces).sum()) or 1.0
     # In the frame of the drive flanks' line of action, the wheel's centre seen from the pinion's.
@@ -117,10 +126,23 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
         "sum_of_forces": float(np.abs(on_pinion[:2] + on_wheel[:2]).max()) / total,
         "sum_of_moments": abs(couple) / (total * pair.centre_distance),
     }
+    if operator.face is not None:
+        axial, moments = _along_the_axes(operator, -(rows.T @ forces)[7:], on_wheel, (along, across))
+        found |= {"sum_of_axial_forces": axial / total, "sum_of_tilting_moments": moments / (total * pair.centre_distance)}
     # A tip's edge touches along a line of its own, with another lever arm.
     if not frictional and all(each.place.line is None for each in operator.pairs):
         found["couples_by_base_radii"] = abs(on_pinion[2] - on_wheel[2]) / total
     return found
+
+
+def _along_the_axes(operator, on_gears: np.ndarray, on_wheel: np.ndarray, centre: tuple[float, float]) -> tuple[float, float]:
+    """Sum of the axial forces, N, and of the moments about x and y through the pinion's mid-width, N mm, of forces (6,) on both gears."""
+    (radius_1, radius_2), (along, across) = operator.base_radii, centre
+    (axial_1, x_1, y_1), (axial_2, x_2, y_2) = on_gears.reshape(2, 3)
+    beside = operator.face.middles[1] - operator.face.middles[0]
+    about_x = radius_1 * x_1 + radius_2 * x_2 + across * axial_2 - beside * on_wheel[1]
+    about_y = radius_1 * y_1 + radius_2 * y_2 + beside * on_wheel[0] - along * axial_2
+    return abs(axial_1 + axial_2), max(abs(about_x), abs(about_y))
 
 
 def _equilibrium(run: Run, record, force: float) -> dict[str, float]:

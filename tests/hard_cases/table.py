@@ -21,6 +21,7 @@ These cases must stay numerically stable. Case NN is tested by the files `tests/
 authority of every limit. `python -m tests.hard_cases.table` runs these tests and writes this page with the values that they measured.
 
 "x / y" is x divided by y. "x ... y" are the smallest and the largest of several measurements. "Stand-in teeth" are teeth without finite elements (`tests/stand_in.py`).
+"Over the face" heads the values of pairs whose flanks are resolved over the face: helical gears, lead modifications, misaligned axes, gears that tilt.
 An error "with its cause" names why contact has no solution or did not converge. Further symbols are those of [the model](model.md).
 """
 
@@ -29,7 +30,7 @@ class Collector:
     """A pytest plugin that gathers measurements and outcomes by row."""
 
     def __init__(self):
-        self.measured = defaultdict(lambda: defaultdict(list))
+        self.measured, self.over_the_face = (defaultdict(lambda: defaultdict(list)) for _ in range(2))
         self.tests = defaultdict(lambda: defaultdict(int))
 
     def pytest_runtest_logreport(self, report):
@@ -38,10 +39,11 @@ class Collector:
         if report.when != "call" and report.outcome == "passed":
             return
         rows = {int(name[9:11])} if name.startswith("test_row_") else set()
+        measured = self.over_the_face if "over_the_face" in name else self.measured
         for kind, line in report.user_properties:
             if kind == "hard_case":
                 row, what, value, limit = line.split("|")
-                self.measured[int(row)][what].append((value, limit))
+                measured[int(row)][what].append((value, limit))
                 rows.add(int(row))
         for row in rows:
             self.tests[row][report.outcome] += 1
@@ -53,10 +55,16 @@ def page(collector: Collector) -> str:
     for row, (name, must_hold) in CASES.items():
         outcomes = ", ".join(f"{count} {outcome}" for outcome, count in sorted(collector.tests[row].items())) or "none"
         lines += ["", f"## {row}. {name[0].upper()}{name[1:]}", "", f"**Must hold:** {must_hold}. **Tests:** {outcomes}.", ""]
-        lines += ["| quantity | measured | limit |", "|---|---|---|"]
-        for what, lines_of_it in collector.measured[row].items():
-            lines.append(f"| {what} | {spread([each for each, _ in lines_of_it])} | {lines_of_it[-1][1]} |")
+        lines += table(collector.measured[row])
+        if collector.over_the_face[row]:
+            lines += ["", "Over the face:", "", *table(collector.over_the_face[row])]
     return "\n".join(lines) + "\n"
+
+
+def table(measured: dict) -> list[str]:
+    """A table of what was measured."""
+    lines = ["| quantity | measured | limit |", "|---|---|---|"]
+    return lines + [f"| {what} | {spread([each for each, _ in values])} | {values[-1][1]} |" for what, values in measured.items()]
 
 
 def spread(values: list[str]) -> str:

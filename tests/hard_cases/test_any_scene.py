@@ -28,6 +28,8 @@ LAWS = {
     "dissipation": (2, "energy gained by friction / (load x length)", 1e-10, ""),
     "sum_of_forces": (3, "sum of forces on the two gears / load", 1e-12, ""),
     "sum_of_moments": (3, "sum of moments on the two gears / load torque", 1e-12, ""),
+    "sum_of_axial_forces": (3, "sum of axial forces on the two gears / load", 1e-12, ""),
+    "sum_of_tilting_moments": (3, "sum of tilting moments on the two gears / load torque", 1e-12, ""),
     "couples_by_base_radii": (3, "T1/rb1 - T2/rb2 without friction / load", 1e-12, ""),
     "equilibrium": (3, "residual of the quasi-static equilibrium / load", 1e-6, ""),
 }
@@ -40,7 +42,7 @@ class Tally:
         self.worst, self.scenes, self.steps, self.failed = {}, 0, 0, 0
 
     def judge(self, scene, compliances_of):
-        """Run a scene and hold every step against the laws."""
+        """Run a scene and hold every step against the laws; returns the run."""
         model = model_of(scene)
         run = run_of(model, compliances_of(model))
         self.scenes, self.steps, self.failed = self.scenes + 1, self.steps + len(run.records), self.failed + (run.failure is not None)
@@ -52,6 +54,7 @@ class Tally:
             assert value <= LAWS[name][2], f"{name}: {value}\n{scene.text}"
         if run.failure is not None:
             assert is_right(run.failure, scene), f"{run.failure}\n{scene.text}"
+        return run
 
     def tell(self, measured, gears):
         """A line of the table for each law."""

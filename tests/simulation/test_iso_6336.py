@@ -62,3 +62,20 @@ def test_formula_gives_the_values_known_for_the_papers_pair(paper_scene):
     theoretical, adjusted = single_stiffness(paper_scene.gears)
     assert theoretical == pytest.approx(15.8, rel=0.01)
     assert adjusted == pytest.approx(12.3, rel=0.01)
+
+
+def test_teeth_of_a_helical_pair_are_those_of_virtual_spur_gears(paper_scene):
+    """Standard: z_n = z/(cos(beta_b)^2 cos(beta)) in the formula of c'th, with tan(beta_b) = tan(beta) cos(alpha_t); c' of the transverse plane has cos(beta)."""
+    spur, beta = paper_scene.gears, np.radians(25.0)
+    transverse = np.arctan(np.tan(spur.pressure_angle) / np.cos(beta))
+    base = np.arctan(np.tan(beta) * np.cos(transverse))
+
+    def with_teeth(gear, teeth, diameters):
+        dedendum = 0.5 * (gear.teeth * spur.module - gear.root_diameter)
+        return replace(gear, teeth=teeth, root_diameter=teeth * spur.module / diameters - 2.0 * dedendum)
+
+    helical = replace(spur, helix_angle=beta, **{name: with_teeth(getattr(spur, name), getattr(spur, name).teeth, np.cos(beta)) for name in ("pinion", "wheel")})
+    virtual = {name: getattr(spur, name).teeth / (np.cos(base) ** 2 * np.cos(beta)) for name in ("pinion", "wheel")}
+    like = replace(spur, **{name: with_teeth(getattr(spur, name), teeth, 1.0) for name, teeth in virtual.items()})
+    theoretical, adjusted = single_stiffness(like)
+    assert single_stiffness(helical) == pytest.approx((theoretical, adjusted * np.cos(beta)), rel=1e-12)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict
 from time import perf_counter
 
@@ -17,18 +18,19 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
 
 # To be raised by one whenever the same inputs give other numbers.
-FACE_VERSION = 2
+FACE_VERSION = 3
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
 ORDER = 2
 
 
 def face_compliance(
-    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None
+    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None, comm=None
 ) -> FaceCompliance:
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end faces free.
 
     gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs follow the drive
     flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are.
+    comm: communicator over whose ranks the work is shared out; every rank calls this and gets the result, the cache is that of rank 0.
     Raises SceneError for an impossible size, ComputationError when a stage fails.
     """
     check_inputs(gear, material, reach)
@@ -44,7 +46,7 @@ def face_compliance(
         "farthest": farthest,
         "both flanks": both,
     }
-    arrays, timings = kept(cache, inputs, lambda: _computed(similar, scaled, material.poissons_ratio, farthest, both))
+    arrays, timings = _kept(cache, inputs, lambda: _computed(similar, scaled, material.poissons_ratio, farthest, both, comm), comm)
     # In place: the arrays are large, and nothing else refers to them.
     arrays["blocks"] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
@@ -61,7 +63,21 @@ def face_compliance(
     )
 
 
-def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool) -> tuple[dict, dict]:
+def _kept(cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, dict]], comm) -> tuple[dict, dict]:
+    """As `cache.kept`: rank 0 looks into its cache and says whether all must compute."""
+    if comm is None:
+        return kept(cache, inputs, compute)
+    found = None
+    if comm.rank == 0:
+        found = kept(cache, inputs, lambda: comm.bcast(True) and compute())
+        if found[1]["from_cache"]:
+            comm.bcast(False)
+    elif comm.bcast(None):
+        compute()
+    return comm.bcast(found)
+
+
+def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius
@@ -76,10 +92,10 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     mesh = sector_mesh(gear, face.sizes)
     meshed = perf_counter()
     sides = ("flank", "coast") if both else ("flank",)
-    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, sides)
+    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, sides, comm)
     condensed = perf_counter()
     basis = half_turn_basis(sector.points["lower"], len(face.sweep.heights))
-    blocks = ring_compliance(sector, gear.teeth, farthest, lambda *ring: half_turn_response(*ring, basis))
+    blocks = ring_compliance(sector, gear.teeth, farthest, lambda link, teeth, reach: half_turn_response(link, teeth, reach, basis, comm), comm)
     blocks = _in_mirrored_frame(blocks, gear, both)
     joined = perf_counter()
     flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in sides])

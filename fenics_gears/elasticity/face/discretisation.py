@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.face.layers import Sweep, even_layers
+from fenics_gears.elasticity.face.layers import GRADING, Sweep, graded_layers
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 
@@ -19,7 +19,7 @@ LARGEST_TURN = 0.5
 class FaceDiscretisation:
     """A section of elements, second order, that is swept along the face in layers.
 
-    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: of the same thickness, over the face.
+    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face, thinner towards its ends.
     face_width: mm. twist: rad/mm, of the section along z, counter-clockwise positive.
     """
 
@@ -41,7 +41,7 @@ class FaceDiscretisation:
     @property
     def sweep(self) -> Sweep:
         """Layers and twist of the body."""
-        return Sweep(even_layers(self.layers, self.face_width), self.twist)
+        return Sweep(graded_layers(self.layers, self.face_width), self.twist)
 
     def in_modules_of(self, gear: Gear) -> FaceDiscretisation:
         """The same with lengths as multiples of a gear's module."""
@@ -55,7 +55,7 @@ class FaceDiscretisation:
                 raise SceneError(f"{name} is {value} mm, must be positive and finite")
         if self.layers < 1:
             raise SceneError(f"layers is {self.layers}, must be 1 or more")
-        turned = abs(self.twist) * self.face_width / self.layers
+        turned = abs(self.twist) * self.face_width / self.layers * (1.0 + GRADING)
         if not turned <= LARGEST_TURN:
-            least = int(np.ceil(abs(self.twist) * self.face_width / LARGEST_TURN))
+            least = int(np.ceil(self.layers * turned / LARGEST_TURN))
             raise SceneError(f"layers = {self.layers}: a layer would turn by {turned:.3g} rad, at most {LARGEST_TURN} is accurate; take {least} or more")

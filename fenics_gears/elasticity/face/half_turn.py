@@ -44,8 +44,11 @@ def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix,
     return frame @ sparse.csr_matrix((values, (rows, columns)), shape=frame.shape), len(even)
 
 
-def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int]) -> CutResponse:
-    """As `ring.cut_response`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises ComputationError where it does not."""
+def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int], comm=None) -> CutResponse:
+    """As `ring.cut_response`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises ComputationError where it does not.
+
+    comm: communicator over whose ranks the harmonics are shared out; every rank calls this and gets the result.
+    """
     vectors, even = basis
     same, ahead = (vectors.T @ (vectors.T @ part.T).T for part in cyclic(link))
     real, imaginary = ahead + ahead.T, ahead - ahead.T
@@ -53,7 +56,7 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
     if max(off) > ROUND_OFF * abs(same).max():
         raise ComputationError("ring of sectors: half a turn about the tooth's centreline does not map the sector on itself")
     responses = np.zeros((reach + 1, *same.shape))
-    for harmonic in range(teeth // 2 + 1):
+    for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
         angle = 2.0 * np.pi * harmonic / teeth
         stiffness = same + np.cos(angle) * real
         stiffness[:even, even:] = -np.sin(angle) * imaginary[:even, even:]
@@ -66,6 +69,8 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
             response[even:, even:] += cosine * inverse[even:, even:]
             response[:even, even:] += sine * inverse[:even, even:]
             response[even:, :even] -= sine * inverse[even:, :even]
+    if comm is not None:
+        responses = comm.allreduce(responses)
     for response in responses:
         response[:] = vectors @ (vectors @ response.T).T
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T

@@ -70,16 +70,21 @@ def _forms(space, poisson, a, b, c, d):
     return [adapter.compile_form(ufl.inner(stress_of_strain(of_trial(trial), poisson), of_test(test)) * section) for of_trial, of_test in pairs]
 
 
-def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
-    """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the section's frame turned with it."""
-    heights = 2 * len(sweep.thicknesses) + 1
-    rows: list[list] = [[None] * heights for _ in range(heights)]
+def swept_stiffness(section: SectionForms, sweep: Sweep, own: range | None = None) -> sparse.csr_matrix:
+    """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the section's frame turned with it.
+
+    own: consecutive heights whose rows are wanted, all when None.
+    """
+    heights = range(len(sweep.heights))
+    nothing = sparse.csr_matrix((3 * len(section.nodes.points),) * 2)
+    # A block in every column, so that the matrix has all columns.
+    rows = {height: [nothing if number == 0 else None] * len(heights) for number, height in enumerate(own or heights)}
     for layer, blocks in enumerate(_layers(section, sweep)):
         for (low, high), block in blocks.items():
-            row, column = 2 * layer + low, 2 * layer + high
-            known = rows[row][column]
-            rows[row][column] = block if known is None else known + block
-    return sparse.bmat(rows, format="csr")
+            if 2 * layer + low in rows:
+                row, column = rows[2 * layer + low], 2 * layer + high
+                row[column] = block if row[column] is None else row[column] + block
+    return sparse.bmat([*rows.values()], format="csr")
 
 
 def _layers(section: SectionForms, sweep: Sweep) -> Iterator[dict]:

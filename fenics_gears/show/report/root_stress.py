@@ -16,6 +16,8 @@ HEADING = "Root stress"
 
 def root_stress(run: Run) -> Section:
     """Curves and numbers of the fillets' stress; a line on how to have it where it is not there."""
+    if run.is_over_face:
+        return Section("root-stress", HEADING, [Words("It is not recorded where the flanks are resolved over the face; the stress picture and the chart below it show the roots at one time.")])
     if "root_stress_maximum" not in run.dataset:
         return Section("root-stress", HEADING, [Words("It was not recorded; `[output] root_stress = true` in the scene records it.")])
     if not run.has_curves:

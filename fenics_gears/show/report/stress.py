@@ -9,6 +9,7 @@ import xarray as xr
 
 from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.chart import Chart
 from fenics_gears.show.report.page import Picture, Section, Words
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.simulation.stored_forces import stored_index
@@ -31,19 +32,34 @@ def stress(run: Run) -> Section:
     dataset = contact_times(run.dataset)
     index = _most_loaded(dataset) if run.at is None else stored_index(dataset, run.at)
     try:
-        content = _drawn(run, index)
+        content, charts = _drawn_over_face(run, index) if run.is_over_face else (_drawn(run, index), [])
     except GearsError as error:
         return Section("stress", HEADING, [Words(f"It could not be drawn: {error}", warns=True)])
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
+    if run.is_over_face:
+        others = "`gears picture RUN --at PHASE` draws other times, `--vtu` and `--pvd` write them for ParaView."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
-    return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note)])
+    return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note), *charts])
 
 
 def _most_loaded(dataset: xr.Dataset) -> int:
     forces = [dataset[name].values for name in ("normal_force", "coast_normal_force") if name in dataset]
     return int(np.argmax(np.max(forces, axis=0)))
+
+
+def _drawn_over_face(run: Run, index: int) -> tuple[bytes, list[Chart]]:
+    """The picture, and the tension of the roots along the face at that time."""
+    from fenics_gears.show.face_picture import face_picture, root_tension
+    from fenics_gears.show.stress_picture import save_picture
+    from fenics_gears.simulation.face_stresses import FaceStresses
+
+    with FaceStresses(run.dataset, run.scene) as stresses:
+        mesh = stresses.at(index)
+    content = io.BytesIO()
+    save_picture(face_picture(mesh, run.dataset), content)
+    return content.getvalue(), [root_tension(mesh)]
 
 
 def _drawn(run: Run, index: int) -> bytes:

@@ -7,7 +7,7 @@ import numpy as np
 from tests.coarse_sector import PINION
 
 from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.face.layers import Sweep, even_layers
+from fenics_gears.elasticity.face.layers import Sweep
 from fenics_gears.elasticity.face.swept_stiffness import SectionForms
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_mesh import sector_mesh
@@ -16,7 +16,7 @@ from fenics_gears.elasticity.sector_mesh import sector_mesh
 GEAR = PINION.of_module_one
 SIZES = ElementSizes(flank=0.6, fillet=0.6, coast=1.0, body=2.0, depth=0.0, growth=1.0, hub_angle=0.5)
 TWIST = 0.06
-TWISTED = Sweep(even_layers(2, 3.0), TWIST)
+TWISTED = Sweep(np.array([-1.5, 0.0, 1.5]), TWIST)
 
 
 @lru_cache

@@ -16,6 +16,7 @@ from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius, dofs_of
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.condensed import condense_swept, condensed_swept_sector, swept_nodes
+from fenics_gears.elasticity.face.cost import expected_memory, expected_size
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, swept_stiffness
@@ -142,7 +143,7 @@ def test_similar_gears_share_an_entry(both, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "message"), [({"section_size": 0.0}, "section_size is 0.0 mm"), ({"layers": 0}, "layers is 0"), ({"twist": 0.2}, "take 6 or more")]
+    ("change", "message"), [({"section_size": 0.0}, "section_size is 0.0 mm"), ({"layers": 0}, "layers is 0"), ({"twist": 0.2}, "take 8 or more")]
 )
 def test_impossible_bodies_are_refused(change, message):
     """What is wrong, and what is allowed."""
@@ -167,3 +168,14 @@ def test_sector_without_the_symmetry_is_refused():
     basis = half_turn_basis(sector.points["lower"], len(TWISTED.heights))
     with pytest.raises(ComputationError, match="half a turn"):
         ring_compliance(sector, GEAR.teeth, 1, lambda *ring: half_turn_response(*ring, basis))
+
+
+@pytest.mark.parametrize("reach", [Reach(0), BOTH])
+def test_expected_size(reach):
+    """The mesh itself: condensed unknowns exactly, all within 15 %."""
+    gear, face = replace(PINION, teeth=24, tip_radius=59.0, root_radius=49.0), FaceDiscretisation(1.35, 1, 3.0)
+    found = face_compliance(gear, STEEL, face, reach).timings
+    unknowns, condensed = expected_size(gear, face, reach.across is not None)
+    assert condensed == found["condensed_unknowns"]
+    assert unknowns == pytest.approx(found["unknowns"], rel=0.15)
+    assert expected_memory(2 * unknowns, condensed) > expected_memory(unknowns, condensed) > 0.0

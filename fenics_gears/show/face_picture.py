@@ -1,0 +1,168 @@
+"""The gears of a run over the face in mesh in three dimensions, and the teeth of either gear alone, coloured by stress."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from fenics_gears.errors import ComputationError
+from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.chart import MARKED_LINES, Chart, Curve
+from fenics_gears.show.contact_pattern import ACROSS
+from fenics_gears.show.face_grid import surface
+from fenics_gears.show.panels import DARK, GREY, PALETTE, WARNING, styled
+from fenics_gears.show.run import conditions, scene_of
+from fenics_gears.show.stress_picture import COLOURS
+from fenics_gears.simulation.face_stresses import GearsInSpace
+
+UNLOADED, EDGES = "#E4E7EA", "#5A6068"
+PIXELS = 150  # an inch
+LIGHT = {"ambient": 0.55, "diffuse": 0.5, "specular": 0.0}
+CAPTION = (
+    "Stresses are those of the bodies' mesh. It is coarse for the contact, so that stresses in the flanks near the contact are not resolved; those in the roots are.\n"
+    "Grey: teeth further away, whose stress was not recovered."
+)
+NAMES = ("pinion", "wheel")
+
+
+@dataclass(frozen=True)
+class Sight:
+    """A panel: title, place (left, bottom, width, height) in the figure, gears shown, and camera: what it looks at, from which direction, half height, mm."""
+
+    title: str
+    place: tuple[float, float, float, float]
+    gears: tuple[int, ...]
+    focus: np.ndarray
+    direction: np.ndarray
+    half: float
+
+
+@styled
+def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float = 1.0) -> Figure:
+    """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
+
+    Raises ComputationError without pyvista.
+    """
+    figure, limit = Figure(figsize=(16.0, 9.0), dpi=100.0), colour_limit(mesh)
+    for sight in sights(mesh):
+        axes = figure.add_axes(sight.place, xticks=[], yticks=[])
+        axes.imshow(_rendered(mesh, sight, scale, limit), aspect="auto")
+        axes.set_title(sight.title)
+        axes.grid(False)
+        for spine in axes.spines.values():
+            spine.set_visible(True)
+            spine.set_color("#BBBBBB")
+    beyond = max(float(gear.von_mises.max()) for gear in mesh.gears) > limit * (1.0 + 1e-9)
+    bar = figure.colorbar(ScalarMappable(Normalize(0.0, limit), COLOURS), cax=figure.add_axes((0.931, 0.11, 0.013, 0.69)), extend="max" if beyond else "neither")
+    bar.set_label("von Mises stress (MPa)", labelpad=8.0)
+    bar.ax.grid(False)
+    _words(figure, mesh, dataset, scale)
+    return figure
+
+
+def colour_limit(mesh: GearsInSpace) -> float:
+    """Stress (MPa) at which the colours end: the largest in the roots, rounded up to two digits."""
+    highest = max(float(gear.von_mises[..., gear.in_root].max()) for gear in mesh.gears)
+    if highest <= 0.0:
+        return 1.0
+    step = 10.0 ** (np.floor(np.log10(highest)) - 1.0)
+    return float(np.ceil(highest / step - 1e-9) * step)
+
+
+def sights(mesh: GearsInSpace) -> tuple[Sight, Sight, Sight]:
+    """The whole pair, and the loaded teeth of pinion and wheel from the side of their loaded flanks."""
+    pair = mesh.pair
+    across, along = _upright(pair)
+    pitch = np.array([pair.pitch_point, -pair.pinion.base_radius, 0.0])
+    # From the middle of both gears; and from before the flank that carries: the pinion's drive flank looks along the line of action.
+    middle = -0.5 * (pair.centre_distance - pair.pinion.tip_radius + pair.wheel.tip_radius) * along
+    half = 0.5 * (pair.centre_distance + pair.pinion.tip_radius + pair.wheel.tip_radius) + 0.15 * pair.face_width
+    side, axis = (-1.0 if mesh.coast else 1.0) * across, np.array([0.0, 0.0, 1.0])
+    close, deep = 0.45 * pair.face_width + 2.6 * pair.pinion.module, 0.9 * pair.pinion.module * along
+    whole = Sight("The pair in mesh", (0.015, 0.12, 0.36, 0.74), (0, 1), middle, 0.45 * across + 0.25 * along + 0.9 * axis, 1.01 * half)
+    pinion = Sight("Pinion alone", (0.385, 0.12, 0.265, 0.74), (0,), pitch + deep, 0.7 * side - 0.7 * along + 0.45 * axis, close)
+    wheel = Sight("Wheel alone", (0.66, 0.12, 0.265, 0.74), (1,), pitch - deep, -0.7 * side + 0.7 * along + 0.45 * axis, close)
+    return whole, pinion, wheel
+
+
+def root_tension(mesh: GearsInSpace) -> Chart:
+    """Largest tension in the roots of either gear's loaded teeth at each place of its face."""
+    curves = []
+    for name, gear, colour in zip(NAMES, mesh.gears, PALETTE):
+        tension = gear.principal[..., gear.in_root].max(axis=(0, 2))
+        curves.append(Curve(name, gear.points[0, :, 0, 2], tension, colour, mode=MARKED_LINES))
+    return Chart(
+        f"Largest tension in the roots along the face at mesh phase {mesh.mesh_phase:.3f}", curves, ACROSS, "Largest principal stress (MPa)",
+        y_range=(0.0, 1.08 * max(float(curve.y.max()) for curve in curves) or 1.0), note="At the nodes of the bodies' mesh, the loaded teeth and those beside them.",
+    )  # fmt: skip
+
+
+def _upright(pair) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors (3,) across the line of centres, in the sense of the line of action, and along it from the wheel's to the pinion's centre."""
+    centre = np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
+    along = -centre / np.linalg.norm(centre)
+    return np.array([along[1], -along[0], 0.0]), np.append(along, 0.0)
+
+
+def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> np.ndarray:
+    """The image of a panel."""
+    try:
+        import pyvista
+    except ImportError as error:
+        raise ComputationError("a picture of gears in three dimensions needs pyvista, which is not installed") from error
+    # Without a display VTK warns before it draws in memory.
+    pyvista.vtk_verbosity("off")
+    size = [round(part * PIXELS * inches) for part, inches in zip(sight.place[2:], (16.0, 9.0))]
+    plotter = pyvista.Plotter(off_screen=True, window_size=size)
+    try:
+        plotter.set_background("white")
+        plotter.enable_anti_aliasing("ssaa")
+        for number in sight.gears:
+            gear = mesh.gears[number]
+            moved = gear.points + scale * gear.displacement
+            teeth = pyvista.PolyData.from_regular_faces(moved.reshape(-1, 3), surface(moved, gear))
+            teeth.point_data["stress"] = gear.von_mises.ravel()
+            plotter.add_mesh(teeth, scalars="stress", cmap=COLOURS, clim=(0.0, limit), show_scalar_bar=False, **LIGHT)
+            drawn = [teeth]
+            if len(gear.others):
+                drawn.append(pyvista.PolyData.from_regular_faces(gear.others.reshape(-1, 3), surface(gear.others, gear)))
+                plotter.add_mesh(drawn[-1], color=UNLOADED, **LIGHT)
+            for each in drawn:
+                plotter.add_mesh(each.clean().extract_feature_edges(40.0, boundary_edges=False, manifold_edges=False, non_manifold_edges=False), color=EDGES, line_width=1.5)
+        direction = sight.direction / np.linalg.norm(sight.direction)
+        plotter.camera.parallel_projection = True
+        plotter.camera.focal_point = sight.focus
+        plotter.camera.position = sight.focus + 10.0 * sight.half * direction
+        plotter.camera.up = _upright(mesh.pair)[1]
+        plotter.camera.parallel_scale = sight.half * max(1.0, size[1] / size[0]) if len(sight.gears) == 1 else sight.half
+        plotter.reset_camera_clipping_range()
+        return plotter.screenshot(return_img=True)
+    finally:
+        plotter.close()
+
+
+def _words(figure: Figure, mesh: GearsInSpace, dataset: xr.Dataset, scale: float) -> None:
+    complete, scene = bool(dataset.attrs.get("complete", 1)), scene_of(dataset)
+    colour = DARK if complete else WARNING
+    title = " ".join(str(dataset.attrs.get("title", "")).split())
+    figure.text(0.015, 0.955, f"Stress in the gears: {title}", fontsize=18, color=colour, parse_math=False)
+    words = [conditions(scene)] if scene is not None else []
+    figure.text(0.015, 0.917, "  ·  ".join(words if complete else [*words, "INCOMPLETE RUN"]), fontsize=13, color=colour, parse_math=False)
+    stored = contact_times(dataset)
+    index = int(np.argmin(np.abs(stored["contact_mesh_phase"].values - mesh.mesh_phase)))
+    name = "coast_normal_force" if mesh.coast else "normal_force"
+    said = f"Mesh phase {mesh.mesh_phase:.3f}, displacements × {scale:g}."
+    roots = [f"{name_of_gear} {_largest_tension(gear)}" for name_of_gear, gear in zip(NAMES, mesh.gears)]
+    figure.text(0.015, 0.073, f"{said} Mesh force {float(stored[name].values[index]):.0f} N. Largest tension in the roots: {', '.join(roots)}.", fontsize=12, color=DARK)
+    figure.text(0.015, 0.018, CAPTION, fontsize=11, color=GREY, linespacing=1.4)
+
+
+def _largest_tension(gear) -> str:
+    tension = gear.principal[..., gear.in_root]
+    sector, height, _ = np.unravel_index(tension.argmax(), tension.shape)
+    return f"{tension.max():.0f} MPa at z = {gear.points[sector, height, 0, 2]:.1f} mm"

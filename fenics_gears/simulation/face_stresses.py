@@ -1,0 +1,137 @@
+"""Both gears of a run over the face at a stored time: place, displacement and stress of the teeth in mesh, in three dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.contact.face_forces import face_forces
+from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.elasticity.face.recovery import FaceRecovery
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.model.face_resolution import face_discretisation
+from fenics_gears.model.model import model_of
+from fenics_gears.results.pairs import contact_times
+from fenics_gears.scene.data import Scene
+from fenics_gears.simulation.elastic_route import gear_compliances
+from fenics_gears.simulation.face_route import face_cycle, gear_bodies
+from fenics_gears.simulation.run_stresses import hub_motion, standing
+from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
+from fenics_gears.system.progress import Progress, SilentProgress
+
+# Sectors on either side of the loaded teeth that are recovered.
+BESIDE = 2
+
+
+@dataclass(frozen=True)
+class TeethInSpace:
+    """Sectors of one gear at a stored time in the frame of the line of action, z along the axes from the middle of the common face.
+
+    sectors: numbers of those recovered. Nodes by sector, height and the section's node: points (s, h, n, 3), mm, without load; displacement of the same
+    shape, mm, from where the hub is held; stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors. cells: (m, 6), of the section,
+    triangles of second order; subcells, outline: (j, 3) triangles and (k, 2) sides of the section's boundary, of first order, without those on
+    the cuts. in_root: (n,), whether a node lies in a fillet or below.
+    """
+
+    sectors: tuple[int, ...]
+    points: np.ndarray
+    displacement: np.ndarray
+    stress: np.ndarray
+    others: np.ndarray
+    cells: np.ndarray
+    subcells: np.ndarray
+    outline: np.ndarray
+    in_root: np.ndarray
+
+    @property
+    def von_mises(self) -> np.ndarray:
+        """Equivalent stress (s, h, n), MPa."""
+        deviator = self.stress - np.trace(self.stress, axis1=-2, axis2=-1)[..., None, None] / 3.0 * np.eye(3)
+        return np.sqrt(1.5 * (deviator**2).sum(axis=(-1, -2)))
+
+    @property
+    def principal(self) -> np.ndarray:
+        """Largest principal stress (s, h, n), MPa, tension positive."""
+        return np.linalg.eigvalsh(self.stress)[..., -1]
+
+
+@dataclass(frozen=True)
+class GearsInSpace:
+    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more; `motion` (2, 3): of the hubs, mm, mm, rad."""
+
+    time: float
+    mesh_phase: float
+    gears: tuple[TeethInSpace, TeethInSpace]
+    pair: GearPair
+    coast: bool
+    motion: np.ndarray
+
+
+class FaceStresses:
+    """Displacement and stress of the teeth in mesh at any step of a result over the face whose contact fields are stored. Use it in a `with`."""
+
+    def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None, progress: Progress | None = None):
+        self.model, self.result = model_of(scene), contact_times(result)
+        cache, progress = cache if cache is not None else user_cache(), progress or SilentProgress()
+        sections, bodies = gear_compliances(self.model, progress, cache), gear_bodies(self.model, progress, cache)
+        self.cycle = face_cycle(self.model, sections, bodies)
+        progress.stage("factorise sectors")
+        self.recoveries = tuple(self._recovery(gear) for gear in (0, 1))
+
+    def _recovery(self, gear: int) -> FaceRecovery:
+        pair, scene = self.model.pair, self.model.scene
+        data = (pair.pinion, pair.wheel)[gear]
+        return FaceRecovery(data, scene.gears.materials[gear], face_discretisation(self.model, gear), coast_flank=scene.coast_flanks is not None)
+
+    def __enter__(self) -> FaceStresses:
+        return self
+
+    def __exit__(self, *failure) -> None:
+        for recovery in self.recoveries:
+            recovery.close()
+
+    def at(self, index: int) -> GearsInSpace:
+        """Both gears at a stored step."""
+        stored = stored_forces(self.result, self.model, self.cycle, index)
+        phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
+        gears = tuple(self._gear(gear, stored) for gear in (0, 1))
+        return GearsInSpace(time, phase, gears, self.model.pair, stored.on_coast_flanks, hub_motion(self.result, index))
+
+    def _gear(self, gear: int, stored: StoredForces) -> TeethInSpace:
+        recovery, face = self.recoveries[gear], self.model.face
+        data = (self.model.pair.pinion, self.model.pair.wheel)[gear]
+        forces = face_forces(gear, data, face, recovery.heights, stored.pairs, stored.forces)
+        loaded = [*forces] or [0]
+        sectors = tuple(range(min(loaded) - BESIDE, max(loaded) + BESIDE + 1))[: data.teeth]
+        found = recovery.recovered(forces, sectors)
+        centre, angles = standing(self.model.pair, gear, stored.phase)
+        z = recovery.heights + face.middles[gear]
+        # How a section's frame stands at each height, by sector (teeth, h, 3, 3).
+        turns = np.stack([[rotation(angle + (1.0, -1.0)[gear] * face.slope / data.base_radius * height, 3) for height in z] for angle in angles])
+        section = np.column_stack([recovery.points, np.zeros(len(recovery.points))])
+        places = np.einsum("thij,nj->thni", turns, section) + np.append(centre, 0.0) + z[:, None, None] * np.array([0.0, 0.0, 1.0])
+        own = np.array(sectors) % data.teeth
+        radius = np.linalg.norm(recovery.points, axis=1)
+        return TeethInSpace(
+            sectors=sectors,
+            points=places[own],
+            displacement=np.einsum("shij,shnj->shni", turns[own], found.displacement),
+            stress=np.einsum("shia,shnab,shjb->shnij", turns[own], found.stress, turns[own], optimize=True),
+            others=np.delete(places, own, axis=0),
+            cells=recovery.body.section.cells,
+            subcells=recovery.body.section.subcells,
+            outline=outer_sides(recovery.body.section, recovery.body.mesh),
+            in_root=(radius < data.form_radius) & (radius > 0.5 * (data.bore_radius + data.root_radius)),
+        )
+
+
+def outer_sides(nodes, mesh) -> np.ndarray:
+    """Sides (k, 2) of first order of the section's boundary, without those on its cuts."""
+    sides, count = nodes.boundary_sides, len(nodes.points)
+    cuts = np.sort(np.vstack([mesh.edges["lower cut"], mesh.edges["upper cut"]]), axis=1)
+    ends = np.sort(sides[:, :2], axis=1)
+    sides = sides[~np.isin(ends @ [count, 1], cuts @ [count, 1])]
+    return np.vstack([sides[:, [0, 2]], sides[:, [2, 1]]])

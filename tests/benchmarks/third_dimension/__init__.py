@@ -1,0 +1,1 @@
+"""What must hold of gears resolved over the face, into docs/third_dimension.md: `python -m tests.benchmarks.third_dimension [NAMES]`."""

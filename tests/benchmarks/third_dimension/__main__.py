@@ -1,0 +1,25 @@
+"""Measure and write the sections of docs/third_dimension.md: all of them, or those that are named; `--draw`: from the numbers kept."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from pathlib import Path
+
+from tests.benchmarks.marked_section import write_section
+
+PAGE = Path(__file__).parents[3] / "docs" / "third_dimension.md"
+NAMES = ("plane_limits", "overlap", "misaligned", "crowned", "tooth_stiffness", "resolved")
+
+
+def main(words: list[str]) -> None:
+    """Each benchmark in turn."""
+    for name in [word for word in words if word != "--draw"] or NAMES:
+        benchmark = import_module(f"tests.benchmarks.third_dimension.{name}")
+        if "--draw" not in words:
+            benchmark.measure()
+        write_section(PAGE, f"<!-- {name}: begin -->", f"<!-- {name}: end -->", benchmark.section())
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,30 @@
+"""Numbers of a benchmark as lines of a CSV and of a page's table."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+PICTURES = Path(__file__).parents[3] / "docs" / "pictures" / "third_dimension"
+
+Row = dict[str, float]
+
+
+def write_rows(name: str, rows: list[Row]) -> None:
+    """Keep rows in the CSV of a benchmark."""
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    with open(PICTURES / f"{name}.csv", "w", encoding="utf-8", newline="") as opened:
+        writer = csv.DictWriter(opened, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows([{key: f"{value:.8g}" for key, value in row.items()} for row in rows])
+
+
+def read_rows(name: str) -> list[Row]:
+    """Rows that `write_rows` kept."""
+    with open(PICTURES / f"{name}.csv", encoding="utf-8", newline="") as opened:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(opened)]
+
+
+def table(headings: list[str], lines: list[list[str]]) -> list[str]:
+    """Lines of a table."""
+    return [f"| {' | '.join(cells)} |" for cells in (headings, ["---"] * len(headings), *lines)]

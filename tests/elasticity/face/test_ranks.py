@@ -1,0 +1,39 @@
+"""A gear's body shared out between MPI ranks."""
+
+import subprocess
+import sys
+
+import pytest
+from tests.studies.conftest import environment, mpirun
+
+pytestmark = pytest.mark.ranks
+
+PROGRAM = """
+from dataclasses import replace
+import numpy as np
+from mpi4py import MPI
+from tests.coarse_sector import PINION, STEEL
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.face.compliance import face_compliance
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+
+comm, face, both = MPI.COMM_WORLD, FaceDiscretisation(2.7, 3, 15.0, 0.007), Reach(1, (-1, 1))
+cache = Cache("cache") if comm.rank == 0 else None
+alone = face_compliance(PINION, STEEL, face, both)
+for known in (False, True):
+    shared = face_compliance(PINION, STEEL, face, both, cache, comm)
+    assert shared.timings["from_cache"] == known
+    for one, other in ((alone.blocks, shared.blocks), (alone.plane.blocks, shared.plane.blocks)):
+        assert np.linalg.norm(one - other) <= 1e-9 * np.linalg.norm(one), np.linalg.norm(one - other) / np.linalg.norm(one)
+print(f"rank {comm.rank} agrees")
+"""
+
+
+@pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=pytest.mark.nightly)])
+def test_ranks_give_what_one_gives(tmp_path, ranks):
+    """Who assembles, eliminates and inverts which part changes nothing but round-off; the cache of rank 0 serves all."""
+    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
+    run = subprocess.run([*mpirun(ranks), sys.executable, "program.py"], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=120)
+    assert run.returncode == 0, run.stderr
+    assert all(f"rank {rank} agrees" in run.stdout for rank in range(ranks))

@@ -1,0 +1,58 @@
+"""Displacement and stress recovered in swept sectors."""
+
+from math import radians, tan
+
+import numpy as np
+import pytest
+from tests.coarse_sector import PINION, STEEL
+from tests.elasticity.face.swept import TWIST, TWISTED, in_frame, in_place, section, swept_points
+
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.face.compliance import face_compliance
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face.recovery import FaceRecovery
+from fenics_gears.elasticity.face.swept_stress import SweptStress
+from fenics_gears.elasticity.ring import rotation
+
+PINION_BODY = FaceDiscretisation(2.7, 2, 15.0, tan(radians(15.0)) / PINION.reference_radius)
+
+
+@pytest.fixture(scope="module")
+def recovery():
+    """The paper's pinion with a helix, coarsely meshed."""
+    with FaceRecovery(PINION, STEEL, PINION_BODY) as found:
+        yield found
+
+
+def test_flanks_move_as_their_compliance_says(recovery):
+    """Identity: what is recovered at the flanks of the loaded tooth and its neighbours is the condensed compliance times the forces."""
+    compliance = face_compliance(PINION, STEEL, PINION_BODY, Reach(1))
+    flank = recovery.body.flank_nodes("flank")
+    forces = np.random.default_rng(1).normal(size=(1, len(compliance.heights), len(compliance.roll_angle), 3))
+    found = recovery.recovered({0: forces}, range(-1, 2)).displacement.reshape(3, -1, 3)[:, flank].reshape(3, -1)
+    for moved, block in zip(found, (compliance.blocks[1].T, compliance.blocks[0], compliance.blocks[1])):
+        assert np.linalg.norm(moved - block @ forces.ravel()) < 1e-9 * np.linalg.norm(moved)
+
+
+def test_loads_of_several_teeth_superpose(recovery):
+    """Linear: two loaded teeth move and are stressed as by each load alone, also where one has the number of a tooth a whole turn on."""
+    shape = (1, len(recovery.heights), len(recovery.body.flank_nodes("flank")) // len(recovery.heights), 3)
+    one, other = np.random.default_rng(2).normal(size=(2, *shape))
+    together = recovery.recovered({0: one, 1 + PINION.teeth: other}, range(2))
+    parts = [recovery.recovered(load, range(2)) for load in ({0: one}, {1: other})]
+    for name in ("displacement", "stress"):
+        alone = sum(getattr(part, name) for part in parts)
+        assert np.abs(getattr(together, name) - alone).max() < 1e-10 * np.abs(alone).max()
+
+
+def test_uniform_strain_has_its_stress():
+    """Exact: a displacement linear in space has one stress at all nodes of a twisted body, Hooke's, turned into each height's frame."""
+    points = swept_points(section().nodes.points, TWISTED)
+    gradient = np.random.default_rng(3).normal(size=(3, 3))
+    moved = in_frame((in_place(points, TWIST) @ gradient.T)[..., None], points, TWIST).reshape(len(TWISTED.heights), -1, 3)
+    strain, shear, lame = 0.5 * (gradient + gradient.T), 0.5 / 1.3, 0.3 / (1.3 * 0.4)
+    stress = 2.0 * shear * strain + lame * np.trace(strain) * np.eye(3)
+    found = SweptStress(section().nodes, TWISTED, 0.3).at_nodes(moved)
+    for height, at_height in zip(TWISTED.heights, found):
+        frame = rotation(TWIST * height, 3)
+        assert np.abs(frame @ at_height @ frame.T - stress).max() < 1e-9 * np.abs(stress).max()

@@ -1,0 +1,72 @@
+"""The same analyses by the program's own way: bodies over the face, fine plane sections in slices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import radians
+
+import numpy as np
+from tests.face_reference.cases import FACE_WIDTH, STEEL, base_slope, reference_pair
+from tests.face_reference.reference import OPENINGS
+
+from fenics_gears.contact.face import Face, even_slices
+from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.operator import COORDINATES, node_slices
+from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.element_sizes import Discretisation
+from fenics_gears.elasticity.face.compliance import face_compliance
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+
+STEPS = 1000
+REACH = Reach(2)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Approach along the transverse line of action (mm), and line load (N/mm) of each tooth pair over slices at `positions` (mm)."""
+
+    approach: float
+    positions: np.ndarray
+    line_loads: dict[int, np.ndarray]
+
+
+@lru_cache(maxsize=2)
+def gears(helix_angle: float, section_size: float, layers: int, flank: float, cache):
+    """Plane sections and bodies of both gears; helix angle in deg, sizes in mm."""
+    pair, slope = reference_pair(radians(helix_angle)), base_slope(radians(helix_angle))
+    sections = tuple(flank_compliance(gear, STEEL, Discretisation("P2", flank), REACH, cache) for gear in (pair.pinion, pair.wheel))
+    bodies = tuple(
+        face_compliance(gear, STEEL, FaceDiscretisation(section_size, layers, FACE_WIDTH, sense * slope / gear.base_radius), REACH, cache)
+        for gear, sense in ((pair.pinion, 1.0), (pair.wheel, -1.0))
+    )
+    return pair, slope, sections, bodies
+
+
+def answer(
+    helix_angle: float, phase: float, opening: str, force: float, cache=None, *, section_size=1.0, layers=6, slices=16, flank=0.045, spacing=0.03
+) -> Answer:
+    """One analysis; helix angle in deg, force (N) along n, sizes in mm."""
+    pair, slope, sections, bodies = gears(helix_angle, section_size, layers, flank, cache)
+    face = Face(*even_slices(FACE_WIDTH, slices), slope)
+    grid = ContactGrid(74 * spacing, 75, closer_at_edges=True, inner_length=30 * spacing)
+
+    def opened(heights, positions):
+        return OPENINGS[opening](heights) / face.cosine
+
+    cycle = FaceCycle(Flanks(pair, sections), bodies, face, opened, grid, STEPS, [COORDINATES.index("rotation_2")], tangential=False)
+    operator, load = cycle.position(round(phase * STEPS)).operator, force * face.cosine
+    problem = StepProblem(
+        np.zeros((1, 1)), np.array([load]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, np.ones(1), Tolerance.of_load(load)
+    )
+    solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+    found: dict[int, np.ndarray] = {}
+    for tooth_pair, nodes in zip(operator.pairs, node_slices(operator.pairs)):
+        line = found.setdefault(tooth_pair.place.index, np.zeros(slices))
+        line[tooth_pair.place.slice] += solution.forces[nodes].sum() / face.widths[tooth_pair.place.slice]
+    return Answer(float(solution.coordinates[0]), face.positions, found)

@@ -1,0 +1,79 @@
+"""Results of the resolved model as rows of reference.csv, and how they are found."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from math import radians
+from pathlib import Path
+
+import numpy as np
+
+from tests.face_reference.cases import FACE_WIDTH, Assembled, Sizes, assembled
+from tests.face_reference.section_mesh import SectionSizes
+from tests.face_reference.unilateral import pressed
+
+FILE = Path(__file__).with_name("reference.csv")
+FORCE = 1500.0
+# What opens the flanks along n (mm) at heights z (mm).
+OPENINGS = {
+    "plain": np.zeros_like,
+    "misaligned": lambda z: 0.010 * z / FACE_WIDTH,
+    "crowned": lambda z: 0.010 * (2.0 * z / FACE_WIDTH) ** 2,
+}
+# Sizes that fit 2 GB; `Sizes()` itself is the finer model, which has not been run yet.
+SMALL = Sizes(SectionSizes(0.08, 0.12, 0.9, 1.6, 6.0, 0.6, 1), (0.15, 0.3, 0.5, 0.8, 1.0, 1.0), 0.05, 0.3)
+
+
+@dataclass(frozen=True)
+class Row:
+    """Line load (N per mm of face, along n) of a tooth pair at height `z` (mm); `approach` (mm, along the transverse line of action), `force` (N, of all pairs, along n) and `peak_pressure` (MPa) of the analysis."""
+
+    helix_angle: float
+    phase: float
+    opening: str
+    approach: float
+    force: float
+    peak_pressure: float
+    pair: int
+    z: float
+    line_load: float
+
+
+def rows(found: Assembled, helix_angle: float, opening: str, force: float = FORCE) -> list[Row]:
+    """All line loads of one analysis; helix angle in deg."""
+    areas, heights = np.concatenate([each.areas for each in found.points]), found.points[0].z
+    z = np.concatenate([each.z[each.level] for each in found.points])
+    gaps = np.concatenate([each.gaps for each in found.points]) + OPENINGS[opening](z) * areas
+    pressure, approach = pressed(found.matrix, gaps, areas, force)
+    share, result, first = np.zeros(len(heights)), [], 0
+    share[:-1] += 0.5 * np.diff(heights)
+    share[1:] += 0.5 * np.diff(heights)
+    for each in found.points:
+        part = slice(first, first + len(each.chosen))
+        load = np.bincount(each.level, (pressure * areas)[part], minlength=len(heights)) / share
+        head = (helix_angle, found.position.phase, opening, approach / found.position.cosine, force, float(pressure.max()), each.index)
+        result += [Row(*head, float(height), float(value)) for height, value in zip(heights, load)]
+        first = part.stop
+    return result
+
+
+def computed(helix_angle: float, phase: float, sizes: Sizes = SMALL) -> list[Row]:
+    """All openings at one phase; helix angle in deg."""
+    found = assembled(radians(helix_angle), phase, sizes)
+    return [row for opening in OPENINGS for row in rows(found, helix_angle, opening)]
+
+
+def reference() -> list[Row]:
+    """The rows of the file."""
+    kinds = {name: str if name == "opening" else int if name == "pair" else float for name in Row.__annotations__}
+    with FILE.open() as lines:
+        return [Row(**{name: kinds[name](value) for name, value in line.items()}) for line in csv.DictReader(lines)]
+
+
+def write(found: list[Row], file: Path = FILE) -> None:
+    """Write rows to a file."""
+    with file.open("w", newline="") as lines:
+        writer = csv.writer(lines, lineterminator="\n")
+        writer.writerow(Row.__annotations__)
+        writer.writerows([getattr(row, name) for name in Row.__annotations__] for row in found)

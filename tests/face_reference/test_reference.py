@@ -1,0 +1,41 @@
+"""Deflection and line load over the face against fully resolved three-dimensional models, which share no code with the split.
+
+Their results are in reference.csv; `python -m tests.face_reference` computes them again.
+"""
+
+from itertools import groupby
+
+import numpy as np
+import pytest
+from tests.face_reference.by_slices import answer
+from tests.face_reference.reference import reference
+
+ANALYSES = {key: list(rows) for key, rows in groupby(reference(), key=lambda row: (row.helix_angle, row.phase, row.opening))}
+BY_DAY = [(0.0, 0.35, "misaligned"), (20.0, 0.35, "plain"), (20.0, 0.35, "crowned")]
+
+
+def cases():
+    """All of the file; those of one phase by day, the others by night."""
+    for key in ANALYSES:
+        yield pytest.param(key, id="helix {:g} deg, phase {:g}, {}".format(*key), marks=() if key in BY_DAY else pytest.mark.nightly)
+
+
+@pytest.mark.parametrize("key", cases())
+def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cache, record_property):
+    """Fully resolved model: approach within 0.5 % (asked: 1 %), the forces of the tooth pairs within 0.5 % of all."""
+    rows = ANALYSES[key]
+    found = answer(*key, rows[0].force, suite_cache)
+    record_property("relative difference", found.approach / rows[0].approach - 1.0)
+    assert found.approach == pytest.approx(rows[0].approach, rel=0.005)
+    for pair, of_pair in groupby(rows, key=lambda row: row.pair):
+        z, load = np.array([(row.z, row.line_load) for row in of_pair]).T
+        width = found.positions[1] - found.positions[0]
+        assert np.trapz(load, z) == pytest.approx(found.line_loads[pair].sum() * width, abs=0.005 * rows[0].force)
+
+
+def test_the_split_is_needed():
+    """The resolved model tells right from wrong: in plane strain the spur pair gives way by 4 % less, and a helical pair by more than half more."""
+    plain = {helix: ANALYSES[helix, 0.35, "plain"][0].approach for helix in (0.0, 20.0)}
+    assert plain[20.0] > 1.5 * plain[0.0]
+    # Plane strain: 0.0098925 mm, by the program's plane route.
+    assert plain[0.0] > 1.04 * 0.0098925

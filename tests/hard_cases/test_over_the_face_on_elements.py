@@ -1,0 +1,94 @@
+"""Rows 9, 14, 15, 16 and 22 on flanks resolved over the face, on coarse bodies of finite elements."""
+
+import numpy as np
+import pytest
+from tests.hard_cases.helical import BEARINGS, CROWNED, FRICTION, helical_scene
+from tests.hard_cases.invariants import run_of, worst_of
+from tests.hard_cases.test_any_scene import LAWS
+
+from fenics_gears.model.model import model_of
+from fenics_gears.simulation.elastic_route import gear_compliances
+from fenics_gears.simulation.face_route import gear_bodies
+from fenics_gears.system.progress import SilentProgress
+
+TEETH = (18, 20)
+RELIEF = '\n[tip_relief]\ndepth = "40 um"\nstart = "HPSTC"\nshape = "parabolic"\n'
+
+
+def accuracy(slices=5, layers=2, body=1.5, nodes=11, steps=8):
+    return (
+        f'slices = {slices}\nlayers = {layers}\nbody_element_size = "{body} mm"\nflank_element_size = "0.5 mm"\nelement = "P2"\n'
+        f"contact_nodes = {nodes}\nsteps_per_mesh_cycle = {steps}"
+    )
+
+
+@pytest.fixture
+def run(suite_cache):
+    """A run of a scene on its own bodies; it must not fail, and obey rows 1 to 3 at every step."""
+
+    def marched(more="", **changes):
+        model = model_of(helical_scene(more, teeth=TEETH, **{"accuracy": accuracy(), **changes}))
+        found = run_of(model, tuple(of(model, SilentProgress(), suite_cache) for of in (gear_compliances, gear_bodies)))
+        assert found.failure is None, str(found.failure)
+        for name, value in worst_of(found).items():
+            assert value <= LAWS[name][2], f"{name}: {value}"
+        return found.result
+
+    return marched
+
+
+def test_hands_in_the_mirror(run, measured):
+    """Row 9. Exact symmetry: z -> -z turns hands and misalignment round, from the mesh to the transmission error."""
+    right, left = (
+        run(FRICTION + CROWNED + f'[misalignment]\nin_plane = "{sign * 0.02!r} mm"\nout_of_plane = "{sign * 0.01!r} mm"\n', hand=hand)
+        for hand, sign in (("right", 1.0), ("left", -1.0))
+    )
+    apart = [float(np.abs(sign * left[name].values - right[name].values).max() / np.abs(right[name].values).max()) for name, sign in (("transmission_error", 1.0), ("reaction_z", -1.0), ("reaction_moment_x", -1.0))]
+    loads = float(np.abs(left["line_load"].values[..., ::-1] - right["line_load"].values).max() / right["line_load"].values.max())
+    measured("finite elements, hands mirrored: transmission error, axial force, moment", ", ".join(f"{each:.1g}" for each in apart), "1e-10", row=9)
+    measured("finite elements, hands mirrored: line load", loads, "1e-9", row=9)
+    assert max(apart) <= 1e-10 and loads <= 1e-9
+
+
+def test_slices_refined(run, measured):
+    """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the layers (6 mm), where flanks enter contact
+    smoothly; from slice to slice the phases fall differently on the steps, so that 1.2 is asked for."""
+    slices = (6, 12, 24)
+    results = [run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=17, steps=7))["transmission_error"].values for number in slices]
+    means, ranges = ([of(each) for each in results] for of in (np.mean, np.ptp))
+    steps = np.abs(np.diff(means))
+    measured("finite elements, slices 12 to 24: change of mean, of peak-to-peak transmission error", f"{steps[-1] / means[-1]:.1e}, {abs(ranges[-1] / ranges[-2] - 1.0):.1e}", "3e-3, recorded", row=22)
+    measured("finite elements, order of the mean in the slices' width, from 6, 12 and 24", float(np.log2(steps[-2] / steps[-1])), "above 1.2", row=22)
+    assert steps[-1] <= 3e-3 * means[-1] and steps[-1] < 2.0**-1.2 * steps[-2]
+
+
+@pytest.mark.nightly
+def test_nearly_incompressible_bodies(run, measured):
+    """Row 14. Second-order wedges do not lock: halving the elements moves the deflection little more than at 0.3, and softer material in shear is not stiffer."""
+    changes = {}
+    for poissons_ratio in (0.3, 0.499):
+        coarse, fine = (
+            run(CROWNED, poissons_ratio=poissons_ratio, accuracy=accuracy(layers=layers, body=size))["transmission_error"].values.mean()
+            for layers, size in ((2, 1.5), (4, 0.75))
+        )
+        changes[poissons_ratio] = fine / coarse - 1.0
+        measured(f"finite elements, Poisson's ratio {poissons_ratio}: change of the mean transmission error with half the element size", changes[poissons_ratio], "2 %", row=14)
+    assert max(changes.values()) <= 0.02
+
+
+@pytest.mark.parametrize("elasticities", [(206e3, 2e3), pytest.param((2e3, 206e3), marks=pytest.mark.nightly), pytest.param((206e3, 206e9), marks=pytest.mark.nightly)])
+def test_gears_of_different_stiffness(elasticities, run, measured):
+    """Row 16. Equilibrium and the laws at every step, whatever the ratio of the moduli; torques are carried."""
+    result = run(BEARINGS + FRICTION, elasticities=elasticities, torque=20e3)
+    apart = float(np.abs(result["reaction_couple"].sel(gear="wheel").values + 20e3).max() / 20e3)
+    measured(f"finite elements, Young's moduli {elasticities[0]:g} and {elasticities[1]:g} MPa: error of the torque", apart, "1e-9", row=16)
+    assert apart <= 1e-9
+
+
+def test_gears_that_tilt_a_lot(run, measured):
+    """Row 15. Bearings a thousandth of the usual stiffness: the laws hold, and the result says that rotations and tilts are no longer small."""
+    soft = BEARINGS.replace('"0.2e6', '"200').replace('"0.1e6', '"100')
+    result = run(soft + FRICTION)
+    tilt = float(np.abs(result["tilt_y"].values).max())
+    measured("finite elements, bearings / 1000: largest tilt", tilt, "no failed step", "rad", row=15)
+    assert np.isfinite(tilt) and "small" in result.attrs["warnings"]

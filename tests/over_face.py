@@ -1,0 +1,26 @@
+"""A short, coarse run over the face that pictures and results are tested on; it takes seconds."""
+
+from functools import lru_cache
+
+from tests.helical import helical_scene
+
+from fenics_gears.simulation.simulate import simulate
+
+MORE = """
+[misalignment]
+in_plane = "10 um"
+[accuracy]
+slices = 5
+layers = 3
+body_element_size = "3 mm"
+flank_element_size = "0.3 mm"
+contact_length = "4 mm"
+contact_nodes = 27
+steps_per_mesh_cycle = 12
+"""
+
+
+@lru_cache
+def helical_run():
+    """One mesh cycle of a misaligned helical pair."""
+    return simulate(helical_scene(MORE))

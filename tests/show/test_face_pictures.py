@@ -1,0 +1,88 @@
+"""Pictures of a run whose flanks are resolved over the face, of a short coarse run."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+from tests.over_face import helical_run
+from tests.show.synthetic import made_up_run
+
+from fenics_gears.results.files import load, save
+from fenics_gears.results.pairs import in_middle_slice
+from fenics_gears.show import FACE_PICTURE_FILES
+from fenics_gears.show.contact_pattern import contact_patterns
+from fenics_gears.show.line_load import line_loads
+from fenics_gears.show.plots import draw_run
+from fenics_gears.show.report.rendering import rendered
+from fenics_gears.show.report.run_page import run_page
+from fenics_gears.show.run import Run
+
+
+@pytest.fixture(scope="module")
+def run():
+    return Run(helical_run(), stress=False)
+
+
+def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
+    """Authority: each decodes and shows more than its ground; a plane run has none of them."""
+    files = {file.name: file for file in draw_run(helical_run(), tmp_path)}
+    assert set(FACE_PICTURE_FILES) < set(files) and "contact_pressure.png" in files
+    for name in FACE_PICTURE_FILES:
+        picture = imread(files[name])
+        assert picture.shape[1] == 1500 and np.mean(picture[..., :3].min(axis=2) < 0.9) > 0.05
+    assert not set(FACE_PICTURE_FILES) & {file.name for file in draw_run(made_up_run(), tmp_path / "plane")}
+
+
+def test_pattern_shows_the_largest_pressure_where_it_is(run):
+    """Authority: the result's own fields. Cells hold the largest pressure of their slice's nodes, at the diameter of the node that has it."""
+    pressure, rolls = (run.dataset[f"contact_{name}"].values for name in ("pressure", "roll_angle"))
+    field = contact_patterns(run)[0].field
+    assert np.nanmax(field.values, axis=0) == pytest.approx(pressure.max(axis=(0, 1, 3)))
+    for number in range(pressure.shape[2]):
+        own = pressure[:, :, number]
+        diameter = 2.0 * run.pair.pinion.radius(rolls[:, :, number].flat[own.argmax()])
+        cell = np.clip(np.searchsorted(field.y, diameter) - 1, 0, len(field.y) - 2)
+        assert field.values[cell, number] == pytest.approx(own.max())
+
+
+def test_wheel_has_the_pressure_of_the_pinion(run):
+    """Newton's third law: both flanks have the same largest pressures in each slice, and the wheel's pattern ends where its active profile does."""
+    pinion, wheel = (chart.field for chart in contact_patterns(run))
+    assert np.nanmax(wheel.values, axis=0) == pytest.approx(np.nanmax(pinion.values, axis=0))
+    touched = wheel.y[:-1][np.isfinite(wheel.values).any(axis=1)]
+    active = 2.0 * run.pair.wheel.radius((run.pair.line_of_action_length - run.pair.path_end) / run.pair.wheel.base_radius)
+    assert touched.min() == pytest.approx(active, abs=0.3 * run.pair.wheel.module)
+
+
+def test_line_loads_add_up_to_the_forces(run):
+    """Identity: the line load of the mesh over the face is its normal force, of a tooth pair that pair's."""
+    mesh, pair, _ = line_loads(run)
+    widths = np.diff(mesh.field.y)
+    assert np.nansum(mesh.field.values * widths[:, None], axis=0) == pytest.approx(run.dataset["normal_force"].values, rel=1e-9)
+    assert np.nanmax(np.nansum(pair.field.values * widths[:, None], axis=0)) >= run.dataset["pair_normal_force"].values.max() * (1 - 1e-9)
+
+
+def test_report_has_the_face_and_the_middle_slice(run, tmp_path):
+    """What a reader looks for: the section of the face, its charts, and which slice the map over the flank is of."""
+    file = tmp_path / "run.nc"
+    save(run.dataset, file)
+    page = rendered(run_page(Run(load(file), file, stress=False)))
+    middle = float(in_middle_slice(run.dataset)["face_position"])
+    for words in ("Contact over the face", "Line load of the mesh", "Largest contact pressure on the wheel", f"slice at {middle:.2f} mm"):
+        assert words in page.replace("&#39;", "'")
+
+
+def test_plane_runs_do_not_import_the_pictures_of_the_face():
+    """Authority: rule 9 of the house; a process that draws a plane run."""
+    names = "contact_pattern", "line_load", "face_picture", "face_grid"
+    program = f"""
+import sys, tempfile
+from tests.show.synthetic import made_up_run
+from fenics_gears.show.plots import draw_run
+draw_run(made_up_run(), tempfile.mkdtemp())
+print([name for name in {names} if "fenics_gears.show." + name in sys.modules], "fenics_gears.results.load_factors" in sys.modules)
+"""
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert found.stdout.split("\n")[0] == "[] False"

@@ -1,0 +1,126 @@
+"""Stresses of teeth over the face, recovered at stored times."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import COARSE, frictionless, teeth_alone
+from tests.over_face import helical_run
+
+from fenics_gears.contact.face_forces import face_forces
+from fenics_gears.contact.tooth_pair import DRIVE
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.face_data import Misalignment
+from fenics_gears.scene.data import Accuracy, Motion, Output
+from fenics_gears.show.face_grid import save_vtu, surface
+from fenics_gears.show.face_picture import colour_limit, face_picture, root_tension
+from fenics_gears.show.run import scene_of
+from fenics_gears.simulation.face_stresses import FaceStresses
+from fenics_gears.simulation.run_stresses import standing
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.stored_forces import stored_forces
+
+STEP = 5
+
+
+@pytest.fixture(scope="module")
+def stresses():
+    with FaceStresses(helical_run(), scene_of(helical_run())) as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def mesh(stresses):
+    return stresses.at(STEP)
+
+
+def test_forces_on_the_teeth_are_those_of_the_mesh(stresses):
+    """Statics: turned into space, the forces on the flanks' nodes add up to the normal force of the run along the contact normal, and to its torque."""
+    model = stresses.model
+    pair, stored = model.pair, stored_forces(stresses.result, model, stresses.cycle, STEP)
+    force = float(stresses.result["normal_force"].values[STEP])
+    normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
+    for gear, (data, sense) in enumerate(((pair.pinion, -1.0), (pair.wheel, 1.0))):
+        recovery = stresses.recoveries[gear]
+        on_teeth = face_forces(gear, data, model.face, recovery.heights, stored.pairs, stored.forces)
+        angles, twist = standing(pair, gear, stored.phase)[1], -sense * pair.slope / data.base_radius
+        total, torque = np.zeros(3), 0.0
+        flank = recovery.body.flank_nodes("flank")[: len(recovery.body.flank_nodes("flank")) // len(recovery.heights)]
+        for tooth, own in on_teeth.items():
+            for height, at_height in zip(recovery.heights + model.face.middles[gear], own[DRIVE]):
+                total += rotation(angles[tooth % data.teeth] + twist * height, 3) @ at_height.sum(axis=0)
+                x, y = recovery.points[flank].T
+                torque += (x * at_height[:, 1] - y * at_height[:, 0]).sum()
+        # A slice's force has one direction in frames that turn with the layers' nodes: of second order in the turn over 10 mm of face.
+        assert total == pytest.approx(sense * force * normal, abs=3e-4 * force)
+        # Lever arms are of the coarse flank's nodes, straight between vertices.
+        assert abs(torque) == pytest.approx(data.base_radius * pair.cosine * force, rel=2e-3)
+
+
+def test_roots_of_the_loaded_teeth_carry(mesh):
+    """Bending: the largest tension in the roots is at a loaded tooth, below that of the unloaded teeth beside by far."""
+    for gear in mesh.gears:
+        tension = gear.principal[..., gear.in_root].max(axis=(1, 2))
+        assert 1 <= tension.argmax() <= len(tension) - 2
+        assert tension[[0, -1]].max() < 0.5 * tension.max()
+    assert 0.0 < max(gear.von_mises[..., gear.in_root].max() for gear in mesh.gears) <= colour_limit(mesh)
+
+
+def test_tension_along_the_face_is_highest_where_the_load_is(mesh):
+    """Bending: of the chart of both gears' roots the largest value is that in the picture, and lies on the half of the face that carries more."""
+    chart = root_tension(mesh)
+    loads = helical_run()["line_load"].sum("slot")[STEP]
+    heavy = float((loads * loads.face_position).sum())
+    for curve, gear in zip(chart.curves, mesh.gears):
+        assert curve.y.max() == gear.principal[..., gear.in_root].max()
+        assert curve.x[curve.y.argmax()] * heavy > 0.0
+
+
+def test_surface_is_closed_but_for_the_cuts(mesh):
+    """Topology: each side of the surface's triangles belongs to two of them, but for those on the first and last sector's cuts."""
+    gear = mesh.gears[0]
+    sides = np.sort(surface(gear.points[:1], gear)[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    _, count = np.unique(sides, axis=0, return_counts=True)
+    assert set(count.tolist()) == {1, 2} and (count == 1).sum() < 0.1 * len(count)
+
+
+def test_file_for_paraview(mesh, tmp_path):
+    """Another program: VTK reads wedges of positive volume, that of the sectors, and the stress that the picture has."""
+    pyvista = pytest.importorskip("pyvista")
+    save_vtu(mesh, tmp_path / "teeth.vtu")
+    grid = pyvista.read(tmp_path / "teeth.vtu")
+    volumes = grid.compute_cell_sizes(length=False, area=False)["Volume"]
+    assert volumes.min() > 0.0
+    triangles = [gear.points[0, 0][gear.subcells][..., :2] for gear in mesh.gears]
+    areas = [0.5 * np.abs(np.cross(each[:, 1] - each[:, 0], each[:, 2] - each[:, 0])).sum() for each in triangles]
+    expected = sum(area * len(gear.sectors) * np.ptp(gear.points[..., 2]) for area, gear in zip(areas, mesh.gears))
+    assert volumes.sum() == pytest.approx(expected, rel=1e-2)
+    assert grid["von_mises_stress"].max() == pytest.approx(max(gear.von_mises.max() for gear in mesh.gears))
+
+
+def test_picture_shows_stress(mesh):
+    """What is looked for: three panels, each with more than its ground, and coloured parts."""
+    pytest.importorskip("pyvista")
+    images = [axes.get_images()[0].get_array() for axes in face_picture(mesh, helical_run()).axes if axes.get_images()]
+    assert len(images) == 3
+    for image in images:
+        assert 0.1 < np.mean(image.min(axis=2) < 250)
+        assert np.ptp(image.astype(float), axis=2).max() > 60.0
+
+
+@pytest.mark.nightly
+def test_roots_of_a_spur_pair_are_those_of_plane_strain(paper_scene):
+    """Another route: of an aligned pair the tension averaged over the face is that of plane strain; free ends have less, the middle more."""
+    alone = replace(frictionless(teeth_alone(paper_scene)), motion=Motion(200.0, 1, 1))
+    plane = simulate(replace(alone, accuracy=replace(COARSE, element="P2", steps_per_mesh_cycle=5), output=Output(root_stress=True)))
+    coarse = Accuracy(slices=5, layers=3, body_element_size=1.5, flank_element_size=0.3, contact_length=3.0, contact_nodes=27, steps_per_mesh_cycle=5)
+    over_face = replace(alone, misalignment=Misalignment(), accuracy=coarse)
+    with FaceStresses(simulate(over_face), over_face) as found:
+        gears = found.at(3).gears
+    for number, gear in enumerate(gears):
+        tension = gear.principal[..., gear.in_root].max(axis=(0, 2))
+        expected = float(np.nanmax(plane["root_stress_maximum"].values[3, number]))
+        # Simpson's rule over layers of second order.
+        mean = np.array([1.0, 4.0, 2.0, 4.0, 2.0, 4.0, 1.0]) @ tension / 18.0
+        assert mean == pytest.approx(expected, rel=0.04)
+        assert tension[[0, -1]].max() < 0.9 * expected < tension[3]
