@@ -115,8 +115,9 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> n
         import pyvista
     except ImportError as error:
         raise ComputationError("a picture of gears in three dimensions needs pyvista, which is not installed") from error
-    # Without a display VTK warns before it draws in memory.
-    pyvista.vtk_verbosity("off")
+    if hasattr(pyvista, "vtk_verbosity"):
+        # Without a display VTK warns before it draws in memory; versions before 0.45 of pyvista leave it to its own.
+        pyvista.vtk_verbosity("off")
     size = [round(part * PIXELS * inches) for part, inches in zip(sight.place[2:], (16.0, 9.0))]
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     try:
