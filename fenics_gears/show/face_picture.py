@@ -19,6 +19,7 @@ from fenics_gears.show.panels import DARK, GREY, PALETTE, WARNING, styled
 from fenics_gears.show.run import conditions, scene_of
 from fenics_gears.show.stress_picture import COLOURS
 from fenics_gears.simulation.face_stresses import GearsInSpace
+from fenics_gears.system.virtual_display import ensure_display
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
@@ -115,6 +116,7 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> n
         import pyvista
     except ImportError as error:
         raise ComputationError("a picture of gears in three dimensions needs pyvista, which is not installed") from error
+    ensure_display(pyvista.vtk_version_info)
     if hasattr(pyvista, "vtk_verbosity"):
         # Without a display VTK warns before it draws in memory; versions before 0.45 of pyvista leave it to its own.
         pyvista.vtk_verbosity("off")
