@@ -8,7 +8,6 @@ from math import radians
 from pathlib import Path
 
 import numpy as np
-
 from tests.face_reference.cases import FACE_WIDTH, Assembled, Sizes, assembled
 from tests.face_reference.section_mesh import SectionSizes
 from tests.face_reference.unilateral import pressed
@@ -21,7 +20,7 @@ OPENINGS = {
     "misaligned": lambda z: 0.010 * z / FACE_WIDTH,
     "crowned": lambda z: 0.010 * (2.0 * z / FACE_WIDTH) ** 2,
 }
-# Sizes that fit 2 GB; `Sizes()` itself is the finer model, which has not been run yet.
+# Sizes that fit 2 GB.
 SMALL = Sizes(SectionSizes(0.08, 0.12, 0.9, 1.6, 6.0, 0.6, 1), (0.15, 0.3, 0.5, 0.8, 1.0, 1.0), 0.05, 0.3)
 
 
