@@ -27,10 +27,12 @@ def picture(results: dict) -> Figure:
         above.set_title(name)
         above.grid(False)
         load = result.line_load.values
-        below.plot(result.face_position, load.max(axis=(0, 1)), color=PALETTE[0], label="one pair, largest over the mesh cycle")
-        below.plot(result.face_position, load.sum(axis=1).mean(axis=0), color=PALETTE[1], label="all pairs, mean over the mesh cycle")
+        below.plot(result.face_position, load.max(axis=(0, 1)), color=PALETTE[0], label="largest of one pair")
+        below.plot(result.face_position, load.sum(axis=1).mean(axis=0), color=PALETTE[1], label="mean of all together")
         below.set_xlabel("Place on the face (mm)")
-    axes[1, 0].set_ylim(bottom=0.0, top=1.08 * max(float(result.line_load.max()) for result in results.values()))
+    # Of all columns: they share the scale.
+    axes[1, 0].autoscale(axis="y")
+    axes[1, 0].set_ylim(bottom=0.0)
     axes[0, 0].set_ylabel("Diameter on the pinion (mm)")
     axes[1, 0].set_ylabel("Line load (N/mm)")
     axes[1, 0].legend(loc="lower left")
