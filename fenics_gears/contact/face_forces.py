@@ -14,6 +14,15 @@ from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.geometry.gear import Gear
 
 
+def slice_rows(gear: int, data: Gear, face: Face, pair: FacePair, tangential: bool) -> np.ndarray:
+    """Forces (3 f, n or 2 n) of a slice on the flank nodes of its section, in the tooth's own frame, per unit force at the pair's contact nodes, normals first."""
+    near, axes = pair.coarse[gear].weights, directions_on_face(pair.place, face, gear, tangential)
+    if pair.place.flank == COAST:
+        axes[:, :2] = axes[:, :2] @ centreline_mirror(data).T
+    # A positive contact force pushes on the flank; that of friction acts against e_y.
+    return -np.hstack([np.einsum("nf,d->fdn", near, axis).reshape(-1, len(near)) for axis in axes])
+
+
 def face_forces(gear: int, data: Gear, face: Face, heights: np.ndarray, pairs: Sequence[FacePair], forces: Sequence[np.ndarray]) -> dict[int, np.ndarray]:
     """Forces (flanks, h, f, 3), N, on the flank nodes of a gear's loaded teeth, in each tooth's own frame at that height.
 
@@ -26,12 +35,7 @@ def face_forces(gear: int, data: Gear, face: Face, heights: np.ndarray, pairs: S
     for pair, force in zip(pairs, forces):
         if not force.any():
             continue
-        near, nodes = pair.coarse[gear].weights, len(pair.offsets)
-        axes = directions_on_face(pair.place, face, gear, len(force) > nodes)
-        # A positive contact force pushes on the flank; that of friction acts against e_y.
-        section = -sum(np.outer(part @ near, axis) for part, axis in zip(force.reshape(-1, nodes), axes))
-        if pair.place.flank == COAST:
-            section[:, :2] = section[:, :2] @ centreline_mirror(data).T
+        section = (slice_rows(gear, data, face, pair, len(force) > len(pair.offsets)) @ force).reshape(-1, 3)
         total = result.setdefault(sector_of(gear, pair), np.zeros((2 if both else 1, len(heights), *section.shape)))
         total[pair.place.flank if both else 0] += weights[pair.place.slice][:, None, None] * section
     return result

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
+from fenics_gears.elasticity.element_nodes import ElementNodes
 from fenics_gears.elasticity.element_sizes import arc_lengths
 from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.sector_boundary import root_curve
@@ -54,20 +55,28 @@ def fillet_curve(gear: Gear) -> FilletCurve:
 
 def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStress) -> np.ndarray:
     """Stress along the surface (2 p, 2 n), MPa per displacement in the mesh's unit, E = 1 MPa: drive side, then coast side."""
-    parts = []
+    parts, held = [], np.concatenate([interior.lower, interior.upper, interior.hub])
     for side in (0, 1):
-        nodes, place = _root_nodes(curve, interior, side)
-        x, y = (curve.tangents if side == 0 else curve.outline.coast(curve.tangents)).T
-        weights = _interpolation(place, curve.length)[:, :, None] * np.column_stack([x**2, y**2, 2.0 * x * y])[:, None]
+        nodes, interpolation, tangents = fillet_weights(curve, interior.nodes, held, side)
+        x, y = tangents.T
+        weights = interpolation[:, :, None] * np.column_stack([x**2, y**2, 2.0 * x * y])[:, None]
         parts.append(weights.reshape(len(weights), -1) @ stress.rows(nodes))
     return np.vstack(parts)
 
 
-def _root_nodes(curve: FilletCurve, interior: SectorInterior, side: int) -> tuple[np.ndarray, np.ndarray]:
+def fillet_weights(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Nodes (k,) along the root on the drive (0) or coast side (1), their weights (p, k) at the fillet's points, and the tangents (p, 2) there.
+
+    `held`: nodes of the sector's cuts and hub. Not a number where the fillet has no such point.
+    """
+    root, place = _root_nodes(curve, nodes, held, side)
+    return root, _interpolation(place, curve.length), curve.tangents if side == 0 else curve.outline.coast(curve.tangents)
+
+
+def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int) -> tuple[np.ndarray, np.ndarray]:
     """Nodes (k,) along the root on one side without those on the cut, and their lengths (k,) along the curve, ascending."""
-    nodes, gear = interior.nodes, curve.outline.gear
-    boundary = np.unique(nodes.boundary_sides)
-    free = np.setdiff1d(boundary, np.concatenate([interior.lower, interior.upper, interior.hub]))
+    gear = curve.outline.gear
+    free = np.setdiff1d(np.unique(nodes.boundary_sides), held)
     radius = np.linalg.norm(nodes.points[free], axis=1)
     free = free[(radius < gear.form_radius * (1.0 + 1e-9)) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
     points = nodes.points[free] if side == 0 else curve.outline.coast(nodes.points[free])

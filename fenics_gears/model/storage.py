@@ -17,6 +17,10 @@ ROOT_STRESS = {
     "root_stress_maximum": ("time", "gear", "slot"),
     "root_stress_at_30_degrees": ("time", "gear", "slot", "fillet"),
 }
+ROOT_STRESS_OVER_FACE = ROOT_STRESS | {
+    "root_stress": ("contact_time", "gear", "slot", "fillet_point", "face_position"),
+    "root_stress_over_face": ("contact_time", "gear", "slot", "fillet", "face_position"),
+}
 COORDINATES = {"time": ("time",), "mesh_phase": ("time",), "pair_number": ("time", "slot")}
 CONTACT_COORDINATES = {"contact_time": ("contact_time",), "contact_mesh_phase": ("contact_time",), "contact_pair_number": ("contact_time", "slot")}
 
@@ -36,7 +40,7 @@ def stored_arrays(scene: Scene, size: Mapping[str, int]) -> Arrays:
     """Dimensions and type of every array of a scene's result that grows with its steps; contact fields only where there are steps of them."""
     arrays = {variable.name: variable.dims for variable in result_variables(scene)} | COORDINATES
     if scene.output.root_stress and scene.resolves_contact:
-        arrays |= ROOT_STRESS
+        arrays |= ROOT_STRESS_OVER_FACE if scene.three_dimensional else ROOT_STRESS
     arrays |= CONTACT_COORDINATES
     whole = {"newton_iterations": np.dtype(np.int64), "closed_nodes": np.dtype(np.int64), "pair_number": np.dtype(np.int32), "contact_pair_number": np.dtype(np.int32)}
     return {

@@ -16,7 +16,6 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
-from fenics_gears.model.storage import ROOT_STRESS
 from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
@@ -71,7 +70,7 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray], first: int):
     if recorder.stress is not None:
         for name, words in recorder.stress.labels()[0].items():
             if name in arrays:
-                yield name, ROOT_STRESS[name], arrays[name], {"units": "MPa", "long_name": words}
+                yield name, recorder.stored[name][0], arrays[name], {"units": "MPa", "long_name": words}
 
 
 def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str, tuple]:

@@ -119,9 +119,7 @@ class Recorder:
                 values |= in_transverse_plane(values, nodes)
             values |= pressure_curves(nodes, fields)
         if self.stress is not None:
-            stresses = self.stress.values(nodes)
-            fields["root_stress"] = stresses.pop("root_stress")
-            values |= stresses
+            fields |= self.stress.values(nodes)
         for found in from_effects(scene, "watched", cycle, block):
             watched |= found
         kept = {name: of for name, of in (values | fields).items() if name in self.stored}

@@ -30,8 +30,6 @@ def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
     for name, refused in PLANE_ONLY.items():
         if accuracy.get(name) in refused:
             yield Problem(("accuracy", name), as_written(accuracy[name]), f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.')
-    if value_at(tree, "output", "root_stress") is True:
-        yield Problem(("output", "root_stress"), "true", f"{why}, where it is not recorded. Leave it out; `gears picture` shows the roots at a stored time.")
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return

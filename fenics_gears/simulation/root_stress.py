@@ -12,6 +12,11 @@ from fenics_gears.system.progress import Progress
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
     """The root stress of both gears at the steps of a cycle, ready to be taken at each."""
+    if cycle.face is not None:
+        # Imported here: plane scenes have none.
+        from fenics_gears.simulation.face_root_stress import face_root_stress
+
+        return face_root_stress(model, cycle, progress, cache)
     rows = []
     for name in ("pinion", "wheel"):
         progress.stage(f"root stress of the {name}")

@@ -43,7 +43,7 @@ RIGID = Route("rigid_route:rigid_route")
 REMESHED = Route("reference_route:reference_route", shared_by_ranks=True)
 ISO_SPRINGS = Route("mesh_springs:iso_route")
 TABLE_SPRINGS = Route("mesh_springs:table_route", condensed_once=True)
-ON_FACE = Route("face_route:face_route", condensed_once=True, shared_by_ranks=True)
+ON_FACE = Route("face_route:face_route", condensed_once=True, stresses=True, shared_by_ranks=True)
 CONDENSED = Route("elastic_route:elastic_route", condensed_once=True, stresses=True)
 BY_MODEL = {None: CONDENSED, ELASTIC: CONDENSED, ISO_6336: ISO_SPRINGS, STIFFNESS_TABLE: TABLE_SPRINGS}
 

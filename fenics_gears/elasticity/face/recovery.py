@@ -9,9 +9,10 @@ import numpy as np
 from scipy.sparse import identity, kron
 
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response
 from fenics_gears.elasticity.face.sector_body import SectorBody
 from fenics_gears.elasticity.face.swept_stress import SweptStress
-from fenics_gears.elasticity.ring import cyclic, cyclic_motion, rotation
+from fenics_gears.elasticity.ring import cyclic, cyclic_motion, rotation, sector_response
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
@@ -39,12 +40,13 @@ class FaceRecovery:
         self.sides = ("flank", "coast") if coast_flank else ("flank",)
         half = len(self.body.between_cuts) // 2
         pitch = kron(identity(half // 3), rotation(gear.angular_pitch, 3), format="csr")
-        self._stress = SweptStress(self.body.section, scaled.sweep, material.poissons_ratio)
+        self.stress = SweptStress(self.body.section, scaled.sweep, material.poissons_ratio)
         # The upper cut's dofs in the frame of the next sector.
         link, self._pitch, self._half = self.body.between_cuts.copy(), pitch, half
         link[half:] = pitch.T @ link[half:]
         link[:, half:] = link[:, half:] @ pitch
-        self._same, self._ahead = cyclic(0.5 * (link + link.T))
+        self._link = 0.5 * (link + link.T)
+        self._same, self._ahead = cyclic(self._link)
 
     def __enter__(self) -> FaceRecovery:
         return self
@@ -82,9 +84,22 @@ class FaceRecovery:
             found.append((own + self.body.free_motion(self.body.pulled(pull))).reshape(len(self.heights), -1, 3))
         unit = np.array(found)
         modulus, module = self.material.youngs_modulus, self.gear.module
-        stress = np.array([self._stress.at_nodes(each) for each in unit]) / module**2
+        stress = np.array([self.stress.at_nodes(each) for each in unit]) / module**2
         self._average_at_cuts(sectors, stress)
         return RecoveredSectors(tuple(sectors), unit / (modulus * module), stress)
+
+    def between_teeth(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
+        """Reciprocal work (2 reach + 1, k, j) that the ring adds to that within a sector with free cuts, Young's modulus 1 MPa, lengths in modules.
+
+        Of loads on the tooth m pitches ahead, m from -reach to reach, and on the loaded one; given by what they move the free cuts, (2 c, k) and (2 c, j).
+        """
+        basis = half_turn_basis(self.body.place(self.body.lower), len(self.heights))
+        joint = half_turn_response(self._link, self.gear.teeth, reach + 1, basis)
+        responding, loaded = (np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded))
+        held, forces = self._link @ responding, self._link @ loaded
+        found = np.stack([held.T @ (sector_response(joint, ahead) @ forces) for ahead in range(-reach, reach + 1)])
+        found[reach] -= held.T @ loaded
+        return found
 
     def _loads(self, force: np.ndarray) -> np.ndarray:
         loads = np.zeros((self.body.nodes, 3))

@@ -15,7 +15,7 @@ from fenics_gears.elasticity.mumps import Factor
 class SectorBody:
     """A swept sector, Young's modulus 1 MPa; nodes by height, then the section's; dofs interleaved x, y, z in the section's frame turned with it.
 
-    `section`: nodes (ElementNodes) of the plane mesh. lower, upper: (c,) nodes of the cuts by height and radius, without those on the hub.
+    `section`: nodes (ElementNodes) of the plane mesh. lower, upper: (c,) nodes of the cuts by height and radius, without those on the `hub`.
     between_cuts: (6 c, 6 c), stiffness of the sector between its cuts. Release the factor by `close`.
     """
 
@@ -24,9 +24,10 @@ class SectorBody:
         forms = SectionForms(mesh, poissons_ratio)
         self.section, self.heights = forms.nodes, sweep.heights
         hub = mesh.edge_nodes("hub", ELEMENT.order)
+        self.hub = self.swept(hub)
         self.lower, self.upper = (self.swept(by_radius(without(mesh.edge_nodes(f"{cut} cut", ELEMENT.order), hub))) for cut in ("lower", "upper"))
         free = np.ones(3 * self.nodes, dtype=bool)
-        free[dofs_of(self.swept(hub), 3)] = False
+        free[dofs_of(self.hub, 3)] = False
         self._free, number = np.flatnonzero(free), np.cumsum(free) - 1
         self._cuts = dofs_of(np.concatenate([self.lower, self.upper]), 3)
         stiffness = swept_stiffness(forms, sweep)[free][:, free]
@@ -46,6 +47,11 @@ class SectorBody:
     def swept(self, line: np.ndarray) -> np.ndarray:
         """Nodes (heights k,) swept from places (k, 2) of the section, by height."""
         return swept_nodes(self.section.points, line, len(self.heights))
+
+    def place(self, nodes: np.ndarray) -> np.ndarray:
+        """X, Y, z (k, 3) of nodes (k,)."""
+        count = len(self.section.points)
+        return np.column_stack([self.section.points[nodes % count], self.heights[nodes // count]])
 
     def flank_nodes(self, side: str) -> np.ndarray:
         """Nodes (heights f,) of the "flank" or the "coast" flank by height and radius, as the face compliance has them."""

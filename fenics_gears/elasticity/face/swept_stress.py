@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from scipy import sparse
 
@@ -28,6 +30,44 @@ class SweptStress:
             total[heights] += self._of_layer(displacement[heights], thickness)
             count[heights] += 1.0
         return total / count[:, None, None, None]
+
+    def rows(self, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray, averages: np.ndarray) -> sparse.csr_matrix:
+        """Normal stress (S p, 3 n h) along `directions` (p, 3) at points between `nodes` (k,) by `weights` (p, k), averaged over the heights by `averages` (S, h).
+
+        As of `at_nodes`, per displacement: dofs by height, node, component; directions in the section's frame at each height; rows by average, then point.
+        """
+        size, heights = 3 * len(self.points), averages.shape[1]
+        layers_at = np.full(heights, 1.0)
+        layers_at[2:-1:2] = 2.0
+        found = sparse.csr_matrix((len(averages) * len(weights), size * heights))
+        for layer, thickness in enumerate(self.sweep.thicknesses.tolist()):
+            first = 2 * layer
+            for height, own in enumerate(self._rows_of_layer(thickness, nodes, weights, directions), first):
+                share = sparse.csr_matrix(averages[:, height : height + 1] / layers_at[height])
+                ends = [sparse.csr_matrix((own.shape[0], size * count)) for count in (first, heights - first - 3)]
+                found = found + sparse.kron(share, sparse.hstack([ends[0], own, ends[1]]), format="csr")
+        return found
+
+    def _rows_of_layer(self, thickness: float, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray) -> Iterator[sparse.csr_matrix]:
+        """Of the three heights of a layer (p, 9 n), as `_of_layer`."""
+        angles = 0.5 * self.sweep.twist * thickness * np.array([-1.0, 0.0, 1.0])
+        frames, count, three = [rotation(angle, 3) for angle in angles], len(self.points), sparse.eye(3)
+        common = [sparse.kron(np.eye(3)[place : place + 1], sparse.kron(sparse.eye(count), frame), format="csr") for place, frame in enumerate(frames)]
+        slopes_of, own = [sparse.kron(slope[nodes], three, format="csr") for slope in self._slopes], sparse.kron(sparse.eye(count, format="csr")[nodes], three)
+        for place, frame in enumerate(frames):
+            slopes = shapes(place - 1.0)[1] / (0.5 * thickness)
+            turn, change = np.exp(1j * angles[place]), slopes @ np.exp(1j * angles)
+            inverse, swept = _as_matrix(1.0 / turn), self.points[nodes] @ _as_matrix(change / turn).T
+            along = [slope @ common[place] for slope in slopes_of]
+            whole = [inverse[0, axis] * along[0] + inverse[1, axis] * along[1] for axis in (0, 1)]
+            axial = own @ sum(slope * each for slope, each in zip(slopes, common))
+            whole.append(axial - sum(sparse.diags(np.repeat(swept[:, axis], 3)) @ along[axis] for axis in (0, 1)))
+            turned = directions @ frame.T
+            found = sparse.csr_matrix((len(weights), 3 * 3 * count))
+            for axis, gradient in enumerate(whole):
+                factors = 2.0 * self._shear * turned * turned[:, axis : axis + 1] + self._lame * np.eye(3)[axis]
+                found = found + sparse.csr_matrix((weights[:, :, None] * factors[:, None]).reshape(len(weights), -1)) @ gradient
+            yield found
 
     def _of_layer(self, displacement: np.ndarray, thickness: float) -> np.ndarray:
         """Of the three heights of a layer (3, n, 3, 3)."""

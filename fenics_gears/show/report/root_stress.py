@@ -16,8 +16,6 @@ HEADING = "Root stress"
 
 def root_stress(run: Run) -> Section:
     """Curves and numbers of the fillets' stress; a line on how to have it where it is not there."""
-    if run.is_over_face:
-        return Section("root-stress", HEADING, [Words("It is not recorded where the flanks are resolved over the face; the stress picture and the chart below it show the roots at one time.")])
     if "root_stress_maximum" not in run.dataset:
         return Section("root-stress", HEADING, [Words("It was not recorded; `[output] root_stress = true` in the scene records it.")])
     if not run.has_curves:
@@ -59,7 +57,10 @@ def _along_fillets(run: Run) -> list[Chart]:
         if not np.isfinite(stress).any():
             continue
         time, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
-        along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point")[time, slot], "MPa")
+        along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point", ...)[time, slot], "MPa")
+        if run.is_over_face:
+            plots.append(_over_face(run, gear, along.max(axis=0)))
+            along = along[:, along.max(axis=0).argmax()]
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
         curves = [Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES) for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)]
         phase = float(own["mesh_phase"].values[time])
@@ -67,3 +68,11 @@ def _along_fillets(run: Run) -> list[Chart]:
         note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
         plots.append(Chart(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
     return plots
+
+
+def _over_face(run: Run, gear: str, largest: np.ndarray) -> Chart:
+    """Largest tension in the roots of a tooth over the slices of the face (S,), at the time it is largest."""
+    z = run.dataset["face_position"].values
+    curve = Curve("largest in the fillets", z, largest, PALETTE[0], mode=MARKED_LINES)
+    caption = f"Over the face of the {gear}, of the tooth and at the time of its largest tension"
+    return Chart(caption, [curve], "Place along the face, from its middle (mm)", "Tension (MPa)", note="Of each slice of the face the largest in both fillets.")

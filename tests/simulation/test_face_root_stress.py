@@ -1,0 +1,108 @@
+"""[output] root_stress over the face: against recovered sectors and plane strain."""
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from tests.coarse_sector import PINION, STEEL
+from tests.helical import helical_scene
+from tests.iso_tooth_root import standard_gear
+from tests.over_face import MORE
+
+from fenics_gears.contact.face import even_slices
+from fenics_gears.contact.face_forces import face_forces
+from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.elasticity.element_sizes import Discretisation
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face.root_stress import face_root_stress_rows
+from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_weights
+from fenics_gears.elasticity.root_stress import root_stress_rows
+from fenics_gears.elasticity.slice_averages import slice_averages
+from fenics_gears.scene.data import Load, Output
+from fenics_gears.simulation.face_stresses import FaceStresses
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.stored_forces import stored_forces
+
+STEP = 5
+FRICTION = '[friction]\ncoefficient = 0.08\n'
+
+
+@lru_cache
+def helical(coast: bool):
+    """A misaligned helical pair, coarsely meshed: with friction, or driven from the wheel on its coast flanks."""
+    scene = replace(helical_scene((FRICTION if not coast else "") + MORE), output=Output(root_stress=True))
+    if coast:
+        scene = replace(scene, coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
+    return scene, simulate(scene)
+
+
+@pytest.mark.parametrize("coast", [False, True])
+def test_rows_give_what_the_recovered_sectors_have(coast):
+    """Exact identity (Betti): along the profile, across the tooth's trace, in every slice, on both gears and all teeth in reach, to 1e-9 of the largest."""
+    scene, result = helical(coast)
+    largest = np.nanmax(np.abs(result["root_stress"].values))
+    with FaceStresses(result, scene) as stresses:
+        face, stored = stresses.model.face, stored_forces(result, stresses.model, stresses.cycle, STEP)
+        step = round(float(result["mesh_phase"].values[STEP]) * stresses.cycle.steps)
+        for gear, recovery in enumerate(stresses.recoveries):
+            data = (stresses.model.pair.pinion, stresses.model.pair.wheel)[gear]
+            forces = face_forces(gear, data, face, recovery.heights, stored.pairs, stored.forces)
+            averages = slice_averages(recovery.heights, 2, face.positions - face.middles[gear], face.widths)
+            teeth = sorted({pair.place.index for pair in stored.pairs})
+            assert len(teeth) > 1
+            for tooth in teeth:
+                found = recovery.recovered(forces, [SENSE_OF_TEETH[gear] * tooth]).stress[0]
+                expected = _at_fillets(recovery, data, np.einsum("sh,hnij->snij", averages, found))
+                number = int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]
+                slot = int(np.flatnonzero(result["pair_number"].values[STEP] == number)[0])
+                here = result.isel(time=STEP, contact_time=STEP, gear=gear, slot=slot)
+                assert np.abs(here["root_stress"].values - expected[:, :, :-1].transpose(1, 2, 0).reshape(-1, face.slices)).max() < 1e-9 * largest
+                assert np.abs(here["root_stress_over_face"].values - expected[:, :, -1].T).max() < 1e-9 * largest
+
+
+def _at_fillets(recovery, data, stress):
+    """Stress (S, 2, p) of both fillets from that (S, n, 3, 3) at the section's nodes."""
+    curve, body = fillet_curve(data.of_module_one), recovery.body
+    held = np.unique(np.concatenate([body.lower, body.upper, body.hub]) % len(body.section.points))
+    found = []
+    for side in (0, 1):
+        nodes, weights, tangents = fillet_weights(curve, body.section, held, side)
+        at_points = np.einsum("pk,skij->spij", weights, stress[:, nodes])
+        x, y = (weights @ body.section.points[nodes]).T
+        # The surface's normal is across the tangent of the section and the trace; the profile's direction across that and the trace.
+        trace = np.column_stack([-body.sweep.twist * y, body.sweep.twist * x, np.ones(len(x))])
+        normal = np.cross(np.pad(tangents, ((0, 0), (0, 1))), trace)
+        across = np.cross(trace, normal)
+        across /= np.linalg.norm(across, axis=1)[:, None]
+        found.append(np.einsum("pi,spij,pj->sp", across, at_points, across))
+    return np.stack(found, axis=1)
+
+
+def test_largest_values_are_those_over_the_face():
+    """Definition: the curves of all steps hold the largest of the points and slices; a slot without a pair in reach has none."""
+    for result in (helical(coast)[1] for coast in (False, True)):
+        along, over_face = result["root_stress"].max(("fillet_point", "face_position")), result["root_stress_over_face"].max("face_position")
+        np.testing.assert_array_equal(result["root_stress_maximum"].values, along.values)
+        np.testing.assert_array_equal(result["root_stress_at_30_degrees"].values, over_face.values)
+        assert (np.isnan(along.values).all(axis=1) == (result["pair_number"].values == 0)).all()
+        assert result.attrs["largest_root_stress_pinion"] > 0.0
+
+
+@pytest.mark.parametrize("gear", [PINION, standard_gear(40)])
+def test_even_load_on_a_spur_tooth_stresses_its_root_as_in_plane_strain(gear):
+    """Another route: under the same force on the tip all along the face, the largest tension of the mean over the face is that of plane strain, 15 mm wide, within 2 %."""
+    width, slices, force = 15.0, 5, np.array([-1.0, 0.2, 0.0])
+    middles, widths = even_slices(width, slices)
+    found = face_root_stress_rows(gear, STEEL, FaceDiscretisation(0.3 * gear.module, 3, width), (middles, widths), 1)
+    plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.3), 1)
+    tip = plane.rows.reshape(*plane.rows.shape[:2], -1, 2)[1, :, -1] @ force[:2]
+    on_slices = found.rows.reshape(*found.rows.shape[:3], slices, -1, 3)[1, ..., -1, :] @ force
+    over_face = on_slices @ widths
+    mean = over_face.mean(axis=0)
+    assert np.nanmax(mean) == pytest.approx(np.nanmax(tip), rel=0.02)
+    assert np.nanargmax(mean) // (len(mean) // 2) == np.nanargmax(tip) // (len(tip) // 2)
+    # Free ends have less, the middle more.
+    at_largest = over_face[:, np.nanargmax(mean)]
+    assert at_largest[[0, -1]].max() < mean[np.nanargmax(mean)] < at_largest[slices // 2]
