@@ -7,20 +7,11 @@ from itertools import groupby
 import numpy as np
 from tests.benchmarks.third_dimension.table import Row, read_rows, table, write_rows
 from tests.face_reference.by_slices import answer
-from tests.face_reference.cases import FACE_WIDTH
-from tests.face_reference.reference import OPENINGS, reference
+from tests.face_reference.reference import OPENINGS, over_slices, reference
 
 from fenics_gears.elasticity.cache import user_cache
 
 NAME, SLICES, LAYERS = "resolved", 16, 8
-
-
-def over_slices(rows) -> np.ndarray:
-    """Line load (SLICES,), N/mm, of all tooth pairs together, straight between the heights of a resolved analysis and averaged over the slices."""
-    z = np.array(sorted({row.z for row in rows}))
-    load = np.array([sum(row.line_load for row in rows if row.z == each) for each in z])
-    fine = np.linspace(-0.5 * FACE_WIDTH, 0.5 * FACE_WIDTH, 100 * SLICES, endpoint=False) + FACE_WIDTH / (200 * SLICES)
-    return np.interp(fine, z, load).reshape(SLICES, -1).mean(axis=1)
 
 
 def measure() -> list[Row]:
@@ -29,7 +20,7 @@ def measure() -> list[Row]:
     for (helix, phase, opening), found in groupby(reference(), key=lambda row: (row.helix_angle, row.phase, row.opening)):
         resolved = list(found)
         own = answer(helix, phase, opening, resolved[0].force, user_cache(), layers=LAYERS, slices=SLICES)
-        load, exact = sum(own.line_loads.values()), over_slices(resolved)
+        load, exact = sum(own.line_loads.values()), over_slices(resolved, own.positions)
         rows += [
             {
                 "helix_angle": helix, "phase": phase, "opening": list(OPENINGS).index(opening), "slice": k, "line_load": load[k], "reference": exact[k],
