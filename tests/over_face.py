@@ -1,9 +1,12 @@
 """A short, coarse run over the face that pictures and results are tested on; it takes seconds."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 from tests.helical import helical_scene
 
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.scene.data import Load, Output
 from fenics_gears.simulation.simulate import simulate
 
 MORE = """
@@ -24,3 +27,12 @@ steps_per_mesh_cycle = 12
 def helical_run():
     """One mesh cycle of a misaligned helical pair."""
     return simulate(helical_scene(MORE))
+
+
+@lru_cache
+def root_stress_run(coast: bool):
+    """That pair's scene and result with root stress: with friction, or driven from the wheel on its coast flanks."""
+    scene = replace(helical_scene(("" if coast else "[friction]\ncoefficient = 0.08\n") + MORE), output=Output(root_stress=True))
+    if coast:
+        scene = replace(scene, coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
+    return scene, simulate(scene)

@@ -17,6 +17,8 @@ from fenics_gears.geometry.outline import ToothOutline, tooth_outline
 
 # Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline.
 POINTS = 24
+# The same where flanks are resolved over the face, on sections with fewer elements.
+POINTS_OVER_FACE = 12
 SECTION_ANGLE = np.radians(30.0)
 CURVE_SAMPLES = 2001
 
@@ -26,7 +28,7 @@ class FilletCurve:
     """The points of the drive side's fillet at which stress is evaluated; the coast side's are their mirror images.
 
     samples: (k, 2), the root finely sampled from the middle of the tooth space. length: (p,), along it. tangents: (p, 2).
-    tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first POINTS go from the root circle to the form circle, the
+    tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first points go from the root circle to the form circle, the
     last is the one at SECTION_ANGLE, not a number where the fillet has no such tangent.
     """
 
@@ -37,13 +39,13 @@ class FilletCurve:
     tangent_angle: np.ndarray
 
 
-def fillet_curve(gear: Gear) -> FilletCurve:
+def fillet_curve(gear: Gear, points: int = POINTS) -> FilletCurve:
     """The points of a gear's fillets."""
     outline = tooth_outline(gear, CURVE_SAMPLES)
     samples = root_curve(outline)
     along = arc_lengths(samples)
     start = along[-1] - arc_lengths(outline.fillet)[-1]
-    length = start + (along[-1] - start) * (np.arange(POINTS) + 0.5) / POINTS
+    length = start + (along[-1] - start) * (np.arange(points) + 0.5) / points
     angles = _angles(outline, samples)
     inside = along >= start
     section = np.interp(SECTION_ANGLE, angles[inside][::-1], along[inside][::-1], left=np.nan, right=np.nan)

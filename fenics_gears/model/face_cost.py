@@ -9,6 +9,7 @@ from fenics_gears.contact.window import flank_ends, node_offsets
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
+from fenics_gears.model.storage import FILLET_POINTS_OVER_FACE
 
 # Seconds of an unknown of a body, and of the cube of the unknowns that it is condensed onto.
 UNKNOWN, CONDENSED_CUBE = 6e-5, 2.5e-10
@@ -19,6 +20,9 @@ POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.5, 2.5
 # Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become smaller; copies beside the contact operators
 # while positions are built and marched (measured).
 FLANK_NODES, POWER, WITH_COPIES = 17.0, 0.6, 1.25
+
+# Of root stress, seconds: an unknown for each column solved, and a step for each stress of a tooth per force on one (measured; several loaded teeth).
+SOLVED_UNKNOWN, STEP_STRESS = 4e-7, 5e-9
 
 
 @dataclass(frozen=True)
@@ -44,16 +48,22 @@ def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
 
 def face_cost(model: Model) -> FaceCost:
     """What the bodies and contact over the face cost beside the plane sections."""
-    bodies, condensing, memory, kept = [], 0.0, 0.0, 0.0
+    bodies, condensing, memory, kept, stress_step = [], 0.0, 0.0, 0.0, 0.0
+    coast = model.scene.coast_flanks is not None
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):
         division = face_discretisation(model, number)
-        unknowns, condensed = expected_size(gear, division, model.scene.coast_flanks is not None)
+        unknowns, condensed = expected_size(gear, division, coast)
         bodies.append(unknowns)
         condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3
         memory = max(memory, expected_memory(unknowns, condensed))
         finer = 0.35 * gear.module / division.section_size
-        on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if model.scene.coast_flanks is not None else 1)
+        on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if coast else 1)
         kept += 8.0 * (2 * model.touching.reach.farthest + 1) * on_slices**2
+        if model.scene.output.root_stress:
+            points = 2.0 * (FILLET_POINTS_OVER_FACE + 1) * model.face.slices
+            condensing += unknowns * (UNKNOWN + SOLVED_UNKNOWN * (points + on_slices))
+            kept += 8.0 * (2 * model.touching.reach.farthest + (3 if coast else 1)) * points * on_slices
+            stress_step += STEP_STRESS * points * on_slices
     pairs, nodes = contact_nodes(model)
     rubbing = model.scene.friction is not None
     positions = min(model.resolution.steps_per_mesh_cycle, model.steps + 2)
@@ -61,4 +71,4 @@ def face_cost(model: Model) -> FaceCost:
     step = (STEP_NODES_SQUARE * nodes**2 + STEP_NODES_CUBE * nodes**3) * (STEP_WITH_FRICTION if rubbing else 1.0)
     # Normals alone, or both kinds and by the forces of the step before.
     operators = WITH_COPIES * 8.0 * positions * nodes**2 * (6.0 if rubbing else 1.0)
-    return FaceCost(condensing, positions * position + model.steps * step, (bodies[0], bodies[1]), memory, operators, kept)
+    return FaceCost(condensing, positions * position + model.steps * (step + stress_step), (bodies[0], bodies[1]), memory, operators, kept)

@@ -11,7 +11,7 @@ from fenics_gears.effects import result_variables
 from fenics_gears.scene.data import Scene
 
 # Stress points of either fillet of a tooth, `elasticity.fillet_points`; the last is the one at the 30 degree tangent.
-FILLET_POINTS = 24
+FILLET_POINTS, FILLET_POINTS_OVER_FACE = 24, 12
 ROOT_STRESS = {
     "root_stress": ("contact_time", "gear", "slot", "fillet_point"),
     "root_stress_maximum": ("time", "gear", "slot"),
@@ -32,7 +32,7 @@ def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 
     return {
         "face_position": slices,
         "time": steps, "contact_time": contact_steps, "slot": slots, "contact_node": nodes,
-        "gear": 2, "fillet": 2, "fillet_point": 2 * FILLET_POINTS,
+        "gear": 2, "fillet": 2, "fillet_point": 2 * (FILLET_POINTS_OVER_FACE if slices else FILLET_POINTS),
     }  # fmt: skip
 
 

@@ -23,13 +23,14 @@ def face_root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cach
 
 def _gear_rows(model: Model, gear: int, name: str, cache: Cache | None) -> RootStressRows:
     face, scene = model.face, model.scene
+    coast = scene.coast_flanks is not None
     return face_root_stress_rows(
         getattr(model.pair, name),
         scene.gears.material_of(name),
         face_discretisation(model, gear),
         (face.positions - face.middles[gear], face.widths),
-        # As of the plane's.
-        reach=model.touching.reach.farthest + 1,
-        coast_flank=scene.coast_flanks is not None,
+        # Pairs are numbered by their drive flanks' teeth; the wheel's tooth of a coast pair stands one beside.
+        reach=model.touching.reach.farthest + (1 if coast else 0),
+        coast_flank=coast,
         cache=cache,
     )

@@ -80,7 +80,9 @@ the axes by the base helix angle. Further variables are those below, and the loa
 * **`transverse_load_factor`**: the standard's K_Halpha is the largest load of a tooth divided by that of a pair without deviations. Here both are shares in the mesh force at the same step, so that no dynamic factor is in them; the
   shares without deviations are those of the same line load along all lines of contact, as the standard's contact ratio factor assumes."""
 ROOT_STRESS = "`[output] root_stress`"
-# Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional excludes root stress.
+# Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional gives fields another dimension.
+ROOT_STRESS_OVER_FACE = """In three-dimensional scenes root stress is averaged over each slice of the face and acts across the tooth's trace. `root_stress` has the further dimension `face_position`, `root_stress_over_face` (contact_time, gear, slot, fillet,
+face_position), MPa, is the stress at the 30 degree tangent, and the other two are the largest over the face."""
 NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes} | {"lead_modifications", "misalignment"}
 
 
@@ -100,7 +102,7 @@ def page(result: xr.Dataset | None = None) -> str:
     for each in EFFECTS:
         if each.variables:
             lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
-    lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), ""]
+    lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), "", ROOT_STRESS_OVER_FACE, ""]
     lines += ["### Three-dimensional scenes", "", OVER_THE_FACE, "", *_over_face(), ""]
     lines += [UNFINISHED]
     lines += ["## Attributes", "", *_attributes(), ""]

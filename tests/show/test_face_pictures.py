@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from tests.over_face import helical_run
+from tests.over_face import helical_run, root_stress_run
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.results.files import load, save
@@ -16,6 +16,7 @@ from fenics_gears.show.contact_pattern import contact_patterns
 from fenics_gears.show.line_load import line_loads
 from fenics_gears.show.plots import draw_run
 from fenics_gears.show.report.rendering import rendered
+from fenics_gears.show.report.root_stress import root_stress
 from fenics_gears.show.report.run_page import run_page
 from fenics_gears.show.run import Run
 
@@ -86,3 +87,14 @@ print([name for name in {names} if "fenics_gears.show." + name in sys.modules], 
 """
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert found.stdout.split("\n")[0] == "[] False"
+
+
+def test_report_has_root_stress_over_the_face():
+    """Authority: the result's own values. The largest tension of either gear is in its curves over time, over the face and along the fillet."""
+    result = root_stress_run(coast=False)[1]
+    charts = root_stress(Run(result, stress=False)).blocks
+    for gear in ("pinion", "wheel"):
+        own = [chart for chart in charts if gear in chart.caption]
+        assert len(own) == 3
+        for chart in own:
+            assert max(np.nanmax(curve.y) for curve in chart.curves) == pytest.approx(result.attrs[f"largest_root_stress_{gear}"])

@@ -1,47 +1,30 @@
 """[output] root_stress over the face: against recovered sectors and plane strain."""
 
-from dataclasses import replace
-from functools import lru_cache
-
 import numpy as np
 import pytest
 from tests.coarse_sector import PINION, STEEL
-from tests.helical import helical_scene
 from tests.iso_tooth_root import standard_gear
-from tests.over_face import MORE
+from tests.over_face import root_stress_run
 
 from fenics_gears.contact.face import even_slices
 from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
-from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.root_stress import face_root_stress_rows
-from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_weights
+from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
 from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.slice_averages import slice_averages
-from fenics_gears.scene.data import Load, Output
 from fenics_gears.simulation.face_stresses import FaceStresses
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces
 
 STEP = 5
-FRICTION = '[friction]\ncoefficient = 0.08\n'
-
-
-@lru_cache
-def helical(coast: bool):
-    """A misaligned helical pair, coarsely meshed: with friction, or driven from the wheel on its coast flanks."""
-    scene = replace(helical_scene((FRICTION if not coast else "") + MORE), output=Output(root_stress=True))
-    if coast:
-        scene = replace(scene, coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
-    return scene, simulate(scene)
 
 
 @pytest.mark.parametrize("coast", [False, True])
 def test_rows_give_what_the_recovered_sectors_have(coast):
     """Exact identity (Betti): along the profile, across the tooth's trace, in every slice, on both gears and all teeth in reach, to 1e-9 of the largest."""
-    scene, result = helical(coast)
+    scene, result = root_stress_run(coast)
     largest = np.nanmax(np.abs(result["root_stress"].values))
     with FaceStresses(result, scene) as stresses:
         face, stored = stresses.model.face, stored_forces(result, stresses.model, stresses.cycle, STEP)
@@ -64,7 +47,7 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
 
 def _at_fillets(recovery, data, stress):
     """Stress (S, 2, p) of both fillets from that (S, n, 3, 3) at the section's nodes."""
-    curve, body = fillet_curve(data.of_module_one), recovery.body
+    curve, body = fillet_curve(data.of_module_one, POINTS_OVER_FACE), recovery.body
     held = np.unique(np.concatenate([body.lower, body.upper, body.hub]) % len(body.section.points))
     found = []
     for side in (0, 1):
@@ -82,7 +65,7 @@ def _at_fillets(recovery, data, stress):
 
 def test_largest_values_are_those_over_the_face():
     """Definition: the curves of all steps hold the largest of the points and slices; a slot without a pair in reach has none."""
-    for result in (helical(coast)[1] for coast in (False, True)):
+    for result in (root_stress_run(coast)[1] for coast in (False, True)):
         along, over_face = result["root_stress"].max(("fillet_point", "face_position")), result["root_stress_over_face"].max("face_position")
         np.testing.assert_array_equal(result["root_stress_maximum"].values, along.values)
         np.testing.assert_array_equal(result["root_stress_at_30_degrees"].values, over_face.values)

@@ -12,7 +12,7 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response
 from fenics_gears.elasticity.face.sector_body import SectorBody
 from fenics_gears.elasticity.face.swept_stress import SweptStress
-from fenics_gears.elasticity.ring import cyclic, cyclic_motion, rotation, sector_response
+from fenics_gears.elasticity.ring import cyclic, cyclic_motion, rotation
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
@@ -96,8 +96,10 @@ class FaceRecovery:
         basis = half_turn_basis(self.body.place(self.body.lower), len(self.heights))
         joint = half_turn_response(self._link, self.gear.teeth, reach + 1, basis)
         responding, loaded = (np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded))
-        held, forces = self._link @ responding, self._link @ loaded
-        found = np.stack([held.T @ (sector_response(joint, ahead) @ forces) for ahead in range(-reach, reach + 1)])
+        held, forces, half = self._link @ responding, self._link @ loaded, self._half
+        # Of the lower cut of each sector, which is the upper one of the sector before.
+        motion = [joint(ahead) @ forces[:half] + joint(ahead - 1) @ forces[half:] for ahead in range(-reach, reach + 2)]
+        found = np.stack([held[:half].T @ lower + held[half:].T @ upper for lower, upper in zip(motion, motion[1:])])
         found[reach] -= held.T @ loaded
         return found
 

@@ -60,9 +60,9 @@ def face_root_stress_rows(
 def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, averages: np.ndarray, reach: int, coast_flank: bool) -> dict[str, np.ndarray]:
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.face.recovery import FaceRecovery
-    from fenics_gears.elasticity.fillet_points import fillet_curve
+    from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve
 
-    curve = fillet_curve(gear)
+    curve = fillet_curve(gear, POINTS_OVER_FACE)
     with FaceRecovery(gear, Material(1.0, poissons_ratio), face, coast_flank) as recovery:
         stress = _fillet_rows(recovery, curve, averages)
         flanks = _slice_loads(recovery, averages)

@@ -59,12 +59,15 @@ def _along_fillets(run: Run) -> list[Chart]:
         time, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
         along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point", ...)[time, slot], "MPa")
         if run.is_over_face:
-            plots.append(_over_face(run, gear, along.max(axis=0)))
-            along = along[:, along.max(axis=0).argmax()]
+            largest = along.max(axis=0)
+            plots.append(_over_face(run, gear, largest))
+            along = along[:, largest.argmax()]
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
         curves = [Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES) for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)]
         phase = float(own["mesh_phase"].values[time])
         caption = f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
+        if run.is_over_face:
+            caption += f", {run.dataset['face_position'].values[largest.argmax()]:.2f} mm from the middle of the face"
         note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
         plots.append(Chart(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
     return plots
@@ -73,6 +76,6 @@ def _along_fillets(run: Run) -> list[Chart]:
 def _over_face(run: Run, gear: str, largest: np.ndarray) -> Chart:
     """Largest tension in the roots of a tooth over the slices of the face (S,), at the time it is largest."""
     z = run.dataset["face_position"].values
-    curve = Curve("largest in the fillets", z, largest, PALETTE[0], mode=MARKED_LINES)
+    curve = Curve(gear, z, largest, PALETTE[0], mode=MARKED_LINES)
     caption = f"Over the face of the {gear}, of the tooth and at the time of its largest tension"
     return Chart(caption, [curve], "Place along the face, from its middle (mm)", "Tension (MPa)", note="Of each slice of the face the largest in both fillets.")
