@@ -1,4 +1,4 @@
-"""Spur gear pairs as flexible multi-body systems with frictional contact."""
+"""Spur and helical gear pairs as flexible multi-body systems with frictional contact."""
 
 import importlib
 

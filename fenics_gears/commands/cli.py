@@ -74,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     loudness.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors")
     parser = argparse.ArgumentParser(
         prog="gears",
-        description="Spur gear pairs as flexible multi-body systems with frictional contact.",
+        description="Spur and helical gear pairs as flexible multi-body systems with frictional contact.",
         epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed, 4 result without meaning, 130 interrupted, 141 output closed.",
         parents=[shared],
     )

@@ -186,10 +186,10 @@ class Accuracy(Section):
         otherwise="200; with `[inertia]` as many as give the highest natural frequency 20 steps per period, at most 1000; with `[inertia]` and rigid flanks 1000",
     )
     slices: Optional[int] = whole_number(
-        2, 1000, 40, meaning="slices of the common face in which contact is resolved; of three-dimensional scenes", otherwise="a width of a quarter of the module"
+        2, 1000, 40, meaning="slices of the common face in which contact is resolved; of three-dimensional scenes", otherwise="a width of 0.35 modules"
     )
     layers: Optional[int] = whole_number(
-        1, 1000, 12, meaning="layers of elements over the face of a gear; of three-dimensional scenes", otherwise="a thickness of 0.6 modules"
+        1, 1000, 12, meaning="layers of elements over the face of a gear; of three-dimensional scenes", otherwise="a thickness of one module, at least 4 layers"
     )
     condensation: Optional[Literal["once", "every step"]] = choice(
         "once",

@@ -19,6 +19,7 @@ from fenics_gears.show.panels import DARK, GREY, PALETTE, WARNING, styled
 from fenics_gears.show.run import conditions, scene_of
 from fenics_gears.show.stress_picture import COLOURS
 from fenics_gears.simulation.face_stresses import GearsInSpace
+from fenics_gears.system.virtual_display import ensure_display
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
@@ -115,8 +116,10 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> n
         import pyvista
     except ImportError as error:
         raise ComputationError("a picture of gears in three dimensions needs pyvista, which is not installed") from error
-    # Without a display VTK warns before it draws in memory.
-    pyvista.vtk_verbosity("off")
+    ensure_display(pyvista.vtk_version_info)
+    if hasattr(pyvista, "vtk_verbosity"):
+        # Without a display VTK warns before it draws in memory; versions before 0.45 of pyvista leave it to its own.
+        pyvista.vtk_verbosity("off")
     size = [round(part * PIXELS * inches) for part, inches in zip(sight.place[2:], (16.0, 9.0))]
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     try:

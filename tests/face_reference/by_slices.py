@@ -49,7 +49,7 @@ def gears(helix_angle: float, section_size: float, layers: int, flank: float, ca
 
 
 def answer(
-    helix_angle: float, phase: float, opening: str, force: float, cache=None, *, section_size=1.0, layers=6, slices=16, flank=0.045, spacing=0.03
+    helix_angle: float, phase: float, opening: str, force: float, cache=None, *, section_size=1.0, layers=8, slices=16, flank=0.045, spacing=0.03
 ) -> Answer:
     """One analysis; helix angle in deg, force (N) along n, sizes in mm."""
     pair, slope, sections, bodies = gears(helix_angle, section_size, layers, flank, cache)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import atan, cos, pi, radians, tan
+from dataclasses import dataclass
+from math import atan, cos, radians, tan
 
 import numpy as np
+from tests.face_reference.contact_points import PairPoints, Position, compliance, pair_points
+from tests.face_reference.section_mesh import SectionSizes, section_mesh
+from tests.face_reference.swept_gear import Sweep, SweptGear
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.pair import GearPair
-from tests.face_reference.contact_points import PairPoints, Position, compliance, pair_points
-from tests.face_reference.section_mesh import SectionSizes, section_mesh
-from tests.face_reference.swept_gear import Sweep, SweptGear
-from tests.face_reference.unilateral import pressed
 
 NORMAL_MODULE, NORMAL_PRESSURE_ANGLE, TEETH, FACE_WIDTH = 3.0, radians(20.0), (24, 32), 7.5
 STEEL = Material(206000.0, 0.3)

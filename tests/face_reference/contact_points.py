@@ -11,10 +11,9 @@ from functools import cached_property
 
 import numpy as np
 from scipy import sparse
-
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.pair import GearPair
 from tests.face_reference.swept_gear import SweptGear, line_shapes
+
+from fenics_gears.geometry.pair import GearPair
 
 # Gauss points of a cell across the contact line and along the face.
 ACROSS, ALONG = 4, 3

@@ -9,13 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.benchmarks.growth import memory
+from tests.benchmarks.growth.analysis import expected_by_mumps
 from tests.benchmarks.growth.axes import AXES, axis_named, paper
+from tests.benchmarks.growth.face_axes import FACE_AXES, helical
+from tests.benchmarks.growth.face_point import FacePoint
 from tests.benchmarks.growth.fit import exponent, local_slopes
 from tests.benchmarks.growth.picture import growth_picture
 from tests.benchmarks.growth.point import Point
 from tests.benchmarks.growth.report import MEBI, column, exponents, section, write_csv
 from tests.benchmarks.marked_section import replaced
 
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import model_of
 
 MACHINE = {"processor": "a machine", "load": "0.1", "threads": "1", "versions": "0"}
@@ -96,6 +100,30 @@ def test_a_point_has_all_that_theory_speaks_of():
         assert point[axis.counted] > 0.0
         assert all(point[column(quantity)] > 0.0 for quantity in axis.theory if not quantity.endswith("peak"))
     assert point["contact_nodes"] == 9 and point["steps"] == 4 and point["teeth"] == 24 and point["cycles"] == 2
+
+
+@pytest.mark.parametrize("axis", FACE_AXES, ids=lambda axis: axis.name)
+def test_every_axis_over_the_face_has_scenes_that_can_be_run(axis):
+    """Authority: definition; each scene is checked as a user's is, and has what its axis asks for."""
+    for value in (min(axis.values), max(axis.values)):
+        model = model_of(axis.scene(value))
+        counted = {"slices": model.face.slices, "teeth": model.pair.wheel.teeth, "layers": model.scene.accuracy.layers}
+        assert model.scene.three_dimensional and counted.get(axis.counted, value) == value
+
+
+def test_a_point_over_the_face_has_all_that_theory_speaks_of(tmp_path):
+    """Authority: identity; every quantity of every axis is measured and positive. MUMPS's analysis has the size of what is condensed, and more bytes than its dense front."""
+    model = model_of(helical(layers=1, slices=2, steps_per_mesh_cycle=2))
+    point = FacePoint(model, set()).body()
+    contact = FacePoint(model, set()).contact(Cache(tmp_path))
+    for axis in FACE_AXES:
+        found = contact if axis.measured == "contact" else point
+        assert found[axis.counted] > 0.0 and all(found[count] > 0.0 for count in axis.also)
+        assert all(found[column(quantity)] > 0.0 for quantity in axis.theory if not quantity.endswith("peak"))
+    assert (point["layers"], point["teeth"], point["ranks"], contact["slices"], contact["steps"]) == (1, 30, 1, 2, 2)
+    expected, condensed = expected_by_mumps(model), point["condensed_unknowns"]
+    assert (expected["unknowns"], expected["condensed_unknowns"]) == (point["unknowns"], condensed)
+    assert expected["factor_array_bytes"] > 4.0 * condensed**2
 
 
 def points_of(axis):

@@ -5,11 +5,12 @@ Every point is the paper's pair, quasi-static with friction, but for what its ax
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
+from tests.benchmarks.growth.axis import Axis, Theory, logarithmic
+from tests.benchmarks.growth.face_axes import FACE_AXES
 
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Accuracy, GearData, Motion, Scene
@@ -19,39 +20,6 @@ SCENE = Path(__file__).parents[3] / "demos" / "lundvall2004.toml"
 FLANK_SIZE, LENGTH, NODES, STEPS = 0.08, 3.2, 41, 20
 # Contact nodes one flank element's node distance apart and more; finer flanks than this take gigabytes.
 FINEST_FLANK = 0.0125
-
-
-@dataclass(frozen=True)
-class Theory:
-    """Exponent that is expected of what grows; and why."""
-
-    exponent: float
-    why: str
-
-
-@dataclass(frozen=True)
-class Axis:
-    """Something that grows: `values` are asked for, what a point then has is its x (`counted` by the point's run).
-
-    `theory`: of seconds of stages, of bytes of their arrays ("condense arrays") and of the process's peak above its idle ("condense peak").
-    """
-
-    name: str
-    words: str
-    values: tuple[float, ...]
-    scene: Callable[[float], Scene]
-    counted: str
-    theory: dict[str, Theory]
-
-    @property
-    def stages(self) -> set[str]:
-        """Stages that theory says something about, which are run several times."""
-        return {"condense" if name.split()[0] in ("assemble", "schur", "ring", "fourier") else name.split()[0] for name in self.theory}
-
-
-def logarithmic(first: float, last: float, points: int = 7) -> tuple[float, ...]:
-    """Whole numbers, even in their logarithm."""
-    return tuple(float(round(value)) for value in np.geomspace(first, last, points))
 
 
 def paper() -> Scene:
@@ -177,4 +145,9 @@ AXES = (
 
 def axis_named(name: str) -> Axis:
     """The axis of a name."""
-    return next(axis for axis in AXES if axis.name == name)
+    return next(axis for axis in AXES + FACE_AXES if axis.name == name)
+
+
+def those_of(names: Collection[str]) -> list[Axis]:
+    """The axes of some names, in their order."""
+    return [axis for axis in AXES + FACE_AXES if axis.name in names]

@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import nan
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
-from tests.benchmarks.growth.axes import AXES, Axis
+from tests.benchmarks.growth.axes import those_of
+from tests.benchmarks.growth.axis import Axis
+from tests.benchmarks.growth.fit import local_slopes
 from tests.benchmarks.growth.report import MEBI, WORDS, Points, column, exponents, known
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 
 COLUMNS = 3
 COLOURS = dict(zip(("mesh", "assemble", "schur", "ring", "operators", "solving"), PALETTE))
-COLOURS["fourier"] = GREY
-MARKS = dict(zip(COLOURS, "os^Dvpx"))
+COLOURS |= {"fourier": GREY, "clock": DARK}
+MARKS = dict(zip(COLOURS, "os^Dvpxh"))
+PLANE_PAIR = "the paper's pair, quasi-static with friction, one thing at a time made larger"
 IDLE = "process, peak of all stages"
 
 
 @styled
-def growth_picture(found: Mapping[str, Points], machine: Mapping[str, str]) -> Figure:
-    """Two rows of panels for each three axes: times above, memory below."""
-    axes_found = [axis for axis in AXES if axis.name in found]
+def growth_picture(found: Mapping[str, Points], machine: Mapping[str, str], what: str = PLANE_PAIR) -> Figure:
+    """Two rows of panels for each three axes: times above, memory below; `what` grows, for the title."""
+    axes_found = those_of(found)
     rows = -(-len(axes_found) // COLUMNS)
     figure = Figure(figsize=(15.0, 7.2 * rows + 0.9), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.035, 1, 0.965))
@@ -36,10 +40,7 @@ def growth_picture(found: Mapping[str, Points], machine: Mapping[str, str]) -> F
         else:
             times.set_axis_off()
             memory.set_axis_off()
-    figure.suptitle(
-        "How time and memory grow: the paper's pair, quasi-static with friction, one thing at a time made larger",
-        x=0.008, ha="left", fontsize=14, color=DARK,
-    )  # fmt: skip
+    figure.suptitle(f"How time and memory grow: {what}", x=0.008, ha="left", fontsize=14, color=DARK)
     told = (
         "Numbers in the legends: exponents over the upper decade. Times: processor seconds on one thread, medians.\n"
         f"{machine['processor']}, load {machine['load']}; {machine['versions']}"
@@ -53,9 +54,9 @@ def _times(panel: Axes, axis: Axis, points: Points) -> None:
     for stage, colour in COLOURS.items():
         if stage not in axis.theory:
             continue
-        fit, theory = fits[stage], axis.theory[stage].exponent
-        label = f"{WORDS[stage]}: {'-' if fit is None else _rounded(fit.value)}, theory {theory:g}"
-        panel.plot(*known(axis, points, column(stage)), "-" + MARKS[stage], color=colour, markersize=5, label=label)
+        fit, theory, line = fits[stage], axis.theory[stage].exponent, known(axis, points, column(stage))
+        label = f"{WORDS[stage]}: {_rounded(local_slopes(*line)[-1] if fit is None else fit.value)}, theory {theory:.2g}"
+        panel.plot(*line, "-" + MARKS[stage], color=colour, markersize=5, label=label)
     _logarithmic(panel)
     panel.set_title(axis.words if len(axis.words) < 52 else axis.words.replace(", ", ",\n", 1))
     panel.set_ylabel("Processor time (s)")
@@ -71,12 +72,13 @@ def _rounded(value: float) -> str:
 
 
 def _memory(panel: Axes, axis: Axis, points: Points) -> None:
-    x = [point[axis.counted] for point in points]
-    peaks = [max(value for name, value in point.items() if name.endswith("_peak_bytes")) for point in points]
-    panel.plot(x, [each / MEBI for each in peaks], "-", color=GREY, label=IDLE)
+    peaks = [max((value for name, value in point.items() if name.endswith("_peak_bytes")), default=nan) for point in points]
+    panel.plot([point[axis.counted] for point in points], [each / MEBI for each in peaks], "-", color=GREY, label=IDLE)
     for stage, colour in (("condense", PALETTE[2]), ("operators", PALETTE[4]), ("solving", PALETTE[5])):
-        values = [point[f"{stage}_array_bytes"] / MEBI for point in points]
-        panel.plot(x, values, "-" + {"condense": "^", "operators": "v", "solving": "p"}[stage], color=colour, markersize=4, label=f"arrays of {stage.replace('condense', 'condensing')}")
+        at, held = known(axis, points, f"{stage}_array_bytes")
+        if not at:
+            continue
+        panel.plot(at, [each / MEBI for each in held], "-" + {"condense": "^", "operators": "v", "solving": "p"}[stage], color=colour, markersize=4, label=f"arrays of {stage.replace('condense', 'condensing')}")
     _logarithmic(panel)
     panel.set_ylabel("Memory (MiB)")
     panel.set_xlabel(axis.name[0].upper() + axis.name[1:])

@@ -6,29 +6,30 @@ import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from tests.benchmarks.growth.axes import AXES, Axis
-from tests.benchmarks.growth.fit import Exponent, exponent
+from tests.benchmarks.growth.axes import axis_named, those_of
+from tests.benchmarks.growth.axis import Axis
+from tests.benchmarks.growth.fit import Exponent, exponent, local_slopes
 
 Points = Sequence[Mapping[str, float]]
-STAGES = ("mesh", "assemble", "schur", "ring", "fourier", "condense", "operators", "solving")
+STAGES = ("mesh", "assemble", "schur", "ring", "fourier", "clock", "condense", "operators", "solving")
 WORDS = {
     "mesh": "meshing", "assemble": "condensing: assembling", "schur": "condensing: Schur complement", "ring": "condensing: ring of sectors",
-    "fourier": "instead: ring by Fourier transform",
+    "fourier": "instead: ring by Fourier transform", "clock": "condensing by the clock", "factor": "factor, as MUMPS counts",
     "condense": "condensing", "operators": "marching: operators", "solving": "marching: solving",
 }  # fmt: skip
-MEBI = 2.0**20
+MEBI, ROUNDS = 2.0**20, 5
 
 
 def column(quantity: str) -> str:
     """The name that a quantity of the theory has in a point."""
     stage, _, what = quantity.partition(" ")
-    return {"": f"{stage}_s", "arrays": f"{stage}_array_bytes", "peak": f"{stage}_above_idle_bytes"}[what]
+    return {"": f"{stage}_s", "arrays": f"{stage}_array_bytes", "peak": f"{stage}_above_idle_bytes", "operations": f"{stage}_operations"}[what]
 
 
 def words(quantity: str) -> str:
     """A quantity for people."""
     stage, _, what = quantity.partition(" ")
-    return WORDS[stage] + {"": "", "arrays": ", arrays", "peak": ", peak of the process above its idle"}[what]
+    return WORDS[stage] + {"": "", "arrays": ", arrays", "peak": ", peak of the process above its idle", "operations": ", operations"}[what]
 
 
 def exponents(axis: Axis, points: Points) -> dict[str, Exponent | None]:
@@ -42,14 +43,13 @@ def known(axis: Axis, points: Points, name: str) -> tuple[list[float], list[floa
     return [point[axis.counted] for point in having], [point[name] for point in having]
 
 
-def section(found: Mapping[str, Points], machine: Mapping[str, str]) -> str:
-    """Both tables of every axis, the picture and what it was measured on."""
-    parts = ["![](pictures/growth.png)", "", "All numbers: [growth.csv](pictures/growth.csv)."]
-    for axis in AXES:
-        if axis.name in found:
-            points = found[axis.name]
-            parts += ["", f"## {axis.name[0].upper()}{axis.name[1:]}", "", *_exponent_table(axis, points), "", *_point_table(axis, points)]
-    fewest = min(int(point[f"{stage}_rounds"]) for name, points in found.items() for point in points for stage in _timed(name))
+def section(found: Mapping[str, Points], machine: Mapping[str, str], name: str = "growth") -> str:
+    """Both tables of every axis, the picture of a name and what it was measured on."""
+    parts = [f"![](pictures/{name}.png)", "", f"All numbers: [{name}.csv](pictures/{name}.csv)."]
+    for axis in those_of(found):
+        points = found[axis.name]
+        parts += ["", f"## {axis.name[0].upper()}{axis.name[1:]}", "", *_exponent_table(axis, points), "", *_point_table(axis, points)]
+    fewest = min(int(point.get(f"{stage}_rounds", ROUNDS)) for name, points in found.items() for point in points for stage in _timed(name))
     parts += ["", (
         f"Times are processor seconds on one thread: medians of 5 runs, or of at least {fewest} where a stage takes longer than a second. Each point ran in a process "
         f"of its own. {machine['processor']}, load {machine['load']}; {machine['versions']}."
@@ -58,27 +58,28 @@ def section(found: Mapping[str, Points], machine: Mapping[str, str]) -> str:
 
 
 def _timed(name: str) -> set[str]:
-    return next(axis for axis in AXES if axis.name == name).stages
+    return axis_named(name).stages
 
 
 def _exponent_table(axis: Axis, points: Points) -> list[str]:
     lines = ["|what grows|exponent over the upper decade|between the last two points|theory|why|", "|---|---|---|---|---|"]
     for quantity, found in exponents(axis, points).items():
         theory = axis.theory[quantity]
-        measured = ("-", "-") if found is None else (f"{found.value:.2f} ± {found.error:.2f}", f"{found.last:.2f}")
-        lines.append(f"|{words(quantity)}|{measured[0]}|{measured[1]}|{theory.exponent:g}|{theory.why}|")
+        last = local_slopes(*known(axis, points, column(quantity)))[-1]
+        measured = "-" if found is None else f"{found.value:.2f} ± {found.error:.2f}", f"{last:.2f}"
+        lines.append(f"|{words(quantity)}|{measured[0]}|{measured[1]}|{theory.exponent:.3g}|{theory.why}|")
     return lines
 
 
 def _point_table(axis: Axis, points: Points) -> list[str]:
     timed = [stage for stage in STAGES if stage in axis.theory]
-    heading = [axis.name, "unknowns of both gears", *(f"{WORDS[stage]}, s" for stage in timed), "peak of the process, MiB", "arrays, MiB"]
+    heading = [axis.name, *axis.also.values(), *(f"{WORDS[stage]}, s" for stage in timed), "peak of the process, MiB", "arrays, MiB"]
     lines = [f"|{'|'.join(heading)}|", "|---" * len(heading) + "|"]
     for point in points:
-        peak = max(value for name, value in point.items() if name.endswith("_peak_bytes"))
+        peak = max((value for name, value in point.items() if name.endswith("_peak_bytes")), default=None)
         arrays = sum(value for name, value in point.items() if name.endswith("_array_bytes"))
-        cells = [f"{point[axis.counted]:g}", f"{point['unknowns']:.0f}", *(f"{point[stage + '_s']:.2g}" if f"{stage}_s" in point else "-" for stage in timed)]
-        lines.append(f"|{'|'.join([*cells, f'{peak / MEBI:.0f}', f'{arrays / MEBI:.3g}'])}|")
+        cells = [f"{point[axis.counted]:g}", *(f"{point[count]:.0f}" for count in axis.also), *(f"{point[stage + '_s']:.2g}" if f"{stage}_s" in point else "-" for stage in timed)]
+        lines.append(f"|{'|'.join([*cells, '-' if peak is None else str(round(peak / MEBI)), f'{arrays / MEBI:.3g}'])}|")
     return lines
 
 
@@ -89,7 +90,7 @@ def write_csv(found: Mapping[str, Points], machine: Mapping[str, str], file: Pat
     with open(file, "w", encoding="utf-8", newline="") as opened:
         writer = csv.DictWriter(opened, columns, restval="")
         writer.writeheader()
-        for axis in (axis for axis in AXES if axis.name in found):
+        for axis in those_of(found):
             for point in found[axis.name]:
                 writer.writerow({"kind": "point", "axis": axis.name, **point, **machine})
             for quantity, fit in exponents(axis, found[axis.name]).items():
