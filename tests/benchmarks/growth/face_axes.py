@@ -89,7 +89,7 @@ FACE_AXES = (
         "body", OF_BODY,
     ),
     Axis(
-        "layers", "layers of elements over the face", (1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 48.0), of_layers, "layers",
+        "layers", "layers of elements over the face", (1.0, 2.0, 4.0, 8.0, 14.0, 24.0, 40.0), of_layers, "layers",
         {
             "mesh": Theory(0.0, "one section"),
             "assemble": Theory(1.0, "proportional to the number of layers"),
