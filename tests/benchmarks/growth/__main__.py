@@ -30,7 +30,7 @@ PAGE, PICTURES = ROOT / "docs" / "growth.md", ROOT / "docs" / "pictures"
 # What grows, by the name of its files.
 GROUPS = {
     "growth": (AXES, PLANE_PAIR),
-    "growth_face": (FACE_AXES, "over the face, a standard pair of 20 and 30 teeth at 15 degrees, quasi-static without friction, one thing at a time made larger"),
+    "growth_face": (FACE_AXES, "over the face, 20 and 30 teeth at 15 degrees, one thing at a time made larger"),
 }
 COUNTED = (
     "flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns", "condensed_unknowns", "most_contact_rows", "newton_iterations", "closed_nodes",
