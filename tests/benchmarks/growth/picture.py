@@ -91,3 +91,6 @@ def _logarithmic(panel: Axes) -> None:
     panel.set_xscale("log")
     panel.set_yscale("log")
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    if panel.get_xlim()[1] < 3.0:
+        # Ranks: one and two, nothing between.
+        panel.xaxis.set_minor_formatter(FuncFormatter(lambda value, _: "2" if abs(value - 2.0) < 1e-9 else ""))
