@@ -9,18 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import cos, floor, sqrt, tan
+from math import cos, sqrt, tan
 
 from fenics_gears.geometry import tooth_thickness
-from fenics_gears.geometry.gear import Gear, transverse_gear
-from fenics_gears.geometry.gear_checks import refuse
+from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear, transverse_gear
+from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
 from fenics_gears.geometry.gear_data import GearData
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST 13755-2015; A is also the rack of DIN 867.
 RACKS = {"ISO 53 A": (1.0, 1.25, 0.38), "ISO 53 B": (1.0, 1.25, 0.3), "ISO 53 C": (1.0, 1.25, 0.25), "ISO 53 D": (1.0, 1.4, 0.39)}
-# A derived tip radius is rounded down to so many parts of a module, so that both roundings of the rack's tip fit.
-STEPS_OF_TIP_RADIUS = 10_000
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number of spanned teeth or another gear.
 LARGEST_ALLOWANCE = 0.5
 # Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2 tan(alpha_n)), 4.3 at 20 deg.
@@ -189,8 +187,8 @@ def _tip_shortening(pair: DrawnPair, drawn: tuple[DrawnGear, DrawnGear], shifts:
     if all(gear.tip_diameter is not None for gear in drawn):
         return 0.0
     reference = 0.5 * pair.module * sum(gear.teeth for gear in drawn) / cos(pair.helix_angle)
-    shortening = max(0.0, sum(shifts) - (distance - reference) / pair.module)
-    found.append(Derived("tip shortening -k", shortening, "modules", "k m_n = a - a_d - (x1 + x2) m_n, where negative"))
+    shortening = max(0.0, round(sum(shifts) - (distance - reference) / pair.module, DECIMALS_IN_MODULES))
+    found.append(Derived("tip shortening -k", shortening, "modules", "k m_n = a - a_d - (x1 + x2) m_n, not above 0"))
     return shortening
 
 
@@ -205,11 +203,35 @@ def _gear_data(pair: DrawnPair, drawn: DrawnGear, name: str, shift: float, cut: 
         found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
     radius = rack.tip_radius
     if radius is None:
-        room = rack_gear(pair, drawn.teeth, cut, root).largest_rack_tip_radius / pair.module
-        radius = min(rack.standard_tip_radius, max(0.0, floor((room - 1e-9) * STEPS_OF_TIP_RADIUS) / STEPS_OF_TIP_RADIUS))
+        radius = min(rack.standard_tip_radius, tip_radius_with_room(rack_gear(pair, drawn.teeth, cut, root)))
         why = f"what has room on the rack's tip, less than the usual {rack.standard_tip_radius:g}" if radius < rack.standard_tip_radius else "that of the rack"
         found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
-    return GearData(drawn.teeth, cut, tip, root, 0.0, radius)
+    data = GearData(drawn.teeth, cut, tip, root, 0.0, radius)
+    _check_measure(drawn, name, transverse_gear(data, pair.module, pair.pressure_angle, pair.helix_angle))
+    return data
+
+
+def _check_measure(drawn: DrawnGear, name: str, gear: Gear) -> None:
+    """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
+    lowest = gear.base_radius if gear.form_roll_angle < 0.0 else gear.form_radius
+    if drawn.base_tangent_length is not None:
+        touched, better = tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length), tooth_thickness.spanned_teeth(gear)
+        what, remedy = f"base_tangent_length = {drawn.base_tangent_length:.6g} mm over {drawn.spanned_teeth} teeth", f"measure over gears.{name}.spanned_teeth = {better}"
+    elif drawn.dimension_over_balls is not None:
+        touched, better = tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter), tooth_thickness.ball_diameter(gear)
+        what, remedy = f"dimension_over_balls = {drawn.dimension_over_balls:.6g} mm with balls of {drawn.ball_diameter:g} mm", f"measure with gears.{name}.ball_diameter about {better:.4g} mm"
+        centre, radius = tooth_thickness.ball_centre(gear, drawn.ball_diameter), 0.5 * drawn.ball_diameter
+        if centre + radius < gear.tip_radius or centre - radius < gear.root_radius - ROUNDING:
+            lies = f"lie within the tip circle of {2.0 * gear.tip_radius:.6g} mm" if centre + radius < gear.tip_radius else f"reach below the root circle of {2.0 * gear.root_radius:.6g} mm"
+            refuse(name, f"gears.{name}.{what}: the balls {lies}: {remedy}")
+    else:
+        return
+    if not lowest - ROUNDING <= touched <= gear.tip_radius + ROUNDING:
+        refuse(
+            name,
+            f"gears.{name}.{what} would touch the flanks at diameter {2.0 * touched:.6g} mm, off the involute, which goes from {2.0 * lowest:.6g} to "
+            f"{2.0 * gear.tip_radius:.6g} mm: {remedy}",
+        )
 
 
 def _asked_measures(pair: DrawnPair, drawn: DrawnGear, name: str, cut: float) -> Iterator[Derived]:

@@ -5,18 +5,20 @@ from __future__ import annotations
 from functools import partial
 from math import acos, atan, cos, isclose, tan
 
+from fenics_gears.geometry.drawing import RACKS
+from fenics_gears.geometry.gear import transverse_gear
+from fenics_gears.geometry.gear_checks import tip_radius_with_room
+from fenics_gears.geometry.gear_data import GearData
+from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.rexs.attributes import Reading, every, first, given, needed
 from fenics_gears.rexs.stage import GearParts, Stage
 from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place, together
 
 # By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's problems.
 Sections = dict[str, dict[str, Value | None]]
-# ISO 53, basic rack A: addendum, dedendum and tip radius of the rack's tooth, in modules.
-ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = 1.0, 1.25, 0.38
+ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = RACKS["ISO 53 A"]
 # A gear without a known bore: the rim is thick enough not to matter.
 BORE = 0.4
-# ISO 6336-1: Young's modulus (N/mm^2) and Poisson's ratio of steel.
-STEEL = (206e3, 0.3)
 MATERIAL = ("youngs_modulus", "poissons_ratio")
 # Rounding that is allowed where the file repeats module, teeth or shifts, in modules.
 ROUNDED = 1e-3
@@ -32,7 +34,7 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
     teeth = [reading.attempt(needed, part, "teeth") for part in stage.gears]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
-    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
+    gears = [_gear_section(reading, part, beta, module, angle, *own) for part, *own in zip(stage.gears, teeth, shifts)]
     for part, count in zip(stage.gears, teeth):
         reading.attempt(_check_reference_diameter, part, beta, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
@@ -125,7 +127,9 @@ def _remaining_shift(stage: Stage, beta: float, known: Value, module: Value, ang
     return bare(round(total - known.number, 9), why, assumed=True)
 
 
-def _gear_section(reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None) -> dict[str, Value | None]:
+def _gear_section(
+    reading: Reading, part: GearParts, beta: float, module: Value | None, angle: Value | None, teeth: Value | None, shift: Value | None
+) -> dict[str, Value | None]:
     tip = reading.attempt(needed, part, "tip_diameter") if given(part, "tip_diameter") else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
     stated = given(part, "root_diameter")
     root = reading.attempt(needed, part, "root_diameter") if stated else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
@@ -135,7 +139,7 @@ def _gear_section(reading: Reading, part: GearParts, beta: float, module: Value 
         "tip_diameter": tip,
         "root_diameter": root,
         "bore_diameter": reading.attempt(_bore_diameter, part, root),
-        "rack_tip_radius": reading.attempt(_rack_tip_radius, part, module),
+        "rack_tip_radius": reading.attempt(_rack_tip_radius, part, beta, module, angle, teeth, shift, root),
     }
 
 
@@ -161,8 +165,15 @@ def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, sh
     return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
 
 
-def _rack_tip_radius(part: GearParts, module: Value) -> Value:
-    return _of_tool(part, module, "rack_tip_radius") or bare(RACK_TIP_RADIUS, "no tip radius of the tool; that of ISO 53", assumed=True)
+def _rack_tip_radius(part: GearParts, beta: float, module: Value, angle: Value, teeth: Value, shift: Value, root: Value) -> Value:
+    """That of the tool, or the standard's where it fits on the rack's tip."""
+    given_radius = _of_tool(part, module, "rack_tip_radius")
+    if given_radius is not None:
+        return given_radius
+    data = GearData(int(teeth.number), shift.number, 0.0, root.number, 0.0, 0.0)
+    room = tip_radius_with_room(transverse_gear(data, module.number, angle.number, beta))
+    why = "that of ISO 53" if room >= RACK_TIP_RADIUS else f"what has room on the rack's tip, less than the {RACK_TIP_RADIUS} of ISO 53"
+    return bare(min(room, RACK_TIP_RADIUS), f"no tip radius of the tool; {why}", assumed=True)
 
 
 def _of_tool(part: GearParts, module: Value, asked: str) -> Value | None:
@@ -186,8 +197,9 @@ def _materials(stage: Stage) -> Sections:
     found = {name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in zip(("pinion", "wheel"), stage.gears) if part.material}
     if not found:
         why = "no material; that of steel (ISO 6336-1)"
-        steel = computed(STEEL[0], 1e3, "GPa", why, assumed=True), bare(STEEL[1], why, assumed=True)
-        return {"gears.material": dict(zip(MATERIAL, steel))}
+        steel = MATERIALS["steel"][0]
+        values = computed(steel.youngs_modulus, 1e3, "GPa", why, assumed=True), bare(steel.poissons_ratio, why, assumed=True)
+        return {"gears.material": dict(zip(MATERIAL, values))}
     try:
         return {"gears.material": {asked: agreed([each[asked] for each in found.values()], "") for asked in MATERIAL}}
     except ValueProblem:

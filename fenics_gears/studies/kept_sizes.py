@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from fenics_gears.geometry.drawing import Derived
 from fenics_gears.studies.axis import Axis
 
 TIP, ROOT, SHIFT, CENTRES = "tip_diameter", "root_diameter", "profile_shift", "centre_distance"
@@ -11,10 +12,19 @@ OF_ONE_GEAR = {SHIFT: (TIP, ROOT), "teeth": (TIP, ROOT)}
 OF_BOTH_GEARS = {"module": (TIP, ROOT), "helix_angle": (TIP, ROOT), "pressure_angle": (), CENTRES: (SHIFT, TIP)}
 
 
-def kept_sizes(axes: Iterable[Axis]) -> list[str]:
-    """A sentence for each swept size of the gears, on the diameters, profile shifts and the centre distance that stay the same in all cases."""
-    swept = {axis.dotted for axis in axes}
-    return [_sentence(name, kept) for name in sorted(swept) if (kept := [each for each in _bound_to(name) if each not in swept])]
+def kept_sizes(axes: Iterable[Axis], derived: Iterable[Derived] = ()) -> list[str]:
+    """A sentence for each swept size of the gears, on the diameters, profile shifts and the centre distance that stay the same in all cases.
+
+    derived: what the scenes leave out, which follows the swept size.
+    """
+    swept, follow = {axis.dotted for axis in axes}, {each.name for each in derived}
+    kept = {name: [each for each in _bound_to(name) if each not in swept and _in_words(each) not in follow] for name in sorted(swept)}
+    return [_sentence(name, sizes) for name, sizes in kept.items() if sizes]
+
+
+def _in_words(name: str) -> str:
+    """A field as a derived figure is called: "pinion tip diameter"."""
+    return name.removeprefix("gears.").replace(".", " ").replace("_", " ")
 
 
 def _bound_to(name: str) -> list[str]:
