@@ -5,18 +5,15 @@ from __future__ import annotations
 from functools import partial
 from math import acos, atan, cos, isclose, tan
 
-from fenics_gears.geometry.drawing import RACKS
-from fenics_gears.geometry.gear import transverse_gear
-from fenics_gears.geometry.gear_checks import tip_radius_with_room
-from fenics_gears.geometry.gear_data import GearData
-from fenics_gears.geometry.materials import MATERIALS
+from fenics_gears.geometry.gear_data import RACKS
 from fenics_gears.rexs.attributes import Reading, every, first, given, needed
 from fenics_gears.rexs.stage import GearParts, Stage
 from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place, together
 
 # By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's problems.
 Sections = dict[str, dict[str, Value | None]]
-ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = RACKS["ISO 53 A"]
+STANDARD = "ISO 53 A"
+ADDENDUM, DEDENDUM, _ = RACKS[STANDARD]
 # A gear without a known bore: the rim is thick enough not to matter.
 BORE = 0.4
 MATERIAL = ("youngs_modulus", "poissons_ratio")
@@ -34,7 +31,7 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
     teeth = [reading.attempt(needed, part, "teeth") for part in stage.gears]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
-    gears = [_gear_section(reading, part, beta, module, angle, *own) for part, *own in zip(stage.gears, teeth, shifts)]
+    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
     for part, count in zip(stage.gears, teeth):
         reading.attempt(_check_reference_diameter, part, beta, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
@@ -43,7 +40,9 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
         pair["face_width"] = widths[0]
     else:
         gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
-    return {"gears": pair, "gears.pinion": gears[0], "gears.wheel": gears[1], **(reading.attempt(_materials, stage) or {})}
+    rack = {"profile": Value(0.0, f'"{STANDARD}"', "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip", assumed=True)}
+    racks = {f"gears.{name}.rack": rack for name, gear in zip(("pinion", "wheel"), gears) if "rack_tip_radius" not in gear}
+    return {"gears": pair, "gears.pinion": gears[0], "gears.wheel": gears[1], **racks, **(reading.attempt(_materials, stage) or {})}
 
 
 def _of_both(stage: Stage, asked: str, different: str) -> Value:
@@ -127,19 +126,18 @@ def _remaining_shift(stage: Stage, beta: float, known: Value, module: Value, ang
     return bare(round(total - known.number, 9), why, assumed=True)
 
 
-def _gear_section(
-    reading: Reading, part: GearParts, beta: float, module: Value | None, angle: Value | None, teeth: Value | None, shift: Value | None
-) -> dict[str, Value | None]:
+def _gear_section(reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None) -> dict[str, Value | None]:
     tip = reading.attempt(needed, part, "tip_diameter") if given(part, "tip_diameter") else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
     stated = given(part, "root_diameter")
     root = reading.attempt(needed, part, "root_diameter") if stated else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
+    radius = reading.attempt(_of_tool, part, module, "rack_tip_radius")
     return {
         "teeth": teeth,
         "profile_shift": shift,
         "tip_diameter": tip,
         "root_diameter": root,
         "bore_diameter": reading.attempt(_bore_diameter, part, root),
-        "rack_tip_radius": reading.attempt(_rack_tip_radius, part, beta, module, angle, teeth, shift, root),
+        **({"rack_tip_radius": radius} if radius is not None else {}),
     }
 
 
@@ -165,17 +163,6 @@ def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, sh
     return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
 
 
-def _rack_tip_radius(part: GearParts, beta: float, module: Value, angle: Value, teeth: Value, shift: Value, root: Value) -> Value:
-    """That of the tool, or the standard's where it fits on the rack's tip."""
-    given_radius = _of_tool(part, module, "rack_tip_radius")
-    if given_radius is not None:
-        return given_radius
-    data = GearData(int(teeth.number), shift.number, 0.0, root.number, 0.0, 0.0)
-    room = tip_radius_with_room(transverse_gear(data, module.number, angle.number, beta))
-    why = "that of ISO 53" if room >= RACK_TIP_RADIUS else f"what has room on the rack's tip, less than the {RACK_TIP_RADIUS} of ISO 53"
-    return bare(min(room, RACK_TIP_RADIUS), f"no tip radius of the tool; {why}", assumed=True)
-
-
 def _of_tool(part: GearParts, module: Value, asked: str) -> Value | None:
     """A measure of the tool that made the root, in modules."""
     agreed([module, *every(part, "tool_module")], "The tool has another module than the gear")
@@ -197,9 +184,7 @@ def _materials(stage: Stage) -> Sections:
     found = {name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in zip(("pinion", "wheel"), stage.gears) if part.material}
     if not found:
         why = "no material; that of steel (ISO 6336-1)"
-        steel = MATERIALS["steel"][0]
-        values = computed(steel.youngs_modulus, 1e3, "GPa", why, assumed=True), bare(steel.poissons_ratio, why, assumed=True)
-        return {"gears.material": dict(zip(MATERIAL, values))}
+        return {"gears.material": {"name": Value(0.0, '"steel"', why, assumed=True)}}
     try:
         return {"gears.material": {asked: agreed([each[asked] for each in found.values()], "") for asked in MATERIAL}}
     except ValueProblem:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from fenics_gears.geometry.drawing import Derived
+from fenics_gears.scene.data import Derived
 from fenics_gears.studies.axis import Axis
 
 TIP, ROOT, SHIFT, CENTRES = "tip_diameter", "root_diameter", "profile_shift", "centre_distance"

@@ -9,7 +9,7 @@ from tests.drawn_pairs import PAIRS, figures, table
 
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.geometry.drawing import RACKS
+from fenics_gears.geometry.gear_data import RACKS
 from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
@@ -168,10 +168,10 @@ WRONG = {
     "two measures": ({}, {**MEASURED, "base_tangent_length": "32 mm", "spanned_teeth": 3}, {}, "base_tangent_length = \"32 mm\"\n    stands beside tooth_thickness"),
     "no span": ({}, {"base_tangent_length": "23 mm"}, {}, "gears.pinion.spanned_teeth\n    is missing"),
     "no ball": ({}, {}, {"dimension_over_balls": "101 mm"}, "gears.wheel.ball_diameter\n    is missing"),
-    "another span": ({}, {"profile_shift": None, "base_tangent_length": "23.6 mm", "spanned_teeth": 4}, {}, "profile shift of -3.994, allowed are 2 modules"),
-    "another gear": ({}, {"tooth_thickness": "8 mm"}, {}, "gears.pinion.profile_shift is 0.3; allowed for the allowance"),
+    "another span": ({}, {"profile_shift": None, "base_tangent_length": "23.6 mm", "spanned_teeth": 4}, {}, "profile shift of -3.994; allowed are 2 modules"),
+    "another gear": ({}, {"tooth_thickness": "8 mm"}, {}, "allowed are 0.5 modules more or less than profile_shift = 0.3"),
     "a span off the involute": ({}, {"base_tangent_length": "59.2 mm", "spanned_teeth": 7}, {}, "off the involute, which goes from"),
-    "balls within the base circle": ({}, {"dimension_over_balls": "57 mm", "ball_diameter": "5 mm"}, {}, "their centres would lie within the base circle"),
+    "balls within the base circle": ({}, {"dimension_over_balls": "57 mm", "ball_diameter": "5 mm"}, {}, "the centres of the balls would lie within the base circle"),
     "balls that do not stand out": ({}, {"dimension_over_balls": "61.2 mm", "ball_diameter": "4 mm"}, {}, "the balls lie within the tip circle"),
     "backlash beside one measured gear": ({"backlash": "0.1 mm"}, MEASURED, {}, "gears.backlash = \"0.1 mm\"\n    stands beside gears.pinion.tooth_thickness"),
     "backlash beside all that gives it": ({"backlash": "0.1 mm", "centre_distance": "77 mm"}, MEASURED, MEASURED, "and gears.centre_distance"),
