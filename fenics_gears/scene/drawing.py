@@ -1,4 +1,4 @@
-"""What a drawing leaves out: diameters, centre distance, tip radius of the rack and tooth thickness, from module, teeth, profile shifts and rack.
+"""From the validated ``[gears]`` and ``[load]`` to their data, with what a drawing leaves out derived: diameters, centre distance, tip radius of the rack, tooth thickness.
 
 ISO 21771 (DIN 3960), in normal modules: d_a = d + 2 m_n (x + h_aP + k), d_f = d + 2 m_n (x_E - h_fP), inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2)
 tan(alpha_n)/(z1 + z2). x is the profile shift of the drawing and x_E that of the thickness, at which the rack cuts flanks and root; they differ by the
@@ -10,21 +10,72 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from math import cos, tan
+from typing import Any
 
+from fenics_gears.effects.effect import same_names
+from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry import tooth_thickness
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear, transverse_gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import RACKS, GearData
+from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData
+from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Derived
+from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
+from fenics_gears.scene.data import Derived, Load, Motion
 from fenics_gears.scene.gear_schema import MEASURES, Gears
 from fenics_gears.scene.gear_schema import Gear as GearText
+from fenics_gears.scene.schema import Load as LoadText
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number of spanned teeth or another gear.
 LARGEST_ALLOWANCE = 0.5
 # Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2 tan(alpha_n)), 4.3 at 20 deg.
 LARGEST_SHIFT = 2.0
+
+
+def with_material_sections(tree: dict[str, Any]) -> dict[str, Any]:
+    """A parsed file in which a material that is only named, ``material = "steel"``, is a section with that name."""
+    gears = table(tree, "gears") or {}
+    for home in (gears, *(table(gears, gear) for gear in GEARS)):
+        if home is not None and isinstance(home.get("material"), str):
+            home["material"] = {"name": home["material"]}
+    return tree
+
+
+def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
+    """The pair, and what was derived. Raises GeometryError for a figure that cannot be."""
+    both = (gears.pinion, gears.wheel)
+    distance, drawn, derived = completed(gears)
+    widths = [own.face_width or gears.face_width for own in both]
+    offsets = tuple(float(own.axial_offset or 0.0) for own in both)
+    # Where both ends are apart by as much, and so where there is no offset, the smaller width is the common one, to the last digit.
+    apart = abs(offsets[0] - offsets[1])
+    common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
+    alike = widths[0] == widths[1] == common
+    pinion, wheel = (
+        replace(gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material))
+        for gear, own, width in zip(drawn, both, widths)
+    )
+    others = {"face_width": common, "pinion": pinion, "wheel": wheel, "material": material_of(gears.material), "axial_offsets": offsets}
+    data = same_names(GearPairData, gears, ("backlash", "tip_shortening", "rack"), centre_distance=distance, **others)
+    return data, derived + _named_materials(gears)
+
+
+def _named_materials(gears: Gears) -> list[Derived]:
+    texts = {"": gears.material, **{f"{name} ": getattr(gears, name).material for name in GEARS}}
+    named = {words: (text.name, *MATERIALS[text.name]) for words, text in texts.items() if text is not None and text.name is not None}
+    return [
+        Derived(f"{words}Young's modulus", 1e-3 * material.youngs_modulus, "GPa", f"Poisson's ratio {material.poissons_ratio:g}, of {name}, unless given ({source})")
+        for words, (name, material, source) in named.items()
+    ]
+
+
+def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[Derived]]:
+    """The torque on the wheel, N mm, and how it was derived."""
+    name = next(each for each in LOADS if getattr(load, each) is not None)
+    torque = wheel_torque(name, float(getattr(load, name)), (gears.pinion.teeth, gears.wheel.teeth), motion.mesh_frequency)
+    assert torque is not None, "a load by power has a speed"
+    why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
+    return Load(torque), [] if name == "wheel_torque" else [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])]
 
 
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:
@@ -171,9 +222,8 @@ def _check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     elif measure == "dimension_over_balls":
         touched, better = tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter), f"about {tooth_thickness.ball_diameter(gear):.4g} mm"
         centre, radius = tooth_thickness.ball_centre(gear, drawn.ball_diameter), 0.5 * drawn.ball_diameter
-        if centre + radius < gear.tip_radius or centre - radius < gear.root_radius - ROUNDING:
-            circle = f"within the tip circle of {2.0 * gear.tip_radius:.6g} mm" if centre + radius < gear.tip_radius else f"on the root circle of {2.0 * gear.root_radius:.6g} mm"
-            refuse(name, f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie {circle}: take {better}")
+        if centre + radius < gear.tip_radius:
+            refuse(name, f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie within the tip circle of {2.0 * gear.tip_radius:.6g} mm: take {better}")
     else:
         return
     if not lowest - ROUNDING <= touched <= gear.tip_radius + ROUNDING:

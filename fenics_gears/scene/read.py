@@ -16,7 +16,7 @@ from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, line_numbers
 from fenics_gears.inputs.written import WrittenFloat, as_toml
 from fenics_gears.scene import data
-from fenics_gears.scene.gears import gear_pair_data, load_data, with_material_sections
+from fenics_gears.scene.drawing import gear_pair_data, load_data, with_material_sections
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
 

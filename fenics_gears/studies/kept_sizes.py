@@ -10,6 +10,8 @@ from fenics_gears.studies.axis import Axis
 TIP, ROOT, SHIFT, CENTRES = "tip_diameter", "root_diameter", "profile_shift", "centre_distance"
 OF_ONE_GEAR = {SHIFT: (TIP, ROOT), "teeth": (TIP, ROOT)}
 OF_BOTH_GEARS = {"module": (TIP, ROOT), "helix_angle": (TIP, ROOT), "pressure_angle": (), CENTRES: (SHIFT, TIP)}
+# A field's name as a derived figure is called: "pinion tip diameter".
+IN_WORDS = str.maketrans("._", "  ")
 
 
 def kept_sizes(axes: Iterable[Axis], derived: Iterable[Derived] = ()) -> list[str]:
@@ -18,13 +20,8 @@ def kept_sizes(axes: Iterable[Axis], derived: Iterable[Derived] = ()) -> list[st
     derived: what the scenes leave out, which follows the swept size.
     """
     swept, follow = {axis.dotted for axis in axes}, {each.name for each in derived}
-    kept = {name: [each for each in _bound_to(name) if each not in swept and _in_words(each) not in follow] for name in sorted(swept)}
+    kept = {name: [each for each in _bound_to(name) if each not in swept and each[len("gears.") :].translate(IN_WORDS) not in follow] for name in sorted(swept)}
     return [_sentence(name, sizes) for name, sizes in kept.items() if sizes]
-
-
-def _in_words(name: str) -> str:
-    """A field as a derived figure is called: "pinion tip diameter"."""
-    return name.removeprefix("gears.").replace(".", " ").replace("_", " ")
 
 
 def _bound_to(name: str) -> list[str]:
