@@ -147,8 +147,11 @@ def _centre_distance(pair: Gears, shifts: list[float], cut: list[float], found: 
         # Imported here: hardly a scene needs it.
         from scipy.optimize import brentq
 
+        def missing(at: float) -> float:
+            return pair.backlash - replace(rack_pair, centre_distance=at).circumferential_backlash
+
         words = "both tooth thicknesses and the backlash"
-        distance = brentq(lambda at: replace(rack_pair, centre_distance=at).circumferential_backlash - pair.backlash, distance, distance + 10.0 * pair.backlash + pair.module)
+        distance = brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module) if missing(distance) > 0.0 else distance
     found.append(Derived("centre distance", distance, "mm", words))
     return distance
 
