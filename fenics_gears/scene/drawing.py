@@ -61,11 +61,11 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 
 
 def _named_materials(gears: Gears) -> list[Derived]:
-    texts = {"": gears.material, **{f"{name} ": getattr(gears, name).material for name in GEARS}}
-    named = {words: (text.name, *MATERIALS[text.name]) for words, text in texts.items() if text is not None and text.name is not None}
+    texts = {"": (gears.material,), **{f"{name} ": (getattr(gears, name).material, gears.material) for name in GEARS}}
+    named = {words: (each[0].name, material_of(*each)) for words, each in texts.items() if each[0] is not None and each[0].name is not None}
     return [
-        Derived(f"{words}Young's modulus", 1e-3 * material.youngs_modulus, "GPa", f"Poisson's ratio {material.poissons_ratio:g}, of {name}, unless given ({source})")
-        for words, (name, material, source) in named.items()
+        Derived(f"{words}Young's modulus", 1e-3 * material.youngs_modulus, "GPa", f"Poisson's ratio {material.poissons_ratio:g}, {name} ({MATERIALS[name][1]})")
+        for words, (name, material) in named.items()
     ]
 
 

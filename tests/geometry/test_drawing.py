@@ -14,6 +14,7 @@ from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
 from fenics_gears.scene.read import build_scene
+from fenics_gears.studies.fields import changed
 
 ROOT = Path(__file__).parents[2]
 BORE = {"bore_diameter": "15 mm"}
@@ -144,6 +145,12 @@ def test_power_and_pinion_torque_are_a_torque_on_the_wheel():
     power = scene_of(load={"power": "20 kW"}, motion={"pinion_speed": "1500 rpm"})
     assert power.load.wheel_torque == pytest.approx(20e6 / (2.0 * pi * 25.0) * 31 / 19, rel=1e-12)
     assert scene_of(load={"pinion_torque": "19 N m"}).load.wheel_torque == pytest.approx(31e3, rel=1e-14)
+
+
+def test_a_study_over_torques_takes_the_place_of_a_power():
+    """Authority: the rule that a load is given once, which a study's change of it keeps."""
+    assert changed({"load": {"power": "20 kW"}}, ("load", "wheel_torque"), "7 N m") == {"load": {"wheel_torque": "7 N m"}}
+    assert changed({"load": {"power": "20 kW"}}, ("load", "power"), "absent") == {"load": {}}
 
 
 @pytest.mark.parametrize(
