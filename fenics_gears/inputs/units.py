@@ -47,6 +47,7 @@ _UNITS = {
     "Nm": (1000.0, "N mm"),
     "kNm": (1e6, "N mm"),
     "Pa": (1e-6, "N/mm^2"),
+    "mPa": (1e-9, "N/mm^2"),
     "kPa": (1e-3, "N/mm^2"),
     "MPa": (1.0, "N/mm^2"),
     "GPa": (1000.0, "N/mm^2"),
@@ -79,6 +80,7 @@ _KINDS = {
     "1/s": A_FREQUENCY,
     "rad/s": AN_ANGULAR_SPEED,
     "mm/s": "a speed",
+    "N s/mm^2": "a dynamic viscosity",
     "mm^2": "an area",
     "percent": "a percentage",
 }
