@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, Optional
 
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
-from fenics_gears.inputs.fields import Section, choice, number, quantity
+from fenics_gears.inputs.fields import Section, allowed_in, choice, number, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import Tree, quantity_at, table
 from fenics_gears.inputs.written import as_written
@@ -55,7 +55,8 @@ def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
     if "coefficient" in friction and formula is not None:
         yield Problem(("friction", "formula"), as_written(formula), "stands beside coefficient. Allowed is one of the two. Leave one out.")
     if "coefficient" not in friction and formula is None:
-        yield Problem(("friction", "coefficient"), None, 'is missing. Allowed: a number, such as 0.1; or formula = "Schlenk" with viscosity and roughness.')
+        allowed = allowed_in(FrictionText, "coefficient").description
+        yield Problem(("friction", "coefficient"), None, f'is missing. Allowed: {allowed}; or formula = "Schlenk" with viscosity and roughness.')
     for name in OF_A_FORMULA:
         if formula is None and name in friction:
             yield Problem(("friction", name), as_written(friction[name]), "is for a formula. Add formula, or leave it out.")
