@@ -62,8 +62,8 @@ def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
             yield Problem(("friction", name), as_written(friction[name]), "is for a formula. Add formula, or leave it out.")
         if formula is not None and name not in friction:
             yield Problem(("friction", name), None, "is missing; friction.formula needs it.")
-    if formula is not None and quantity_at(tree, "load", "wheel_torque") == 0.0:
-        yield Problem(("friction", "formula"), as_written(formula), "has no meaning without a load. Give load.wheel_torque, or a coefficient.")
+    if formula is not None and 0.0 in (quantity_at(tree, "load", name) for name in ("wheel_torque", "pinion_torque")):
+        yield Problem(("friction", "formula"), as_written(formula), "has no meaning without a load. Give a torque, or a coefficient.")
     motion = table(tree, "motion") or {}
     if formula is not None and not {"mesh_frequency", "pinion_speed"} & set(motion):
         yield Problem(("friction", "formula"), as_written(formula), 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency.')
