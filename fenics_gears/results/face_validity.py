@@ -6,6 +6,7 @@ import xarray as xr
 
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.results.pairs import carrying_side
 
 # Part of the face that touches, below which there is a warning: end relief takes the load off less than the rest.
 NOTABLE_PART = 0.75
@@ -14,10 +15,11 @@ FEWEST_TOUCHING = 3
 
 
 def warnings_of_face(face: Face, result: xr.Dataset) -> list[str]:
-    """Where the recorded drive flanks leave much of the face without load in all steps; nothing where contact fields are not stored."""
+    """Where the recorded flanks leave much of the face without load in all steps; nothing where contact fields are not stored."""
     if not result.sizes.get("contact_time"):
         return []
-    touched = (result["line_load"].transpose(..., "face_position").values > NO_FORCE).reshape(-1, face.slices).any(axis=0)
+    loads = result[f"{carrying_side(result)}line_load"].transpose(..., "face_position").values
+    touched = (loads > NO_FORCE).reshape(-1, face.slices).any(axis=0)
     part = face.widths[touched].sum() / face.widths.sum()
     if not touched.any() or part >= NOTABLE_PART:
         return []

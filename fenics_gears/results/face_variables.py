@@ -11,8 +11,9 @@ from fenics_gears.results.side_by_side import SideBySide
 
 
 def face_variables(nodes: SideBySide) -> dict[str, np.ndarray]:
-    """Line load of each tooth pair on its drive flanks over the slices of the face (steps, slots, slices), N/mm."""
-    return {"line_load": nodes.by_slice(nodes.normal * nodes.drive) / nodes.cycle.face.widths}
+    """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch, over the slices of the face (steps, slots, slices), N/mm."""
+    sides = {"line_load": nodes.drive} | ({"coast_line_load": ~nodes.drive} if nodes.cycle.coast_flanks else {})
+    return {name: nodes.by_slice(nodes.normal * side) / nodes.cycle.face.widths for name, side in sides.items()}
 
 
 def in_transverse_plane(curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:

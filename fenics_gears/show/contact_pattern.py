@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
+from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import Chart, Curve, Field
 from fenics_gears.show.panels import DARK, GREY
 from fenics_gears.show.pressure import COLOURS, colour_limit, has_pressure, node_edges
@@ -22,7 +23,7 @@ def contact_patterns(run: Run) -> list[Chart]:
     """Patterns on the flanks of pinion and wheel that carry, in the last cycles whose contact fields are stored."""
     if not has_pressure(run) or run.pair is None:
         return []
-    side = "coast_" if run.on_coast_flanks else ""
+    side = carrying_side(run.dataset)
     order = ("contact_time", "slot", "face_position", "contact_node")
     part = run.last_fields
     pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
