@@ -11,8 +11,9 @@ from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import FILLET_POINTS_OVER_FACE
 
-# Seconds of an unknown of a body, and of the cube of the unknowns that it is condensed onto.
-UNKNOWN, CONDENSED_CUBE = 6e-5, 2.5e-10
+# Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a cut for each harmonic of the ring,
+# of which there are half as many as teeth.
+UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 2e-10, 1e-10
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and their cube (elimination).
 PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 7e-9, 1.5e-9, 5e-12
 # With friction: of a position, of a step.
@@ -56,7 +57,9 @@ def face_cost(model: Model) -> FaceCost:
         division = face_discretisation(model, number)
         unknowns, condensed = expected_size(gear, division, coast)
         bodies.append(unknowns)
-        condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3
+        of_flank = expected_size(gear, division, True)[1] - expected_size(gear, division, False)[1]
+        of_cut = 0.5 * (condensed - of_flank * (2 if coast else 1))
+        condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
         memory = max(memory, expected_memory(unknowns, condensed))
         finer = 0.35 * gear.module / division.section_size
         on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if coast else 1)

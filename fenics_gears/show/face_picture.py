@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -43,13 +45,25 @@ class Sight:
     half: float
 
 
+def still(mesh: GearsInSpace, dataset: xr.Dataset, scale: float | None = None) -> Figure:
+    """The picture of one time; `scale` of the displacements, true unless given."""
+    return frames(dataset, scale, [mesh])(mesh, dpi=100.0)
+
+
+def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInSpace]) -> Callable[..., Figure]:
+    """What draws the frames of a moving picture, with the colours that suit some of its meshes."""
+    limit = max(map(colour_limit, sampled))
+    beyond = any(float(gear.von_mises.max()) > limit * (1.0 + 1e-9) for mesh in sampled for gear in mesh.gears)
+    return partial(face_picture, dataset=dataset, scale=1.0 if scale is None else scale, limit=limit, beyond=beyond)
+
+
 @styled
-def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float = 1.0) -> Figure:
+def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float = 60.0) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
 
-    Raises ComputationError without pyvista.
+    limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without pyvista.
     """
-    figure, limit = Figure(figsize=(16.0, 9.0), dpi=100.0), colour_limit(mesh)
+    figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     for sight in sights(mesh):
         axes = figure.add_axes(sight.place, xticks=[], yticks=[])
         axes.imshow(_rendered(mesh, sight, scale, limit), aspect="auto")
@@ -58,7 +72,6 @@ def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float = 1.0) ->
         for spine in axes.spines.values():
             spine.set_visible(True)
             spine.set_color("#BBBBBB")
-    beyond = max(float(gear.von_mises.max()) for gear in mesh.gears) > limit * (1.0 + 1e-9)
     bar = figure.colorbar(ScalarMappable(Normalize(0.0, limit), COLOURS), cax=figure.add_axes((0.931, 0.11, 0.013, 0.69)), extend="max" if beyond else "neither")
     bar.set_label("von Mises stress (MPa)", labelpad=8.0)
     bar.ax.grid(False)

@@ -29,13 +29,13 @@ def line_loads(run: Run) -> list[Chart]:
     z = part["face_position"].values
     low, high = run.pair.common_face
     slices = np.concatenate([[low], 0.5 * (z[1:] + z[:-1]), [high]])
-    return [_of_mesh(loads, phase, slices), _of_pair(run, side, loads, phase, slices), _over_face(run, side, loads, z)]
+    return [_of_mesh(side, loads, phase, slices), _of_pair(run, side, loads, phase, slices), _over_face(run, side, loads, z)]
 
 
-def _of_mesh(loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
+def _of_mesh(side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
     total = loads.sum(axis=1)
     return Chart(
-        "Line load of the mesh: tooth pairs summed", [], MESH_CYCLES, "Place on the face (mm)", x_range=(float(phase[0]), float(phase[-1])),
+        f"Line load of the mesh{' on its coast flanks' if side else ''}: tooth pairs summed", [], MESH_CYCLES, "Place on the face (mm)", x_range=(float(phase[0]), float(phase[-1])),
         y_range=(float(slices[0]), float(slices[-1])), field=_field(phase, slices, total), height=300, linked=TIME,
         note="Along the contact normal, per mm of face width; places along the axes from the middle of the common face.",
     )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -20,6 +21,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.tri import Triangulation
 
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run import conditions, scene_of
@@ -38,6 +40,8 @@ ROOTS_IN_COLOURS = 3.0
 CLOSE_UP_HALF_WIDTHS = 5.0
 # What a picture names of the pressure at its time.
 PRESSURES = {"largest_contact_pressure": "largest contact pressure", "largest_edge_pressure": "pressure at a tip's edge"}
+# Inches at 100 dots of a frame of a moving picture.
+FRAME_WIDTH = 9.6
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
 LEAST_BORE, LEAST_ARROW = 28.0, 12.0
 
@@ -74,6 +78,18 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
         below = (radius < gear.form_radius) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))
         found = max(found, float(body.von_mises[below].max(initial=0.0)))
     return found
+
+
+def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) -> Figure:
+    """The picture of one time; `scale` of the displacements, the largest suitable one unless given."""
+    return stress_picture(mesh, dataset, scale=automatic_scale([mesh]) if scale is None else scale, limit=colour_limit([mesh]))
+
+
+def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInMesh]) -> Callable[[GearsInMesh], Figure]:
+    """What draws the frames of a moving picture, with the colours and the scale that suit some of its meshes."""
+    limit, scale = colour_limit(sampled), automatic_scale(sampled) if scale is None else scale
+    beyond = any(exceeds(mesh, limit) for mesh in sampled)
+    return lambda mesh: stress_picture(mesh, dataset, scale=scale, limit=limit, close_up=False, width=FRAME_WIDTH, beyond=beyond)
 
 
 @styled
