@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hard_cases.helical import helical_scene, on_stand_in_bodies
 from tests.hard_cases.invariants import run_of
+from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.face_cycle import FaceCycle
 from fenics_gears.contact.face_pairing import FacePair, FacePairing

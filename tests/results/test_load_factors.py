@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from tests.helical import helical_scene
+from tests.helical import wide_pair
 
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import gear_pair
@@ -23,7 +23,7 @@ def spur(paper_scene):
 @pytest.fixture(scope="module")
 def helical():
     """A helical pair."""
-    return gear_pair(helical_scene().gears)
+    return gear_pair(wide_pair().gears)
 
 
 def run_of(pair, line_load, slices: int = SLICES, reach: float = 0.0) -> xr.Dataset:
