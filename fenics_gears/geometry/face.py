@@ -50,13 +50,8 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
     return removed
 
 
-def coast_face_opening(pair: GearPair, misalignment: Misalignment | None, z, position) -> np.ndarray:
-    """What opens the coast flanks along their own line of action at places z on the face and positions (mm from its start) of the contact.
-
-    Misaligned axes open or close them too; lead modifications are made on the drive flanks.
-    """
-    if misalignment is None:
-        return np.zeros_like(np.asarray(z, dtype=float))
+def coast_face_opening(pair: GearPair, misalignment: Misalignment, z, position) -> np.ndarray:
+    """What misaligned axes open between the coast flanks along their own line of action at places z on the face and positions (mm from its start) of the contact."""
     double = 2.0 * pair.operating_pressure_angle
     cosine, sine = np.cos(double), np.sin(double)
     # In the mirror, the line of centres being the mirror's line: the misalignment as it is seen there, and the other hand.

@@ -53,7 +53,7 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     pair, name = run.pair, GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
-    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, _slice_ends(run), limit)
+    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, slice_ends(run), limit)
     pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
     active = 2.0 * data.radius((contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear])
     face = np.array(pair.common_face)
@@ -66,7 +66,7 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     )  # fmt: skip
 
 
-def _slice_ends(run: Run) -> np.ndarray:
+def slice_ends(run: Run) -> np.ndarray:
     """Ends (S + 1,), mm, of the slices."""
     z = run.dataset["face_position"].values
     low, high = run.pair.common_face

@@ -7,7 +7,7 @@ import numpy as np
 from fenics_gears.results.load_factors import at_pitch_cylinder, passing
 from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import MESH_CYCLES, TIME, Chart, Curve, Field
-from fenics_gears.show.contact_pattern import ACROSS
+from fenics_gears.show.contact_pattern import ACROSS, slice_ends
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.pressure import COLOURS
 from fenics_gears.show.run import Run
@@ -26,9 +26,7 @@ def line_loads(run: Run) -> list[Chart]:
     loads, phase = in_unit(part[name].transpose("contact_time", "slot", "face_position"), "N/mm"), part["contact_mesh_phase"].values
     if not loads.any():
         return []
-    z = part["face_position"].values
-    low, high = run.pair.common_face
-    slices = np.concatenate([[low], 0.5 * (z[1:] + z[:-1]), [high]])
+    slices, z = slice_ends(run), part["face_position"].values
     return [_of_mesh(side, loads, phase, slices), _of_pair(run, side, loads, phase, slices), _over_face(run, side, loads, z)]
 
 
