@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -27,6 +27,9 @@ from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run import conditions, scene_of
 from fenics_gears.show.stress_grid import shown_points, upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
+
+if TYPE_CHECKING:
+    from fenics_gears.simulation.face_stresses import GearsInSpace
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
 COLOURS = LinearSegmentedColormap.from_list("stress", [
@@ -64,11 +67,15 @@ def colour_limit(meshes: list[GearsInMesh]) -> float:
     """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it by far."""
     peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
-    limit = min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak
-    if limit <= 0.0:
+    return rounded_up(min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak)
+
+
+def rounded_up(stress: float) -> float:
+    """A stress (MPa) rounded up to two digits; 1 where there is none."""
+    if stress <= 0.0:
         return 1.0
-    step = 10.0 ** (np.floor(np.log10(limit)) - 1.0)
-    return float(np.ceil(limit / step - 1e-9) * step)
+    step = 10.0 ** (np.floor(np.log10(stress)) - 1.0)
+    return float(np.ceil(stress / step - 1e-9) * step)
 
 
 def _stress_of_roots(mesh: GearsInMesh) -> float:
@@ -118,8 +125,8 @@ def stress_picture(mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limi
         _frame_in(middle, right, moved=_moved(mesh, loaded.point, scale))
         _length_bar(right)
         _numbers(figure, mesh, dataset, (0.735, 0.30))
-    _colour_bar(figure, limit, beyond or exceeds(mesh, limit))
-    _heading(figure, mesh, dataset)
+    colour_bar(figure, limit, beyond or exceeds(mesh, limit), ", plane strain")
+    heading(figure, mesh, dataset)
     return figure
 
 
@@ -286,15 +293,17 @@ def exceeds(mesh: GearsInMesh, limit: float) -> bool:
     return max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
 
 
-def _colour_bar(figure: Figure, limit: float, beyond: bool) -> None:
+def colour_bar(figure: Figure, limit: float, beyond: bool, state: str = "") -> None:
+    """The colours of stress up to a limit, MPa, with an arrow there where some is `beyond`."""
     colours = ScalarMappable(Normalize(0.0, limit), COLOURS)
     axes = figure.add_axes((0.931, 0.08, 0.013, 0.72))
     bar = figure.colorbar(colours, cax=axes, extend="max" if beyond else "neither")
-    bar.set_label("von Mises stress (MPa), plane strain", labelpad=8.0)
+    bar.set_label(f"von Mises stress (MPa){state}", labelpad=8.0)
     axes.grid(False)
 
 
-def _heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
+def heading(figure: Figure, mesh: GearsInMesh | GearsInSpace, dataset: xr.Dataset) -> None:
+    """Title of the run, its conditions, and the time of the picture."""
     title = " ".join(str(dataset.attrs.get("title", "")).split())
     complete = bool(dataset.attrs.get("complete", 1))
     scene = scene_of(dataset)
