@@ -1,4 +1,4 @@
-"""Expected time and memory of a run whose flanks are resolved over the face; as of `model.cost`."""
+"""Expected time and memory of a run whose flanks are resolved over the face, on the machine of `model.cost`."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 2e-10, 1e-10
 PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 7e-9, 1.5e-9, 5e-12
 # With friction: of a position, of a step.
 POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.5, 2.5
-# Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become smaller; copies beside the contact operators
-# while positions are built and marched (measured).
+# Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become smaller; memory of the contact operators with
+# the copies that building and marching make, in that of the operators (measured).
 FLANK_NODES, POWER, WITH_COPIES = 17.0, 0.6, 1.25
 
 # Of root stress, seconds: an unknown for each column solved, and a step for each stress of a tooth per force on one (measured; several loaded teeth).
 SOLVED_UNKNOWN, STEP_STRESS = 4e-7, 5e-9
-# Bytes of what takes a contact force at a position to the flank nodes of both gears (measured).
+# Bytes for each contact node of a position: the matrices from its force to forces on the flank nodes of both gears (measured).
 ON_FLANKS = 200.0
 
 
@@ -50,7 +50,7 @@ def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
 
 
 def face_cost(model: Model) -> FaceCost:
-    """What the bodies and contact over the face cost beside the plane sections."""
+    """Cost of the three-dimensional bodies and of contact over the face, without that of the plane sections."""
     bodies, condensing, memory, kept, stress_step = [], 0.0, 0.0, 0.0, 0.0
     coast = model.scene.coast_flanks is not None
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):

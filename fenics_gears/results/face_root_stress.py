@@ -21,10 +21,10 @@ OnFlanks = tuple[list[int], sparse.csr_matrix]
 
 
 class FaceRootStress(RootStress):
-    """Root stress at the steps of a cycle over the face: contact forces become forces on slices of the flanks, and these stresses by either gear's rows."""
+    """Root stress at the steps of a cycle over the face: forces on slices of the flanks from the contact forces, times the stress per force on a slice."""
 
     def on_flanks(self, record: Record) -> tuple[list[int], tuple[OnFlanks, OnFlanks]]:
-        """Indices of the tooth pairs in reach, and what takes contact forces to both gears' flanks, made when first asked for."""
+        """Indices of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks, built when first asked for."""
         phase = record.step % self.cycle.steps
         if phase not in self._matrices:
             pairs = record.position.operator.pairs
