@@ -1,40 +1,73 @@
-"""A helical pair for tests: 15 degrees, 18 and 35 teeth."""
+"""Helical pairs for tests: scenes of any proportions, on bodies without finite elements unless a test asks for real ones."""
 
+from __future__ import annotations
+
+from math import cos, radians
+
+from tests.stand_in import stand_in_body, stand_in_compliance
+
+from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 
-HELICAL = """
-title = "Helical pair"
-[gears]
-module = "3 mm"
-pressure_angle = "20 deg"
-helix_angle = "15 deg"
-centre_distance = "82.4 mm"
-face_width = "30 mm"
-[gears.pinion]
-teeth = 18
-profile_shift = 0.0
-tip_diameter = "61.8 mm"
-root_diameter = "48.3 mm"
-bore_diameter = "20 mm"
-[gears.wheel]
-teeth = 35
-profile_shift = 0.0
-tip_diameter = "114.6 mm"
-root_diameter = "101.1 mm"
-bore_diameter = "40 mm"
-[gears.material]
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-[load]
-wheel_torque = "300 N m"
-[motion]
-mesh_frequency = "200 Hz"
-mesh_cycles = 1
-recorded_cycles = 1
+MODULE = 3.0
+COARSE = "slices = 5\ncontact_nodes = 13\nsteps_per_mesh_cycle = 16"
+BEARINGS = """
+[bearings]
+stiffness = "0.2e6 N/mm"
+axial_stiffness = "0.1e6 N/mm"
+places = { pinion = ["-40 mm", "60 mm"], wheel = ["-45 mm", "50 mm"] }
 """
+FRICTION = "\n[friction]\ncoefficient = 0.05\n"
+SHAFTS = '\n[shafts]\ntorsional_stiffness = "1e8 N mm/rad"\n'
+INERTIA = '\n[inertia]\nmass = "2 kg"\nmoment_of_inertia = "2000 kg mm^2"\n'
+CROWNED = '\n[lead_modifications.pinion]\ncrowning = "5 um"\n'
 
 
-def helical_scene(more: str = "") -> Scene:
-    """That pair's scene, with more sections."""
-    return scene_from_text(HELICAL + more)
+def helical_scene(
+    more: str = "",
+    *,
+    teeth: tuple[int, int] = (18, 35),
+    helix: float = 15.0,
+    hand: str = "right",
+    width: float = 24.0,
+    torque: float = 200e3,
+    frequency: float = 200.0,
+    cycles: int = 1,
+    accuracy: str = COARSE,
+    poissons_ratio: float = 0.3,
+    elasticities: tuple[float, float] = (206e3, 206e3),
+    offset: float = 0.0,
+    backlash: float = 0.1,
+    module: float = MODULE,
+) -> Scene:
+    """A pair of standard proportions with a little backlash: helix (deg), width, backlash and axial offset of the wheel (mm), torque on the wheel (N mm)."""
+    stretch = 1.0 / cos(radians(helix))
+    diameters = [module * count * stretch for count in teeth]
+    gears = "".join(
+        f'[gears.{name}]\nteeth = {count}\nprofile_shift = 0.0\ntip_diameter = "{diameter + 2.0 * module!r} mm"\nroot_diameter = "{diameter - 2.5 * module!r} mm"\n'
+        f'bore_diameter = "{0.4 * diameter!r} mm"\n{beside}[gears.{name}.material]\nyoungs_modulus = "{elasticity!r} N/mm^2"\npoissons_ratio = {poissons_ratio!r}\n'
+        for name, count, diameter, elasticity, beside in zip(("pinion", "wheel"), teeth, diameters, elasticities, ("", f'axial_offset = "{offset!r} mm"\n'))
+    )
+    lean = f'helix_angle = "{helix!r} deg"\npinion_hand = "{hand}"\n' if helix else ""
+    return scene_from_text(
+        f'[gears]\nmodule = "{module!r} mm"\npressure_angle = "20 deg"\n{lean}centre_distance = "{0.5 * sum(diameters) + backlash!r} mm"\nface_width = "{width!r} mm"\n{gears}'
+        f'[load]\nwheel_torque = "{torque!r} N mm"\n[motion]\nmesh_frequency = "{frequency!r} Hz"\nmesh_cycles = {cycles}\nrecorded_cycles = {cycles}\n'
+        f"{accuracy and '[accuracy]'}\n{accuracy}\n{more}"
+    )
+
+
+def wide_pair(more: str = "") -> Scene:
+    """A pair 30 mm wide under 300 N m, whose accuracy is the program's own or in the sections `more`."""
+    return helical_scene(more, width=30.0, torque=300e3, accuracy="")
+
+
+def on_stand_in_bodies(model: Model, reach: float | None = 0.2) -> tuple[tuple, tuple]:
+    """Sections and bodies without finite elements of a scene's gears, of both flanks where it has coast flanks."""
+    offsets, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
+    gears = (model.pair.pinion, model.pair.wheel)
+    sections = tuple(stand_in_compliance(gear, offsets=offsets, coast_flank=coast) for gear in gears)
+    bodies = tuple(
+        stand_in_body(gear, width, elements=12, offsets=offsets, coast_flank=coast, reach=reach) for gear, width in zip(gears, model.pair.face_widths)
+    )
+    return sections, bodies

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import lru_cache
 
-from tests.helical import helical_scene
+from tests.helical import wide_pair
 
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.scene.data import Load, Output
@@ -26,13 +26,13 @@ steps_per_mesh_cycle = 12
 @lru_cache
 def helical_run():
     """One mesh cycle of a misaligned helical pair."""
-    return simulate(helical_scene(MORE))
+    return simulate(wide_pair(MORE))
 
 
 @lru_cache
 def root_stress_run(coast: bool):
     """That pair's scene and result with root stress: with friction, or driven from the wheel on its coast flanks."""
-    scene = replace(helical_scene(("" if coast else "[friction]\ncoefficient = 0.08\n") + MORE), output=Output(root_stress=True))
+    scene = replace(wide_pair(("" if coast else "[friction]\ncoefficient = 0.08\n") + MORE), output=Output(root_stress=True))
     if coast:
         scene = replace(scene, coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
     return scene, simulate(scene)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 
 from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file, shown_progress
@@ -35,75 +36,47 @@ def picture(options: argparse.Namespace) -> int:
     from fenics_gears.simulation.stored_forces import stored_index
 
     index = stored_index(dataset, options.at)
-    over_face = "face_position" in dataset.dims
-    if over_face and options.animate:
-        raise SceneError(f"{file}: --animate draws plane runs; this one has its flanks resolved over the face. Draw single times with --at, or write --pvd for ParaView.")
     with closing(shown_progress(options.quiet)) as progress:
         progress.stage("factorise sectors")
-        written = (_written_over_face if over_face else _written)(options, dataset, scene, index, output if drawn else None, progress)
+        written = _written(options, dataset, scene, index, output if drawn else None, progress)
     print_files(written, options.quiet)
     return 0
 
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    from fenics_gears.simulation.run_stresses import RunStresses
+    """What is asked for: in the plane, or of a run whose flanks are resolved over the face in three dimensions."""
+    from fenics_gears.show.stress_animation import animate
+    from fenics_gears.show.stress_series import save_series
     from fenics_gears.system.output import write_whole
 
-    written: list[Path] = []
-    with RunStresses(dataset, scene) as runs:
-        if options.vtu is not None:
-            from fenics_gears.show.stress_grid import save_vtu
+    if "face_position" in dataset.dims:
+        from fenics_gears.show.face_grid import save_vtu
+        from fenics_gears.show.face_picture import frames, still
+        from fenics_gears.simulation.face_stresses import FaceStresses as Stresses
 
+        save_step = save_vtu
+    else:
+        from fenics_gears.show.stress_grid import save_vtu
+        from fenics_gears.show.stress_picture import frames, still
+        from fenics_gears.simulation.run_stresses import RunStresses as Stresses
+
+        save_step = None
+    from fenics_gears.show.stress_picture import save_picture
+
+    written: list[Path] = []
+    with Stresses(dataset, scene) as runs:
+        if options.vtu is not None:
             written.append(write_whole(options.vtu, lambda path: save_vtu(runs.at(index), path)))
         if options.pvd is not None:
-            from fenics_gears.show.stress_series import save_series
-
             progress.stage("recover stresses")
-            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update)))
+            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update, save_step)))
         if output is not None:
             progress.stage("draw")
-            written.append(write_whole(output, lambda path: _draw(options, runs, dataset, index, path, progress)))
+            if options.animate:
+                written.append(write_whole(output, lambda path: animate(runs, dataset, path, partial(frames, dataset, options.scale), progress.update)))
+            else:
+                written.append(write_whole(output, lambda path: save_picture(still(runs.at(index), dataset, options.scale), path)))
     return written
-
-
-def _written_over_face(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    """What is asked for of a run whose flanks are resolved over the face, in three dimensions."""
-    from fenics_gears.show.face_grid import save_vtu
-    from fenics_gears.simulation.face_stresses import FaceStresses
-    from fenics_gears.system.output import write_whole
-
-    written: list[Path] = []
-    with FaceStresses(dataset, scene, progress=progress) as runs:
-        mesh = runs.at(index)
-        if options.vtu is not None:
-            written.append(write_whole(options.vtu, lambda path: save_vtu(mesh, path)))
-        if options.pvd is not None:
-            from fenics_gears.show.stress_series import save_series
-
-            progress.stage("recover stresses")
-            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update, save_vtu)))
-    if output is not None:
-        from fenics_gears.show.face_picture import face_picture
-        from fenics_gears.show.stress_picture import save_picture
-
-        progress.stage("draw")
-        figure = face_picture(mesh, dataset, 1.0 if options.scale is None else options.scale)
-        written.append(write_whole(output, lambda path: save_picture(figure, path)))
-    return written
-
-
-def _draw(options, runs, dataset, index: int, path: Path, progress) -> None:
-    if options.animate:
-        from fenics_gears.show.stress_animation import animate
-
-        animate(runs, dataset, path, options.scale, progress.update)
-        return
-    from fenics_gears.show.drawn_scale import automatic_scale
-    from fenics_gears.show.stress_picture import colour_limit, save_picture, stress_picture
-
-    mesh = runs.at(index)
-    scale = automatic_scale([mesh]) if options.scale is None else options.scale
-    save_picture(stress_picture(mesh, dataset, scale=scale, limit=colour_limit([mesh])), path)
 
 
 def _loaded(file: Path):

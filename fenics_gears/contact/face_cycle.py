@@ -4,25 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property
 from math import floor
 
 import numpy as np
 
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
-from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position, pair_places
+from fenics_gears.contact.mesh_cycle import MeshCycle, Position, pair_places
 from fenics_gears.contact.operator import operator_on_lines, turned
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, Place, ToothPair, flank_points, interpolations, tooth_pair
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, Place, flank_points, interpolations
 from fenics_gears.contact.touching import Touching, touching_at
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 Opening = Callable[[np.ndarray, np.ndarray], np.ndarray]
-
-
-def _nothing(heights: np.ndarray, positions: np.ndarray) -> np.ndarray:
-    return np.zeros(len(heights))
 
 
 def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks: bool = False, corner=None) -> list[Place]:
@@ -36,14 +31,12 @@ def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks:
     return sorted(found, key=lambda place: (place.flank, place.index, place.slice))
 
 
-class FaceCycle(Cycle):
-    """Contact nodes in the slices of a `face`, that see the gears' `bodies` in three dimensions and their flanks through fine plane sections.
+class FaceCycle(MeshCycle):
+    """Contact nodes in the slices of a `face`: compliance of the gears' three-dimensional `bodies`, and of fine plane sections near the contact.
 
-    `opening`: what modifications along the face and misalignment open the flanks, mm along the line of action, at places (k,), mm, along the axes where
-    contact stands at positions (k,), mm from T1; `coast_opening` the same of the coast flanks, None where nothing opens them. Other arguments as of MeshCycle.
+    `opening(z, positions)`: gap (k,), mm along the line of action, that lead modifications and misalignment leave between the flanks, at heights z (k,), mm,
+    and positions (k,), mm from T1, of the contact; `coast_opening` the same of the coast flanks, None for no gap. Other arguments as of MeshCycle.
     """
-
-    traits = CycleTraits(divisible=True)
 
     def __init__(
         self,
@@ -58,18 +51,9 @@ class FaceCycle(Cycle):
         corner=None,
         coast_opening: Opening | None = None,
     ):
-        super().__init__(flanks.pair, grid, steps, coast_flanks=flanks.compliance[0].flanks == 2, corner=corner)
-        self.face, self.flanks, self._openings_of = face, flanks, (opening, coast_opening or _nothing)
-        self._bodies, self._coordinates, self._tangential = bodies, coordinates, tangential
-
-    @property
-    def bodies(self) -> tuple:
-        """Flank compliance of the fine sections of pinion and wheel."""
-        return self.flanks.compliance
-
-    @cached_property
-    def _pairing(self) -> FacePairing:
-        return FacePairing(self.flanks, self._bodies, self.face)
+        pairing = FacePairing(flanks, bodies, face)
+        super().__init__(flanks, grid, steps, coordinates, tangential, corner, pairing)
+        self.face, self._sections, self._openings_of = face, pairing.sections, (opening, coast_opening)
 
     def _pairs_of(self, index: float) -> tuple[FacePair, ...]:
         found, alike = [], {}
@@ -88,23 +72,17 @@ class FaceCycle(Cycle):
         flanks, heights = np.array([place.flank for place in places], dtype=int), np.array([place.height for place in places])
         positions, found = self.pair.pinion.base_radius * np.array([place.contact_rolls[0] for place in places]), np.zeros(len(places))
         for flank, opening in zip((DRIVE, COAST), self._openings_of):
-            found[flanks == flank] = opening(heights[flanks == flank], positions[flanks == flank])
+            if opening is not None:
+                found[flanks == flank] = opening(heights[flanks == flank], positions[flanks == flank])
         return found.tolist()
 
     def _pair(self, place: Place) -> FacePair | None:
         """The contact nodes of a tooth pair in a slice, with the gap of flanks that are not modified along the face, along the line of action."""
-        pair = self._plane_pair(place)
+        pair = super()._pair(place)
         if pair is None:
             return None
         rolls = flank_points(self.pair, pair.place, pair.offsets)[0]
-        return FacePair(**vars(pair), coarse=interpolations(self._pairing.sections, self.grid, pair.place, pair.offsets, rolls))
-
-    def _plane_pair(self, place: Place) -> ToothPair | None:
-        if self.corner is not None:
-            from fenics_gears.contact.corner import corner_pair
-
-            return corner_pair(self.flanks, self.grid, self.corner, place)
-        return tooth_pair(self.flanks, self.grid, place)
+        return FacePair(**vars(pair), coarse=interpolations(self._sections, self.grid, pair.place, pair.offsets, rolls))
 
     def _in_slice(self, pair: FacePair, place: Place, opening: float) -> FacePair:
         gap = self.face.cosine * (pair.gap + opening)

@@ -1,4 +1,4 @@
-"""Forces on the nodes of a gear's flanks over its face from forces at contact nodes, as the gear's body in three dimensions has them."""
+"""Forces on the flank nodes of a gear's three-dimensional body from forces at contact nodes."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Compliance between contact nodes over a face: a body in three dimensions, and near each contact the plane route's own flanks (docs/third_dimension.md).
 
-The body's mesh is too coarse for the contact. Under a load that does not vary along the face it errs as the same section does in plane strain;
-what a fine section gives more than the body's own section is therefore added in each slice. A force dF on a slice of width dz is the line load
+The body's mesh is too coarse for the contact. Under a load that does not vary along the face its error is that of the same section in plane strain;
+the difference between a fine section and the body's own section is therefore added in each slice. A force dF on a slice of width dz is the line load
 cos(beta_b) dF/dz on the line of contact, across which the section is in plane strain.
 """
 

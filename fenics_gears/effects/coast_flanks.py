@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
+from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
 from fenics_gears.inputs.fields import Section
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import Tree, load_in, value_at
@@ -45,6 +45,7 @@ EFFECT = Effect(
         ResultVariable("coast_normal_force", "N", "contact force of the coast flanks along their line of action"),
         ResultVariable("coast_friction_force", "N", "friction force of the coast flanks", "friction"),
         ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth", dims=OF_PAIRS),
+        ResultVariable("coast_line_load", "N/mm", "contact force of the coast flank of the pair's pinion tooth along the contact normal, per length of the face", dims=OF_SLICES, over_face=True),
         ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity", OF_NODES),
         ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank", "tooth_elasticity", OF_NODES),
         ResultVariable("coast_contact_traction", "MPa", "friction traction on the coast flanks", "friction", OF_NODES),

@@ -1,4 +1,4 @@
-"""What lead modifications and misalignment open between the flanks along the face.
+"""Gap between the flanks along the face by lead modifications and misalignment.
 
 Amounts are lengths in the transverse section along the line of action, as a measuring machine has them (ISO 1328-1: in the base tangent plane, in the
 transverse section); along the contact normal an opening is ``GearPair.cosine`` times as long. z (mm) runs along the axis from the middle of the common
@@ -17,10 +17,10 @@ from fenics_gears.geometry.relief import POWERS
 def face_opening(
     pair: GearPair, lead_modifications: LeadModifications | None, misalignment: Misalignment | None, z, position=None
 ) -> np.ndarray:
-    """What opens the flanks along the line of action at places z (mm, any shape) on the face.
+    """Gap (mm, along the line of action) at places z (mm, any shape) on the face.
 
-    Not negative where material is removed; misalignment has either sign. `position` (mm from T1, of z's shape): of the contact on the line of action,
-    of which the misalignment of helical gears depends; the pitch point unless given.
+    Removed material makes it positive; misalignment has either sign. `position` (mm from T1, of z's shape): of the contact on the line of action,
+    on which the gap of misaligned helical gears depends; the pitch point unless given.
     """
     z = np.asarray(z, dtype=float)
     opening = np.zeros_like(z)
@@ -50,13 +50,8 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
     return removed
 
 
-def coast_face_opening(pair: GearPair, misalignment: Misalignment | None, z, position) -> np.ndarray:
-    """What opens the coast flanks along their own line of action at places z on the face and positions (mm from its start) of the contact.
-
-    Misaligned axes open or close them too; lead modifications are made on the drive flanks.
-    """
-    if misalignment is None:
-        return np.zeros_like(np.asarray(z, dtype=float))
+def coast_face_opening(pair: GearPair, misalignment: Misalignment, z, position) -> np.ndarray:
+    """The same between coast flanks along their own line of action, by misaligned axes alone; position: mm from its start."""
     double = 2.0 * pair.operating_pressure_angle
     cosine, sine = np.cos(double), np.sin(double)
     # In the mirror, the line of centres being the mirror's line: the misalignment as it is seen there, and the other hand.
@@ -67,14 +62,13 @@ def coast_face_opening(pair: GearPair, misalignment: Misalignment | None, z, pos
 
 
 def misalignment_opening(pair: GearPair, misalignment: Misalignment, z, position, slope: float | None = None) -> np.ndarray:
-    """What a tilted axis of the wheel opens (mm, along the line of action) at places z on the face and positions (mm from T1) of the contact.
+    """Gap (mm, along the line of action) by a tilted axis of the wheel, at places z on the face and positions (mm from T1) of the contact.
 
-    The wheel turns by small angles about the point of its axis in the middle of the common face, by which the point of contact, at
-    (position - T1T2, rb2, z) from there, is displaced. Along the contact normal (c, 0, -c tau) that is
+    The wheel turns by small angles about the point of its axis in the middle of the common face. This displaces the point of contact, which is
+    (position - T1T2, rb2, z) from there, along the contact normal (c, 0, -c tau) by
 
     * c (z + tau (position - T1T2)) for an angle of 1 in the plane of action: the axis moves by z along the line of action,
-    * c tau rb2 for an angle of 1 out of it: the axis moves by z across the line of action, in the tangent planes of the flanks; what opens them is that
-      the point of contact, rb2 off the axis, moves along the axis. This is alike at all z and nothing for a spur pair.
+    * c tau rb2 for an angle of 1 out of it: the point of contact, rb2 off the axis, moves along the axis. This is the same at all z, and zero for a spur pair.
 
     Both angles are the scene's amounts over the common face width. Terms of second order (an angle times the flanks' own curvature) are left out.
     `slope`: of the lines of contact, the pair's unless given.

@@ -1,4 +1,4 @@
-"""Expected time and memory of a run whose flanks are resolved over the face; as of `model.cost`."""
+"""Expected time and memory of a run whose flanks are resolved over the face, on the machine of `model.cost`."""
 
 from __future__ import annotations
 
@@ -11,19 +11,20 @@ from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import FILLET_POINTS_OVER_FACE
 
-# Seconds of an unknown of a body, and of the cube of the unknowns that it is condensed onto.
-UNKNOWN, CONDENSED_CUBE = 6e-5, 2.5e-10
+# Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a cut for each harmonic of the ring,
+# of which there are half as many as teeth.
+UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 2e-10, 1e-10
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and their cube (elimination).
 PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 7e-9, 1.5e-9, 5e-12
 # With friction: of a position, of a step.
 POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.5, 2.5
-# Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become smaller; copies beside the contact operators
-# while positions are built and marched (measured).
+# Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become smaller; memory of the contact operators with
+# the copies that building and marching make, in that of the operators (measured).
 FLANK_NODES, POWER, WITH_COPIES = 17.0, 0.6, 1.25
 
 # Of root stress, seconds: an unknown for each column solved, and a step for each stress of a tooth per force on one (measured; several loaded teeth).
 SOLVED_UNKNOWN, STEP_STRESS = 4e-7, 5e-9
-# Bytes of what takes a contact force at a position to the flank nodes of both gears (measured).
+# Bytes for each contact node of a position: the matrices from its force to forces on the flank nodes of both gears (measured).
 ON_FLANKS = 200.0
 
 
@@ -49,14 +50,16 @@ def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
 
 
 def face_cost(model: Model) -> FaceCost:
-    """What the bodies and contact over the face cost beside the plane sections."""
+    """Cost of the three-dimensional bodies and of contact over the face, without that of the plane sections."""
     bodies, condensing, memory, kept, stress_step = [], 0.0, 0.0, 0.0, 0.0
     coast = model.scene.coast_flanks is not None
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):
         division = face_discretisation(model, number)
         unknowns, condensed = expected_size(gear, division, coast)
         bodies.append(unknowns)
-        condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3
+        of_flank = expected_size(gear, division, True)[1] - expected_size(gear, division, False)[1]
+        of_cut = 0.5 * (condensed - of_flank * (2 if coast else 1))
+        condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
         memory = max(memory, expected_memory(unknowns, condensed))
         finer = 0.35 * gear.module / division.section_size
         on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if coast else 1)

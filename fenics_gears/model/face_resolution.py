@@ -30,13 +30,13 @@ def face_of(scene: Scene, pair: GearPair) -> Face:
     return Face(positions, widths, pair.slope, pair.gear_middles)
 
 
-# Length of the window of contact nodes where no edge is near, in half-widths under the mean line load; and stiffness (of Young's modulus) of the mesh per width,
-# by which what opens the face raises the line load where it does not.
+# Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per face width, as a part of Young's modulus:
+# the largest line load is the mean one and this stiffness times the largest difference of openings along the face.
 INNER_HALF_WIDTHS, MESH_STIFFNESS = 4.5, 0.1
 
 
 def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
-    """Length (mm) of that window, for the largest line load that is expected; `half_width_of` a line load (N/mm)."""
+    """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the contact under a line load (N/mm)."""
     # Imported here: plane scenes have none.
     from fenics_gears.geometry.face import face_opening
 
@@ -47,7 +47,7 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
 # Elements of the body's section and its layers, in normal modules.
 SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.7
 FEWEST_LAYERS = 4
-# A layer is of second order: it tells two slices apart. With 16 in a layer, line loads that vary over it are wrong by up to half, the mean over the face is not.
+# A layer is of second order and tells two slices apart. With 16 slices in a layer, line loads that vary over it err by up to half; the mean over the face does not.
 SLICES_OF_A_LAYER, MOST_SLICES_OF_A_LAYER = 2, 4
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import inf, lcm
 from typing import TYPE_CHECKING
 
@@ -106,16 +106,17 @@ class Model:
         return face_of(self.scene, self.pair)
 
     def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
-        """What lead modifications and misalignment open along the line of action at places z (k,), mm, on the face; see `geometry.face`."""
+        """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the face; see `geometry.face`."""
         from fenics_gears.geometry.face import face_opening
 
         return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
 
-    def coast_face_opening(self, z: np.ndarray, position: np.ndarray) -> np.ndarray:
-        """What misalignment opens between the coast flanks, along their line of action; arguments as of `face_opening`."""
+    @property
+    def coast_face_opening(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
+        """The same between the coast flanks, along their own line of action; None where nothing opens them."""
         from fenics_gears.geometry.face import coast_face_opening
 
-        return coast_face_opening(self.pair, self.scene.misalignment, z, position)
+        return None if self.scene.misalignment is None else partial(coast_face_opening, self.pair, self.scene.misalignment)
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""

@@ -13,7 +13,6 @@ from fenics_gears.contact.face_pairing import FacePair
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, sector_of
 from fenics_gears.contact.operator import node_slices
 from fenics_gears.dynamics.steps import Record
-from fenics_gears.errors import ComputationError
 from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.results.side_by_side import SideBySide
 
@@ -22,10 +21,10 @@ OnFlanks = tuple[list[int], sparse.csr_matrix]
 
 
 class FaceRootStress(RootStress):
-    """Root stress at the steps of a cycle over the face: contact forces become forces on slices of the flanks, and these stresses by either gear's rows."""
+    """Root stress at the steps of a cycle over the face: forces on slices of the flanks from the contact forces, times the stress per force on a slice."""
 
     def on_flanks(self, record: Record) -> tuple[list[int], tuple[OnFlanks, OnFlanks]]:
-        """Indices of the tooth pairs in reach, and what takes contact forces to both gears' flanks, made when first asked for."""
+        """Indices of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks, built when first asked for."""
         phase = record.step % self.cycle.steps
         if phase not in self._matrices:
             pairs = record.position.operator.pairs
@@ -68,12 +67,6 @@ class FaceRootStress(RootStress):
             stress = np.stack(forces) @ self._known(gear, ahead).reshape(slices * points, -1).T
             np.add.at(values, (np.array(steps), gear, np.array(slots)), stress.reshape(-1, slices, points))
         return _variables(values.reshape(*values.shape[:4], 2, points // 2))
-
-    def _known(self, gear: int, ahead: int) -> np.ndarray:
-        rows = self.rows[gear]
-        if abs(ahead) > rows.reach:
-            raise ComputationError(f"root stress: the stress of a tooth {ahead} pitches from the loaded one was not computed, known are {rows.reach}")
-        return rows.rows[rows.reach + ahead]
 
     def labels(self) -> tuple[dict[str, str], dict[str, tuple]]:
         """As in the plane, and that of the slices."""

@@ -1,18 +1,27 @@
-"""What contact over a face has in the result besides the fields of its contact nodes."""
+"""Contact over a face in the result: line loads, mesh stiffness in the transverse plane, and a warning where much of the face does not touch."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 import numpy as np
+import xarray as xr
 
+from fenics_gears.contact.face import Face
 from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.results.pairs import carrying_side
 from fenics_gears.results.side_by_side import SideBySide
+
+# Part of the face that touches, below which there is a warning: end relief takes the load off less than the rest.
+NOTABLE_PART = 0.75
+# Slices that touch, below which their number does not resolve how.
+FEWEST_TOUCHING = 3
 
 
 def face_variables(nodes: SideBySide) -> dict[str, np.ndarray]:
-    """Line load of each tooth pair on its drive flanks over the slices of the face (steps, slots, slices), N/mm."""
-    return {"line_load": nodes.by_slice(nodes.normal * nodes.drive) / nodes.cycle.face.widths}
+    """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch, over the slices of the face (steps, slots, slices), N/mm."""
+    sides = {"line_load": nodes.drive} | ({"coast_line_load": ~nodes.drive} if nodes.cycle.coast_flanks else {})
+    return {name: nodes.by_slice(nodes.normal * side) / nodes.cycle.face.widths for name, side in sides.items()}
 
 
 def in_transverse_plane(curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
@@ -24,3 +33,23 @@ def in_transverse_plane(curves: Mapping[str, np.ndarray], nodes: SideBySide) -> 
     loaded = [(nodes.by_slot(nodes.normal * (nodes.drive == drive)) > NO_FORCE).sum(axis=1) for drive in (True, False)]
     stiffness = {name: share * curves[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent")}
     return stiffness | {"loaded_pairs": np.maximum(*loaded).astype(float)}
+
+
+def warnings_of_face(face: Face, result: xr.Dataset) -> list[str]:
+    """Where the recorded flanks leave much of the face without load in all steps; nothing where contact fields are not stored."""
+    if not result.sizes.get("contact_time"):
+        return []
+    loads = result[f"{carrying_side(result)}line_load"].transpose(..., "face_position").values
+    touched = (loads > NO_FORCE).reshape(-1, face.slices).any(axis=0)
+    part = face.widths[touched].sum() / face.widths.sum()
+    if not touched.any() or part >= NOTABLE_PART:
+        return []
+    (low, high), (left, right) = ((at[0] - 0.5 * face.widths[0], at[-1] + 0.5 * face.widths[-1]) for at in (face.positions[touched], face.positions))
+    one_sided = touched[0] != touched[-1]
+    where = f"at its {'left' if touched[0] else 'right'} end, " if one_sided else ""
+    remedy = "lower [misalignment], correct it by lead_modifications.pinion.helix_slope" if one_sided else "lower the crowning or the end relief"
+    coarse = f"; {touched.sum()} of {face.slices} slices do not resolve how: raise accuracy.slices" if touched.sum() < FEWEST_TOUCHING else ""
+    return [
+        f"the flanks touch over {part:.0%} of the face only, {where}from {low:.3g} to {high:.3g} mm of {left:.3g} to {right:.3g} mm: "
+        f"{remedy}, or raise the torque{coarse}"
+    ]

@@ -10,34 +10,36 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.pairs import carrying_side
 
 # Mesh cycles beside a phase at which the lines of contact change.
 BESIDE = 1e-9
 
 
 def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
-    """Overlap and total contact ratio, and the load factors of the drive flanks in the settled steps of a result; nothing of flanks without load.
+    """Overlap and total contact ratio, and the load factors of the flanks that carry in the settled steps of a result; nothing of flanks without load.
 
     Face load factors need contact fields, of which those of settled steps count.
     """
     found = {"overlap_ratio": pair.overlap_ratio, "total_contact_ratio": pair.total_contact_ratio}
-    pressed = counted["normal_force"].values > NO_FORCE
+    side = carrying_side(counted)
+    pressed = counted[f"{side}normal_force"].values > NO_FORCE
     if pressed.any():
-        largest = counted["pair_normal_force"].values[pressed].max(axis=1) / counted["normal_force"].values[pressed]
+        largest = counted[f"pair_{side}normal_force"].values[pressed].max(axis=1) / counted[f"{side}normal_force"].values[pressed]
         found["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
     if counted.sizes.get("contact_time"):
-        found |= _face_load_factors(counted, pair)
+        settled = counted.isel(contact_time=counted["contact_time"].values >= counted["time"].values[0])
+        loads = line_loads(settled, side)
+        factors = {"face_load_factor": uneven(loads.sum(axis=1)), "face_load_factor_at_pitch_cylinder": uneven(at_pitch_cylinder(settled, pair, side))}
+        found |= {name: float(each.max()) for name, each in factors.items() if each.size}
     return found
 
 
-def _face_load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
-    """K_Hbeta of the whole mesh, the largest of all steps, and of the line of contact points on the pitch cylinder."""
-    settled = counted["contact_time"].values >= counted["time"].values[0]
-    loads = counted["line_load"].transpose("contact_time", "slot", "face_position").values
-    factors = [uneven(loads[settled].sum(axis=1)), uneven(at_pitch_cylinder(counted.isel(contact_time=settled), pair))]
-    names = "face_load_factor", "face_load_factor_at_pitch_cylinder"
-    return {name: float(each.max()) for name, each in zip(names, factors) if each.size}
+def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
+    """Line load (n, slots, S), N/mm, of those flanks."""
+    return result[f"{side}line_load"].transpose("contact_time", "slot", "face_position").values
 
 
 def uneven(loads: np.ndarray) -> np.ndarray:
@@ -46,21 +48,27 @@ def uneven(loads: np.ndarray) -> np.ndarray:
     return loads[mean > 0.0].max(axis=1) / mean[mean > 0.0]
 
 
-def at_pitch_cylinder(result: xr.Dataset, pair: GearPair) -> np.ndarray:
-    """Line load (n, S), N/mm, in each slice when its contact passes the pitch point, the n-th time; straight between steps.
+def at_pitch_cylinder(result: xr.Dataset, pair: GearPair, side: str = "") -> np.ndarray:
+    """Line load (n, S), N/mm, in each slice when its contact passes the pitch point, the n-th time; straight between steps. `side`: of `carrying_side`.
 
     Of a helical pair slices pass one after the other: each row is of one line along the flank, on the pitch cylinder.
     """
     phase, slots = result["contact_mesh_phase"].values, result.sizes["slot"]
-    loads, first = result["line_load"].transpose("contact_time", "slot", "face_position").values, result["contact_pair_number"].attrs["number_at_phase_0"]
-    # Mesh cycles from the start of contact in the middle of the face to the pitch point in each slice.
-    after = (pair.pitch_point - pair.path_start - pair.slope * result["face_position"].values) / pair.base_pitch
+    loads, first = line_loads(result, side), result["contact_pair_number"].attrs["number_at_phase_0"]
+    # Mesh cycles from the start of contact of the drive flanks in the middle of the face to the pitch point in each slice.
+    after = (passing(pair, pair.pitch_point, side) - pair.path_start - pair.slope * result["face_position"].values) / pair.base_pitch
     passed = []
     for slice_, since in enumerate(after):
         numbers = np.arange(np.ceil(phase[0] - since - BESIDE), np.floor(phase[-1] - since + BESIDE) + 1).astype(int)
         passed.append([np.interp(number + since, phase, loads[:, (number + first) % slots, slice_]) for number in numbers])
     count = min(map(len, passed), default=0)
     return np.transpose([each[:count] for each in passed])
+
+
+def passing(pair: GearPair, position: float, side: str) -> float:
+    """Where the contact of a pair's drive flanks stands (mm from T1) when that of its flanks of `side` passes a position on their own line of action."""
+    # There coast flanks go the other way.
+    return pair.pinion.base_radius * coast_roll_angles(pair, 0.0)[0] - position if side else position
 
 
 def contact_line_lengths(pair: GearPair, positions) -> np.ndarray:

@@ -20,6 +20,11 @@ class Life:
     steps: slice
 
 
+def carrying_side(result: xr.Dataset) -> str:
+    """What names of variables of the flanks that carry more begin with: nothing for drive flanks, "coast_" for coast flanks."""
+    return "coast_" if "coast_normal_force" in result and float(result["coast_normal_force"].sum()) > float(result["normal_force"].sum()) else ""
+
+
 def shown_steps(result: xr.Dataset) -> slice:
     """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says, all of a ramp."""
     cycles, phase = result.attrs.get("shown_cycles"), result["mesh_phase"].values

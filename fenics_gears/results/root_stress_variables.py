@@ -48,15 +48,15 @@ class RootStress:
                 line = unmirrored(data, line) if pair.place.flank == COAST else line
                 columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
                 for place, index in enumerate(teeth):
-                    ahead = SENSE_OF_TEETH[gear] * index - sector_of(gear, pair)
-                    matrix[gear, place][:, columns] += self._response(gear, ahead, pair.place.flank, len(line)) @ line
+                    known, first = self._known(gear, SENSE_OF_TEETH[gear] * index - sector_of(gear, pair)), pair.place.flank * len(line)
+                    matrix[gear, place][:, columns] += known[:, first : first + len(line)] @ line
         return teeth, matrix
 
-    def _response(self, gear: int, ahead: int, flank: int, dofs: int) -> np.ndarray:
+    def _known(self, gear: int, ahead: int) -> np.ndarray:
         rows = self.rows[gear]
         if abs(ahead) > rows.reach:
             raise ComputationError(f"root stress: the stress of a tooth {ahead} pitches from the loaded one was not computed, known are {rows.reach}")
-        return rows.rows[rows.reach + ahead][:, flank * dofs : (flank + 1) * dofs]
+        return rows.rows[rows.reach + ahead]
 
     def values(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Root stress at consecutive steps; not a number where a slot's pair is out of reach."""

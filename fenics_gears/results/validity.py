@@ -67,7 +67,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
         of_flanks += _sharp_edge(recorder.model.scene, watched)
     if cycle.face is not None:
         # Imported here: plane scenes have none.
-        from fenics_gears.results.face_validity import warnings_of_face
+        from fenics_gears.results.face_variables import warnings_of_face
 
         of_flanks += warnings_of_face(cycle.face, result)
     return [

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
+from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import Chart, Curve, Field
 from fenics_gears.show.panels import DARK, GREY
 from fenics_gears.show.pressure import COLOURS, colour_limit, has_pressure, node_edges
@@ -22,7 +23,7 @@ def contact_patterns(run: Run) -> list[Chart]:
     """Patterns on the flanks of pinion and wheel that carry, in the last cycles whose contact fields are stored."""
     if not has_pressure(run) or run.pair is None:
         return []
-    side = "coast_" if run.on_coast_flanks else ""
+    side = carrying_side(run.dataset)
     order = ("contact_time", "slot", "face_position", "contact_node")
     part = run.last_fields
     pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
@@ -52,7 +53,7 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     pair, name = run.pair, GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
-    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, _slice_ends(run), limit)
+    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, slice_ends(run), limit)
     pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
     active = 2.0 * data.radius((contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear])
     face = np.array(pair.common_face)
@@ -65,7 +66,7 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     )  # fmt: skip
 
 
-def _slice_ends(run: Run) -> np.ndarray:
+def slice_ends(run: Run) -> np.ndarray:
     """Ends (S + 1,), mm, of the slices."""
     z = run.dataset["face_position"].values
     low, high = run.pair.common_face

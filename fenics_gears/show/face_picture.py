@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import xarray as xr
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
@@ -15,9 +15,8 @@ from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import MARKED_LINES, Chart, Curve
 from fenics_gears.show.contact_pattern import ACROSS
 from fenics_gears.show.face_grid import surface
-from fenics_gears.show.panels import DARK, GREY, PALETTE, WARNING, styled
-from fenics_gears.show.run import conditions, scene_of
-from fenics_gears.show.stress_picture import COLOURS
+from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
+from fenics_gears.show.stress_picture import COLOURS, colour_bar, heading, rounded_up
 from fenics_gears.simulation.face_stresses import GearsInSpace
 from fenics_gears.system.virtual_display import ensure_display
 
@@ -43,13 +42,25 @@ class Sight:
     half: float
 
 
+def still(mesh: GearsInSpace, dataset: xr.Dataset, scale: float | None = None) -> Figure:
+    """The picture of one time; `scale` of the displacements, true unless given."""
+    return frames(dataset, scale, [mesh])(mesh, dpi=100.0)
+
+
+def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInSpace]) -> Callable[..., Figure]:
+    """What draws the frames of a moving picture, with the colours that suit some of its meshes."""
+    limit = max(map(colour_limit, sampled))
+    beyond = any(float(gear.von_mises.max()) > limit * (1.0 + 1e-9) for mesh in sampled for gear in mesh.gears)
+    return partial(face_picture, dataset=dataset, scale=1.0 if scale is None else scale, limit=limit, beyond=beyond)
+
+
 @styled
-def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float = 1.0) -> Figure:
+def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float = 60.0) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
 
-    Raises ComputationError without pyvista.
+    limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without pyvista.
     """
-    figure, limit = Figure(figsize=(16.0, 9.0), dpi=100.0), colour_limit(mesh)
+    figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     for sight in sights(mesh):
         axes = figure.add_axes(sight.place, xticks=[], yticks=[])
         axes.imshow(_rendered(mesh, sight, scale, limit), aspect="auto")
@@ -58,21 +69,15 @@ def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float = 1.0) ->
         for spine in axes.spines.values():
             spine.set_visible(True)
             spine.set_color("#BBBBBB")
-    beyond = max(float(gear.von_mises.max()) for gear in mesh.gears) > limit * (1.0 + 1e-9)
-    bar = figure.colorbar(ScalarMappable(Normalize(0.0, limit), COLOURS), cax=figure.add_axes((0.931, 0.11, 0.013, 0.69)), extend="max" if beyond else "neither")
-    bar.set_label("von Mises stress (MPa)", labelpad=8.0)
-    bar.ax.grid(False)
+    colour_bar(figure, limit, beyond)
+    heading(figure, mesh, dataset)
     _words(figure, mesh, dataset, scale)
     return figure
 
 
 def colour_limit(mesh: GearsInSpace) -> float:
     """Stress (MPa) at which the colours end: the largest in the roots, rounded up to two digits."""
-    highest = max(float(gear.von_mises[..., gear.in_root].max()) for gear in mesh.gears)
-    if highest <= 0.0:
-        return 1.0
-    step = 10.0 ** (np.floor(np.log10(highest)) - 1.0)
-    return float(np.ceil(highest / step - 1e-9) * step)
+    return rounded_up(max(float(gear.von_mises[..., gear.in_root].max()) for gear in mesh.gears))
 
 
 def sights(mesh: GearsInSpace) -> tuple[Sight, Sight, Sight]:
@@ -150,18 +155,11 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> n
 
 
 def _words(figure: Figure, mesh: GearsInSpace, dataset: xr.Dataset, scale: float) -> None:
-    complete, scene = bool(dataset.attrs.get("complete", 1)), scene_of(dataset)
-    colour = DARK if complete else WARNING
-    title = " ".join(str(dataset.attrs.get("title", "")).split())
-    figure.text(0.015, 0.955, f"Stress in the gears: {title}", fontsize=18, color=colour, parse_math=False)
-    words = [conditions(scene)] if scene is not None else []
-    figure.text(0.015, 0.917, "  ·  ".join(words if complete else [*words, "INCOMPLETE RUN"]), fontsize=13, color=colour, parse_math=False)
     stored = contact_times(dataset)
     index = int(np.argmin(np.abs(stored["contact_mesh_phase"].values - mesh.mesh_phase)))
     name = "coast_normal_force" if mesh.coast else "normal_force"
-    said = f"Mesh phase {mesh.mesh_phase:.3f}, displacements × {scale:g}."
     roots = [f"{name_of_gear} {_largest_tension(gear)}" for name_of_gear, gear in zip(NAMES, mesh.gears)]
-    figure.text(0.015, 0.073, f"{said} Mesh force {float(stored[name].values[index]):.0f} N. Largest tension in the roots: {', '.join(roots)}.", fontsize=12, color=DARK)
+    figure.text(0.015, 0.073, f"Displacements × {scale:g}. Mesh force {float(stored[name].values[index]):.0f} N. Largest tension in the roots: {', '.join(roots)}.", fontsize=12, color=DARK)
     figure.text(0.015, 0.018, CAPTION, fontsize=11, color=GREY, linespacing=1.4)
 
 

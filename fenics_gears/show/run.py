@@ -15,7 +15,7 @@ import xarray as xr
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.results.pairs import in_middle_slice, lives
+from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
@@ -106,8 +106,7 @@ class Run:
     @property
     def on_coast_flanks(self) -> bool:
         """Whether the coast flanks carry more than the drive flanks, over the stored steps."""
-        carried = [float(self.dataset[name].sum()) if name in self.dataset else 0.0 for name in ("coast_normal_force", "normal_force")]
-        return carried[0] > carried[1]
+        return bool(carrying_side(self.dataset))
 
     @property
     def micrometres(self) -> float:

@@ -10,17 +10,14 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.drawn_scale import automatic_scale
-from fenics_gears.show.stress_picture import COLOURS, colour_limit, exceeds, stress_picture
-from fenics_gears.simulation.run_stresses import RunStresses
+from fenics_gears.show.stress_picture import COLOURS
 
 FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
 FRAMES_PER_SECOND = 12
-# Inches at 100 dots: 16 to 9.
-WIDTH = 9.6
 SUFFIXES = (".gif", ".mp4")
 # A scale is looked for, and the colours are fixed, on so many of the frames.
 SAMPLED = 8
@@ -35,24 +32,20 @@ def check_suffix(path: Path) -> None:
         raise SceneError(f"{path}: there is no ffmpeg on PATH, which writes .mp4 files. Install it (Debian: ffmpeg), or name a .gif file.")
 
 
-def animate(runs: RunStresses, dataset: xr.Dataset, path: Path, scale: float | None, report: Callable[[int, int], None]) -> None:
-    """Write the moving picture; `report(done, all)` is called for every frame.
+def animate(runs, dataset: xr.Dataset, path: Path, frames: Callable[[list], Callable[..., Figure]], report: Callable[[int, int], None]) -> None:
+    """Write the moving picture of a run's stresses; `report(done, all)` is called for every frame.
 
-    Colours and scale are the same in all frames. The first and the last stored step are the same position in the mesh where whole cycles
+    frames: given some of the meshes that `runs` has, it fixes colours and scale and returns what draws a mesh. The first and the last stored step are the same position in the mesh where whole cycles
     are stored, so that the last is left out and the turn has no seam.
     """
     steps = frame_steps(dataset)
-    sampled = [runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]]
-    limit = colour_limit(sampled)
-    scale = automatic_scale(sampled) if scale is None else scale
-    beyond = any(exceeds(mesh, limit) for mesh in sampled)
-    del sampled
-    frames = []
+    drawn = frames([runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]])
+    images = []
     for done, index in enumerate(steps):
         report(done, len(steps))
-        frames.append(_image(runs, dataset, index, scale, limit, beyond))
+        images.append(_image(drawn(runs.at(index))))
     report(len(steps), len(steps))
-    (_write_gif if path.suffix == ".gif" else _write_mp4)(frames, path)
+    (_write_gif if path.suffix == ".gif" else _write_mp4)(images, path)
 
 
 def frame_steps(dataset: xr.Dataset) -> list[int]:
@@ -63,8 +56,7 @@ def frame_steps(dataset: xr.Dataset) -> list[int]:
     return sorted({int(round(place)) for place in np.linspace(0, len(phases) - 1, count, endpoint=False)})
 
 
-def _image(runs: RunStresses, dataset: xr.Dataset, index: int, scale: float, limit: float, beyond: bool) -> np.ndarray:
-    figure = stress_picture(runs.at(index), dataset, scale=scale, limit=limit, close_up=False, width=WIDTH, beyond=beyond)
+def _image(figure: Figure) -> np.ndarray:
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()

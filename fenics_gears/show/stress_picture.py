@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -20,11 +21,15 @@ from matplotlib.patheffects import withStroke
 from matplotlib.tri import Triangulation
 
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run import conditions, scene_of
 from fenics_gears.show.stress_grid import shown_points, upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
+
+if TYPE_CHECKING:
+    from fenics_gears.simulation.face_stresses import GearsInSpace
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
 COLOURS = LinearSegmentedColormap.from_list("stress", [
@@ -38,6 +43,8 @@ ROOTS_IN_COLOURS = 3.0
 CLOSE_UP_HALF_WIDTHS = 5.0
 # What a picture names of the pressure at its time.
 PRESSURES = {"largest_contact_pressure": "largest contact pressure", "largest_edge_pressure": "pressure at a tip's edge"}
+# Inches at 100 dots of a frame of a moving picture.
+FRAME_WIDTH = 9.6
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
 LEAST_BORE, LEAST_ARROW = 28.0, 12.0
 
@@ -60,11 +67,15 @@ def colour_limit(meshes: list[GearsInMesh]) -> float:
     """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it by far."""
     peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
-    limit = min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak
-    if limit <= 0.0:
+    return rounded_up(min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak)
+
+
+def rounded_up(stress: float) -> float:
+    """A stress (MPa) rounded up to two digits; 1 where there is none."""
+    if stress <= 0.0:
         return 1.0
-    step = 10.0 ** (np.floor(np.log10(limit)) - 1.0)
-    return float(np.ceil(limit / step - 1e-9) * step)
+    step = 10.0 ** (np.floor(np.log10(stress)) - 1.0)
+    return float(np.ceil(stress / step - 1e-9) * step)
 
 
 def _stress_of_roots(mesh: GearsInMesh) -> float:
@@ -74,6 +85,18 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
         below = (radius < gear.form_radius) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))
         found = max(found, float(body.von_mises[below].max(initial=0.0)))
     return found
+
+
+def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) -> Figure:
+    """The picture of one time; `scale` of the displacements, the largest suitable one unless given."""
+    return stress_picture(mesh, dataset, scale=automatic_scale([mesh]) if scale is None else scale, limit=colour_limit([mesh]))
+
+
+def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInMesh]) -> Callable[[GearsInMesh], Figure]:
+    """What draws the frames of a moving picture, with the colours and the scale that suit some of its meshes."""
+    limit, scale = colour_limit(sampled), automatic_scale(sampled) if scale is None else scale
+    beyond = any(exceeds(mesh, limit) for mesh in sampled)
+    return lambda mesh: stress_picture(mesh, dataset, scale=scale, limit=limit, close_up=False, width=FRAME_WIDTH, beyond=beyond)
 
 
 @styled
@@ -102,8 +125,8 @@ def stress_picture(mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limi
         _frame_in(middle, right, moved=_moved(mesh, loaded.point, scale))
         _length_bar(right)
         _numbers(figure, mesh, dataset, (0.735, 0.30))
-    _colour_bar(figure, limit, beyond or exceeds(mesh, limit))
-    _heading(figure, mesh, dataset)
+    colour_bar(figure, limit, beyond or exceeds(mesh, limit), ", plane strain")
+    heading(figure, mesh, dataset)
     return figure
 
 
@@ -270,15 +293,17 @@ def exceeds(mesh: GearsInMesh, limit: float) -> bool:
     return max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
 
 
-def _colour_bar(figure: Figure, limit: float, beyond: bool) -> None:
+def colour_bar(figure: Figure, limit: float, beyond: bool, state: str = "") -> None:
+    """The colours of stress up to a limit, MPa, with an arrow there where some is `beyond`."""
     colours = ScalarMappable(Normalize(0.0, limit), COLOURS)
     axes = figure.add_axes((0.931, 0.08, 0.013, 0.72))
     bar = figure.colorbar(colours, cax=axes, extend="max" if beyond else "neither")
-    bar.set_label("von Mises stress (MPa), plane strain", labelpad=8.0)
+    bar.set_label(f"von Mises stress (MPa){state}", labelpad=8.0)
     axes.grid(False)
 
 
-def _heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
+def heading(figure: Figure, mesh: GearsInMesh | GearsInSpace, dataset: xr.Dataset) -> None:
+    """Title of the run, its conditions, and the time of the picture."""
     title = " ".join(str(dataset.attrs.get("title", "")).split())
     complete = bool(dataset.attrs.get("complete", 1))
     scene = scene_of(dataset)

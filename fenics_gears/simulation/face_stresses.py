@@ -5,22 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
 from fenics_gears.contact.face_forces import face_forces
-from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.face.recovery import FaceRecovery
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.model.model import model_of
-from fenics_gears.results.pairs import contact_times
-from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.simulation.face_route import face_cycle, gear_bodies
-from fenics_gears.simulation.run_stresses import hub_motion, standing
+from fenics_gears.simulation.run_stresses import RunStresses, outer_sides, standing
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
-from fenics_gears.system.progress import Progress, SilentProgress
+from fenics_gears.system.progress import SilentProgress
 
 # Sectors on either side of the loaded teeth that are recovered.
 BESIDE = 2
@@ -60,45 +57,32 @@ class TeethInSpace:
 
 @dataclass(frozen=True)
 class GearsInSpace:
-    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more; `motion` (2, 3): of the hubs, mm, mm, rad."""
+    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more."""
 
     time: float
     mesh_phase: float
     gears: tuple[TeethInSpace, TeethInSpace]
     pair: GearPair
     coast: bool
-    motion: np.ndarray
 
 
-class FaceStresses:
-    """Displacement and stress of the teeth in mesh at any step of a result over the face whose contact fields are stored. Use it in a `with`."""
+class FaceStresses(RunStresses):
+    """Displacement and stress of the teeth in mesh at any step of a result over the face whose contact fields are stored. Use it as `RunStresses`."""
 
-    def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None, progress: Progress | None = None):
-        self.model, self.result = model_of(scene), contact_times(result)
-        cache, progress = cache if cache is not None else user_cache(), progress or SilentProgress()
-        sections, bodies = gear_compliances(self.model, progress, cache), gear_bodies(self.model, progress, cache)
-        self.cycle = face_cycle(self.model, sections, bodies)
-        progress.stage("factorise sectors")
-        self.recoveries = tuple(self._recovery(gear) for gear in (0, 1))
+    def _cycle(self, cache: Cache) -> Cycle:
+        sections, bodies = (of(self.model, SilentProgress(), cache) for of in (gear_compliances, gear_bodies))
+        return face_cycle(self.model, sections, bodies)
 
     def _recovery(self, gear: int) -> FaceRecovery:
         pair, scene = self.model.pair, self.model.scene
-        data = (pair.pinion, pair.wheel)[gear]
-        return FaceRecovery(data, scene.gears.materials[gear], face_discretisation(self.model, gear), coast_flank=scene.coast_flanks is not None)
-
-    def __enter__(self) -> FaceStresses:
-        return self
-
-    def __exit__(self, *failure) -> None:
-        for recovery in self.recoveries:
-            recovery.close()
+        return FaceRecovery((pair.pinion, pair.wheel)[gear], scene.gears.materials[gear], face_discretisation(self.model, gear), scene.coast_flanks is not None)
 
     def at(self, index: int) -> GearsInSpace:
-        """Both gears at a stored step."""
+        """Both gears at a stored step. Raises SceneError where they stand further than a pitch from their places."""
+        self._check_place(index)
         stored = stored_forces(self.result, self.model, self.cycle, index)
         phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
-        gears = tuple(self._gear(gear, stored) for gear in (0, 1))
-        return GearsInSpace(time, phase, gears, self.model.pair, stored.on_coast_flanks, hub_motion(self.result, index))
+        return GearsInSpace(time, phase, (self._gear(0, stored), self._gear(1, stored)), self.model.pair, stored.on_coast_flanks)
 
     def _gear(self, gear: int, stored: StoredForces) -> TeethInSpace:
         recovery, face = self.recoveries[gear], self.model.face
@@ -126,12 +110,3 @@ class FaceStresses:
             outline=outer_sides(recovery.body.section, recovery.body.mesh),
             in_root=(radius < data.form_radius) & (radius > 0.5 * (data.bore_radius + data.root_radius)),
         )
-
-
-def outer_sides(nodes, mesh) -> np.ndarray:
-    """Sides (k, 2) of first order of the section's boundary, without those on its cuts."""
-    sides, count = nodes.boundary_sides, len(nodes.points)
-    cuts = np.sort(np.vstack([mesh.edges["lower cut"], mesh.edges["upper cut"]]), axis=1)
-    ends = np.sort(sides[:, :2], axis=1)
-    sides = sides[~np.isin(ends @ [count, 1], cuts @ [count, 1])]
-    return np.vstack([sides[:, [0, 2]], sides[:, [2, 1]]])

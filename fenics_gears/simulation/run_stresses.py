@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 import xarray as xr
@@ -74,11 +75,16 @@ class RunStresses:
         self.model = model_of(scene)
         self._check()
         self.result = contact_times(result)
-        cache = cache if cache is not None else user_cache()
-        self.cycle: Cycle = mesh_cycle(self.model, gear_compliances(self.model, SilentProgress(), cache))
-        self.recoveries = tuple(recovery_of(self.model, gear) for gear in (0, 1))
+        self.cycle = self._cycle(cache if cache is not None else user_cache())
+        self.recoveries = tuple(self._recovery(gear) for gear in (0, 1))
 
-    def __enter__(self) -> RunStresses:
+    def _cycle(self, cache: Cache) -> Cycle:
+        return mesh_cycle(self.model, gear_compliances(self.model, SilentProgress(), cache))
+
+    def _recovery(self, gear: int):
+        return recovery_of(self.model, gear)
+
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *failure) -> None:
@@ -172,11 +178,16 @@ def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
 
 def whole_cells(recovery: GearRecovery) -> tuple[np.ndarray, np.ndarray]:
     """First-order cells of all sectors, one sector's nodes after the other's, and sides (k, 2) of the gear's own boundary."""
-    nodes, mesh = recovery.interior.nodes, recovery.interior.mesh
+    nodes = recovery.interior.nodes
+    outline, count = outer_sides(nodes, recovery.interior.mesh), len(nodes.points)
+    first = count * np.arange(recovery.gear.teeth)[:, None, None]
+    return tuple((part[None] + first).reshape(-1, part.shape[1]) for part in (nodes.subcells, outline))
+
+
+def outer_sides(nodes, mesh) -> np.ndarray:
+    """Sides (k, 2) of first order of a sector's boundary, without those on its cuts."""
     sides, count = nodes.boundary_sides, len(nodes.points)
     cuts = np.sort(np.vstack([mesh.edges["lower cut"], mesh.edges["upper cut"]]), axis=1)
     ends = np.sort(sides[:, :2], axis=1)
     sides = sides[~np.isin(ends @ [count, 1], cuts @ [count, 1])]
-    outline = np.vstack([sides[:, [0, 2]], sides[:, [2, 1]]]) if sides.shape[1] == 3 else sides
-    first = count * np.arange(recovery.gear.teeth)[:, None, None]
-    return tuple((part[None] + first).reshape(-1, part.shape[1]) for part in (nodes.subcells, outline))
+    return np.vstack([sides[:, [0, 2]], sides[:, [2, 1]]]) if sides.shape[1] == 3 else sides

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hard_cases.helical import helical_scene, on_stand_in_bodies
 from tests.hard_cases.invariants import run_of
+from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.face_cycle import FaceCycle
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
@@ -13,6 +13,7 @@ from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, Place, coast_place, flank_points, interpolations, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
+from fenics_gears.results.load_factors import load_factors
 from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.simulation.face_route import gear_bodies
 from fenics_gears.system.progress import SilentProgress
@@ -133,6 +134,20 @@ def test_driven_backwards(hand):
         np.testing.assert_allclose(result["reaction_z"].sel(gear="wheel"), -expected, rtol=1e-11)
         forces[torque] = result["coast_normal_force" if torque < 0.0 else "normal_force"].values
     assert min(values.min() for values in forces.values()) > 0.0
+
+
+def test_load_factors_where_the_wheel_drives():
+    """Exact symmetry: half a turn about the line of centres puts drive flanks on coast flanks and z on -z. Load factors are the same, but for the phases of the steps."""
+    factors, double = [], 2.0 * model_of(helical_scene(BOTH)).pair.operating_pressure_angle
+    for torque, (in_plane, out_of_plane) in ((200e3, (20.0, 0.0)), (-200e3, (20.0 * np.cos(double), 20.0 * np.sin(double)))):
+        more = f'[misalignment]\nin_plane = "{float(in_plane)!r} um"\nout_of_plane = "{float(out_of_plane)!r} um"\n'
+        scene = helical_scene(BOTH + more, torque=torque, cycles=2, accuracy="slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 40")
+        model = model_of(scene)
+        factors.append(load_factors(run_of(model, on_stand_in_bodies(model)).result, model.pair))
+    assert factors[0].keys() == factors[1].keys() and len(factors[0]) == 5
+    for name, value in factors[0].items():
+        assert factors[1][name] == pytest.approx(value, rel=5e-3), name
+    assert factors[0]["face_load_factor_at_pitch_cylinder"] > 1.2
 
 
 @pytest.fixture(scope="module")

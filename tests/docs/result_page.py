@@ -72,7 +72,7 @@ DIMENSIONS = {
 }
 OVER_THE_FACE = """The common face is divided into slices. Their middles are the coordinate `face_position`: the distance along the axes, mm, from the middle of the common face, towards the end from which
 the pinion is seen to turn counter-clockwise. Fields of contact nodes have the dimension `face_position` between `slot` and `contact_node`. Forces of tooth pairs and of the mesh are along the contact normal, which leans along
-the axes by the base helix angle. Further variables are those below, and the load factors of ISO 6336-1 are among the attributes, read off the computed contact of the drive flanks by the standard's definitions:
+the axes by the base helix angle. Further variables are those below, and the load factors of ISO 6336-1 are among the attributes, read off the computed contact of the flanks that carry (the coast flanks where the wheel drives) by the standard's definitions:
 
 * **`face_load_factor`**: at each stored settled step the line loads of all tooth pairs are summed at each place of the face; the largest sum is divided by their mean over the common face; the largest of all steps counts. Of helical
   gears this is above 1 even if the line load is the same along all lines of contact, since at any time some places have more pairs in contact than others.

@@ -23,6 +23,9 @@ OPENINGS = {
 # Sizes that fit 2 GB; and with thinner layers, 4 GB.
 SMALL = Sizes(SectionSizes(0.08, 0.12, 0.9, 1.6, 6.0, 0.6, 1), (0.15, 0.3, 0.5, 0.8, 1.0, 1.0), 0.05, 0.3)
 THIN_LAYERS = replace(SMALL, layers=(0.15, 0.25, 0.35, 0.45, 0.5, 0.5, 0.5, 0.525, 0.525))
+# Thin where a tip edge of the helical pair crosses the face: 1.4 to 3 mm from its middle at phases 0.6 and 0.85, in the middle at 0.97.
+THIN_ASIDE = replace(SMALL, layers=(0.3, 0.45, 0.4, 0.4, 0.4, 0.4, 0.6, 0.8))
+THIN_MIDDLE = replace(SMALL, layers=(0.3, 0.75, 1.0, 0.7, 0.4, 0.3, 0.3))
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from collections import Counter
 
 import pytest
 from hypothesis import strategies as st
-from tests.hard_cases.helical import INERTIA, SHAFTS, helical_scene, on_stand_in_bodies
 from tests.hard_cases.random_effects import decades
 from tests.hard_cases.test_any_scene import Tally, judged
+from tests.helical import INERTIA, SHAFTS, helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.step_solver import NEWTON
 

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hard_cases.helical import BEARINGS, CROWNED, FRICTION, INERTIA, SHAFTS, helical_scene, on_stand_in_bodies
 from tests.hard_cases.invariants import Run, cycle_of, run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS
+from tests.helical import BEARINGS, CROWNED, FRICTION, INERTIA, SHAFTS, helical_scene, on_stand_in_bodies
 
 from fenics_gears.dynamics.guidance import resolved_frequency
 from fenics_gears.dynamics.march import Marcher

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.hard_cases.helical import BEARINGS, CROWNED, FRICTION, helical_scene
 from tests.hard_cases.invariants import run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS
+from tests.helical import BEARINGS, CROWNED, FRICTION, helical_scene
 
 from fenics_gears.model.model import model_of
 from fenics_gears.simulation.elastic_route import gear_compliances

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hard_cases.helical import BEARINGS, CROWNED, FRICTION, SHAFTS, helical_scene, on_stand_in_bodies
 from tests.hard_cases.invariants import cycle_of, run_of
 from tests.hard_cases.test_row_11_scale_of_r import scaled_step
+from tests.helical import BEARINGS, CROWNED, FRICTION, SHAFTS, helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.errors import ContactNotConverged, MoreThanOneSolution, SelfLocking
 from fenics_gears.dynamics.march import Marcher

@@ -2,7 +2,7 @@
 
 import numpy as np
 import xarray as xr
-from tests.helical import helical_scene
+from tests.helical import wide_pair
 from tests.over_face import MORE, helical_run
 
 from fenics_gears.results import journal
@@ -18,7 +18,7 @@ OF_FACE = {"overlap_ratio", "total_contact_ratio", "face_load_factor", "face_loa
 def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
     """Identity: a run whose steps are written down as they come has the same result, bit for bit."""
     monkeypatch.setattr(journal, "SECONDS_WITHOUT", 0.0)
-    written = simulate(helical_scene(MORE), journal=journal.Place(tmp_path / "run.nc.part"))
+    written = simulate(wide_pair(MORE), journal=journal.Place(tmp_path / "run.nc.part"))
     assert any((tmp_path / "run.nc.part").iterdir())
     xr.testing.assert_equal(written, helical_run())
 

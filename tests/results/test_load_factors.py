@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from tests.helical import helical_scene
+from tests.helical import wide_pair
 
+from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.load_factors import at_pitch_cylinder, contact_line_lengths, largest_even_share, load_factors
 
-SLICES, STEPS, FIRST, SLOTS = 10, 200, 2, 3
+SLICES, STEPS, FIRST, SLOTS = 10, 200, 2, 5
 
 
 @pytest.fixture(scope="module")
@@ -22,16 +23,16 @@ def spur(paper_scene):
 @pytest.fixture(scope="module")
 def helical():
     """A helical pair."""
-    return gear_pair(helical_scene().gears)
+    return gear_pair(wide_pair().gears)
 
 
-def run_of(pair, line_load, slices: int = SLICES) -> xr.Dataset:
-    """Two mesh cycles of a result whose line load, N/mm, is that function of contact (mm from T1) and place on the face (mm)."""
+def run_of(pair, line_load, slices: int = SLICES, reach: float = 0.0) -> xr.Dataset:
+    """Two mesh cycles of a result whose line load, N/mm, is that function of contact (mm from T1) and place on the face (mm), up to `reach` (mm) off the path."""
     phase, z = np.arange(2 * STEPS + 1) / STEPS, pair.face_width * ((np.arange(slices) + 0.5) / slices - 0.5)
     loads, numbers = np.zeros((len(phase), SLOTS, slices)), np.zeros((len(phase), SLOTS), dtype=int)
     for entered in range(-4, 6):
         xi = pair.path_start + (phase[:, None] - entered) * pair.base_pitch + pair.slope * z
-        there = (xi >= pair.path_start) & (xi <= pair.path_end)
+        there = (xi >= pair.path_start - reach) & (xi <= pair.path_end + reach)
         slot = (entered + FIRST) % SLOTS
         loads[:, slot] += np.where(there, line_load(xi, z), 0.0)
         numbers[there.any(axis=1), slot] = entered + FIRST
@@ -65,6 +66,27 @@ def test_pitch_cylinder_of_a_helical_gear(helical, hand):
     found = at_pitch_cylinder(result, pair)
     assert len(found) >= 1
     assert found == pytest.approx(np.broadcast_to(100.0 * (1.0 + 0.02 * z), found.shape), rel=1e-9)
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_pitch_cylinder_on_coast_flanks(helical, hand):
+    """Identity: the same on coast flanks, whose contact goes the other way along a line of action of its own."""
+    pair = helical if hand == "right" else replace(helical, helix=replace(helical.helix, pinion_hand="left"))
+
+    def line_load(xi, z):
+        position = pair.pinion.base_radius * np.vectorize(lambda at: coast_roll_angles(pair, at)[0])(xi)
+        return 100.0 * (1.0 + 0.3 * (position - pair.pitch_point)) * (1.0 + 0.02 * z)
+
+    result = run_of(pair, line_load, reach=pair.base_pitch)
+    result = result.rename(line_load="coast_line_load", pair_normal_force="pair_coast_normal_force").assign(
+        line_load=0.0 * result["line_load"], coast_normal_force=result["normal_force"], normal_force=0.0 * result["normal_force"]
+    )
+    z = result["face_position"].values
+    found = at_pitch_cylinder(result, pair, "coast_")
+    assert len(found) >= 1
+    assert found == pytest.approx(np.broadcast_to(100.0 * (1.0 + 0.02 * z), found.shape), rel=1e-9)
+    largest = (1.0 + 0.02 * z).max()
+    assert load_factors(result, pair)["face_load_factor_at_pitch_cylinder"] == pytest.approx(largest, rel=1e-9)
 
 
 def test_lengths_of_contact_lines(helical):

@@ -57,12 +57,20 @@ def test_wheel_has_the_pressure_of_the_pinion(run):
     assert touched.min() == pytest.approx(active, abs=0.3 * run.pair.wheel.module)
 
 
-def test_line_loads_add_up_to_the_forces(run):
-    """Identity: the line load of the mesh over the face is its normal force, of a tooth pair that pair's."""
+@pytest.mark.parametrize("side", ["", "coast_"])
+def test_line_loads_add_up_to_the_forces(run, side):
+    """Identity: the line load of the mesh over the face is its normal force, of a tooth pair that pair's; and contact ends where the lines are."""
+    run = Run(root_stress_run(coast=True)[1], stress=False) if side else run
     mesh, pair, _ = line_loads(run)
     widths = np.diff(mesh.field.y)
-    assert np.nansum(mesh.field.values * widths[:, None], axis=0) == pytest.approx(run.dataset["normal_force"].values, rel=1e-9)
-    assert np.nanmax(np.nansum(pair.field.values * widths[:, None], axis=0)) >= run.dataset["pair_normal_force"].values.max() * (1 - 1e-9)
+    assert np.nansum(mesh.field.values * widths[:, None], axis=0) == pytest.approx(run.dataset[f"{side}normal_force"].values, rel=1e-9)
+    assert np.nanmax(np.nansum(pair.field.values * widths[:, None], axis=0)) >= run.dataset[f"pair_{side}normal_force"].values.max() * (1 - 1e-9)
+    start, _, end = pair.curves
+    for number, loads in enumerate(np.nan_to_num(pair.field.values)):
+        z = 0.5 * (pair.field.y[number] + pair.field.y[number + 1])
+        touched = pair.field.x[:-1][loads > 0.0]
+        ends = (np.interp(z, start.y, start.x), np.interp(z, end.y, end.x))
+        assert (touched[0], touched[-1]) == pytest.approx(ends, abs=2.5 / 12)
 
 
 def test_report_has_the_face_and_the_middle_slice(run, tmp_path):

@@ -1,6 +1,7 @@
 """Stresses of teeth over the face, recovered at stored times."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,8 +13,9 @@ from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.face_data import Misalignment
 from fenics_gears.scene.data import Accuracy, Motion, Output
+from fenics_gears.show import stress_animation
 from fenics_gears.show.face_grid import save_vtu, surface
-from fenics_gears.show.face_picture import colour_limit, face_picture, root_tension
+from fenics_gears.show.face_picture import colour_limit, frames, root_tension, still
 from fenics_gears.show.run import scene_of
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.run_stresses import standing
@@ -103,11 +105,29 @@ def test_file_for_paraview(mesh, tmp_path):
 def test_picture_shows_stress(mesh):
     """What is looked for: three panels, each with more than its ground, and coloured parts."""
     pytest.importorskip("pyvista")
-    images = [axes.get_images()[0].get_array() for axes in face_picture(mesh, helical_run()).axes if axes.get_images()]
+    images = [axes.get_images()[0].get_array() for axes in still(mesh, helical_run()).axes if axes.get_images()]
     assert len(images) == 3
     for image in images:
         assert 0.1 < np.mean(image.min(axis=2) < 250)
         assert np.ptp(image.astype(float), axis=2).max() > 60.0
+
+
+def test_moving_picture_goes_through_the_cycle(stresses, tmp_path, monkeypatch):
+    """Frames asked for, of one size, which differ and have the colours of stress."""
+    image = pytest.importorskip("PIL.Image")
+    pytest.importorskip("pyvista")
+    monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
+    monkeypatch.setattr(stress_animation, "SAMPLED", 1)
+    file = tmp_path / "turn.gif"
+    stress_animation.animate(stresses, helical_run(), file, partial(frames, helical_run(), None), lambda done, whole: None)
+    with image.open(file) as moving:
+        assert (moving.n_frames, moving.size) == (2, (960, 540))
+        found = []
+        for number in range(2):
+            moving.seek(number)
+            found.append(np.asarray(moving.convert("RGB"), dtype=int))
+    assert np.abs(found[0] - found[1]).max() > 100
+    assert np.ptp(found[0], axis=2).max() > 60.0
 
 
 @pytest.mark.nightly

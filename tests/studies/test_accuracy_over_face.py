@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical import helical_scene
+from tests.helical import wide_pair
 
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import model_of
@@ -22,7 +22,7 @@ TILTING = '[bearings]\nstiffness = "1e6 N/mm"\naxial_stiffness = "1e5 N/mm"\npla
 
 @pytest.fixture(scope="module")
 def scene():
-    return helical_scene(LEAD + TILTING)
+    return wide_pair(LEAD + TILTING)
 
 
 def test_a_setting_gives_the_face_that_it_says(scene):

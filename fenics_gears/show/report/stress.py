@@ -32,14 +32,12 @@ def stress(run: Run) -> Section:
     dataset = contact_times(run.dataset)
     index = _most_loaded(dataset) if run.at is None else stored_index(dataset, run.at)
     try:
-        content, charts = _drawn_over_face(run, index) if run.is_over_face else (_drawn(run, index), [])
+        content, charts = _drawn(run, index)
     except GearsError as error:
         return Section("stress", HEADING, [Words(f"It could not be drawn: {error}", warns=True)])
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
-    if run.is_over_face:
-        others = "`gears picture RUN --at PHASE` draws other times, `--vtu` and `--pvd` write them for ParaView."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
     return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note), *charts])
 
@@ -49,27 +47,19 @@ def _most_loaded(dataset: xr.Dataset) -> int:
     return int(np.argmax(np.max(forces, axis=0)))
 
 
-def _drawn_over_face(run: Run, index: int) -> tuple[bytes, list[Chart]]:
-    """The picture, and the tension of the roots along the face at that time."""
-    from fenics_gears.show.face_picture import face_picture, root_tension
+def _drawn(run: Run, index: int) -> tuple[bytes, list[Chart]]:
+    """The picture, and over a face the tension of the roots along it at that time."""
     from fenics_gears.show.stress_picture import save_picture
-    from fenics_gears.simulation.face_stresses import FaceStresses
 
-    with FaceStresses(run.dataset, run.scene) as stresses:
+    if run.is_over_face:
+        from fenics_gears.show.face_picture import root_tension, still
+        from fenics_gears.simulation.face_stresses import FaceStresses as Stresses
+    else:
+        from fenics_gears.show.stress_picture import still
+        from fenics_gears.simulation.run_stresses import RunStresses as Stresses
+
+    with Stresses(run.dataset, run.scene) as stresses:
         mesh = stresses.at(index)
     content = io.BytesIO()
-    save_picture(face_picture(mesh, run.dataset), content)
-    return content.getvalue(), [root_tension(mesh)]
-
-
-def _drawn(run: Run, index: int) -> bytes:
-    from fenics_gears.show.drawn_scale import automatic_scale
-    from fenics_gears.show.stress_picture import colour_limit, save_picture, stress_picture
-    from fenics_gears.simulation.run_stresses import RunStresses
-
-    with RunStresses(run.dataset, run.scene) as stresses:
-        mesh = stresses.at(index)
-    figure = stress_picture(mesh, run.dataset, scale=automatic_scale([mesh]), limit=colour_limit([mesh]))
-    content = io.BytesIO()
-    save_picture(figure, content)
-    return content.getvalue()
+    save_picture(still(mesh, run.dataset), content)
+    return content.getvalue(), [root_tension(mesh)] if run.is_over_face else []
