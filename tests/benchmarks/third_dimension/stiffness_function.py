@@ -1,11 +1,13 @@
 """Mesh stiffness over the mesh cycle against the published function of Gu, Velex, Sainsot and Bruyère, at the contact ratios of their Fig. 5.
 
 The function needs the two contact ratios alone: 1.667 and 1.343 give that figure's curve. The pair has these by its helix angle and its face width.
-The function is of the mesh; gear bodies give way with it at all phases alike, the less the larger their bores are.
+The function is of the mesh; gear bodies give way with it at all phases alike, the less the larger their bores are. What elastic coupling along the
+face does, a mean of plane slices in parallel shows, which have none.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import ceil, radians
 
 import numpy as np
@@ -14,6 +16,7 @@ from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension import pairs
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
+from fenics_gears.geometry.gear_data import GearPairData
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, PALETTE, styled
@@ -39,10 +42,24 @@ def measure() -> list[Row]:
             steps_per_mesh_cycle=STEPS, slices=ceil(modules / SLICE_WIDTH), layers=ceil(modules / LAYER_THICKNESS), body_element_size=SECTION_SIZE * pairs.MODULE
         )
         result = simulate(pairs.scene_of(gears, accuracy))
+        found[f"slices_{bore:g}"] = slices_in_parallel(gears)
         found["phase"], found[f"bore_{bore:g}"] = result["mesh_phase"].values[:STEPS], 1e-3 * result["mesh_stiffness"].values[:STEPS] / width
     rows = [dict(zip(found, map(float, values))) for values in zip(*found.values())]
     write_rows(NAME, rows)
     return rows
+
+
+def slices_in_parallel(gears: GearPairData) -> np.ndarray:
+    """Mesh stiffness at STEPS phases, N/(mm um), of plane slices of the transverse section that know nothing of each other: means of the plane
+    route's over the overlap ratio."""
+    pair, samples = gear_pair(gears), 4 * STEPS
+    flat = [replace(gear, rack_tip_radius=0.2) for gear in (gears.pinion, gears.wheel)]
+    spur = GearPairData(pair.pinion.module, pair.pinion.pressure_angle, gears.centre_distance, gears.face_width, flat[0], flat[1], gears.material)
+    scene = pairs.in_plane(pairs.scene_of(spur, Accuracy(steps_per_mesh_cycle=samples)))
+    stiffness = simulate(scene)["mesh_stiffness"].values[:samples]
+    integral = np.concatenate([[0.0], np.cumsum(np.tile(stiffness, 3))]) / samples
+    places, phases = np.arange(len(integral)) / samples, np.arange(STEPS) / STEPS
+    return 1e-3 / gears.face_width * (np.interp(phases + pair.overlap_ratio, places, integral) - np.interp(phases, places, integral)) / pair.overlap_ratio
 
 
 def _shares(rows: list[Row]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -50,9 +67,10 @@ def _shares(rows: list[Row]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     phases = np.array([row["phase"] for row in rows])
     shares = {"lines of contact, Velex and Maatar 1996": contact_lines, "mesh stiffness, Gu, Velex et al. 2015": mesh_stiffness}
     found = {name: formula(phases, CONTACT_RATIO, OVERLAP_RATIO) for name, formula in shares.items()}
-    for bore in BORES:
-        values = np.array([row[f"bore_{bore:g}"] for row in rows])
-        found[f"this program, bores {bore:g} of the root diameter"] = values / values.mean()
+    for kind, words in (("slices", "plane slices in parallel"), ("bore", "this program")):
+        for bore in BORES:
+            values = np.array([row[f"{kind}_{bore:g}"] for row in rows])
+            found[f"{words}, bores {bore:g} of the root diameter"] = values / values.mean()
     return phases, found
 
 
@@ -62,7 +80,7 @@ def picture(rows: list[Row]) -> Figure:
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     axes = figure.subplots()
     phases, shares = _shares(rows)
-    for (name, values), style, colour in zip(shares.items(), (":", "--", "-", "-"), (PALETTE[2], PALETTE[1], DARK, PALETTE[0])):
+    for (name, values), style, colour in zip(shares.items(), (":", "--", "-.", "-.", "-", "-"), (PALETTE[2], PALETTE[1], DARK, PALETTE[0], DARK, PALETTE[0])):
         axes.plot(phases, values, style, color=colour, label=name)
     axes.set(xlabel="Mesh phase (mesh cycles)", ylabel="Mesh stiffness over its mean", xlim=(0.0, 1.0))
     axes.set_title(f"Contact ratio {CONTACT_RATIO:g}, overlap ratio {OVERLAP_RATIO:g}")
@@ -77,8 +95,8 @@ def section() -> str:
     _, shares = _shares(rows)
     lines = [["their Fig. 5", *(f"{value:.3f}" for value in PUBLISHED), f"{100.0 * (PUBLISHED[1] - PUBLISHED[0]):.1f}", ""]]
     for name, values in shares.items():
-        bore = next((bore for bore in BORES if name.endswith(f" {bore:g} of the root diameter")), None)
-        mean = "" if bore is None else f"{np.mean([row[f'bore_{bore:g}'] for row in rows]):.2f}"
+        column = next((f"{kind}_{bore:g}" for kind, words in (("slices", "plane"), ("bore", "this")) for bore in BORES if name.startswith(words) and f" {bore:g} " in name), None)
+        mean = "" if column is None else f"{np.mean([row[column] for row in rows]):.2f}"
         lines.append([name, f"{values.min():.3f}", f"{values.max():.3f}", f"{100.0 * np.ptp(values):.1f}", mean])
     headings = ["", "smallest over the mean", "largest", "span, %", "mean, N/(mm µm)"]
     return "\n".join([f"![Mesh stiffness over the mesh phase](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)])
