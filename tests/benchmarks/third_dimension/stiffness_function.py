@@ -58,15 +58,16 @@ def slices_in_parallel(gears: GearPairData) -> np.ndarray:
     scene = pairs.in_plane(pairs.scene_of(spur, Accuracy(steps_per_mesh_cycle=samples)))
     stiffness = simulate(scene)["mesh_stiffness"].values[:samples]
     integral = np.concatenate([[0.0], np.cumsum(np.tile(stiffness, 3))]) / samples
-    places, phases = np.arange(len(integral)) / samples, np.arange(STEPS) / STEPS
-    return 1e-3 / gears.face_width * (np.interp(phases + pair.overlap_ratio, places, integral) - np.interp(phases, places, integral)) / pair.overlap_ratio
+    places, phases, half = np.arange(len(integral)) / samples, 1.0 + np.arange(STEPS) / STEPS, 0.5 * pair.overlap_ratio
+    return 1e-3 / gears.face_width * (np.interp(phases + half, places, integral) - np.interp(phases - half, places, integral)) / pair.overlap_ratio
 
 
 def _shares(rows: list[Row]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Phases, and stiffness over its mean: of the formulas, in the order of these phases, and of the program."""
     phases = np.array([row["phase"] for row in rows])
     shares = {"lines of contact, Velex and Maatar 1996": contact_lines, "mesh stiffness, Gu, Velex et al. 2015": mesh_stiffness}
-    found = {name: formula(phases, CONTACT_RATIO, OVERLAP_RATIO) for name, formula in shares.items()}
+    # The formulas count from where a line of contact enters at one end of the face, the program from where it enters in the middle.
+    found = {name: formula(phases + 0.5 * OVERLAP_RATIO, CONTACT_RATIO, OVERLAP_RATIO) for name, formula in shares.items()}
     for kind, words in (("slices", "plane slices in parallel"), ("bore", "this program")):
         for bore in BORES:
             values = np.array([row[f"{kind}_{bore:g}"] for row in rows])
@@ -84,7 +85,8 @@ def picture(rows: list[Row]) -> Figure:
         axes.plot(phases, values, style, color=colour, label=name)
     axes.set(xlabel="Mesh phase (mesh cycles)", ylabel="Mesh stiffness over its mean", xlim=(0.0, 1.0))
     axes.set_title(f"Contact ratio {CONTACT_RATIO:g}, overlap ratio {OVERLAP_RATIO:g}")
-    axes.legend(loc="lower center")
+    axes.set_ylim(0.83, 1.06)
+    axes.legend(loc="lower right")
     return figure
 
 
