@@ -15,7 +15,7 @@ from fenics_gears.elasticity.sector_interior import SectorInterior
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
 
-# Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline.
+# Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline, in the section normal to the tooth.
 POINTS = 24
 # The same where flanks are resolved over the face, on sections with fewer elements.
 POINTS_OVER_FACE = 12
@@ -29,7 +29,7 @@ class FilletCurve:
 
     samples: (k, 2), the root finely sampled from the middle of the tooth space. length: (p,), along it. tangents: (p, 2).
     tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first points go from the root circle to the form circle, the
-    last is the one at SECTION_ANGLE, not a number where the fillet has no such tangent.
+    last is the one at `section_angle`, not a number where the fillet has no such tangent.
     """
 
     outline: ToothOutline
@@ -48,11 +48,16 @@ def fillet_curve(gear: Gear, points: int = POINTS) -> FilletCurve:
     length = start + (along[-1] - start) * (np.arange(points) + 0.5) / points
     angles = _angles(outline, samples)
     inside = along >= start
-    section = np.interp(SECTION_ANGLE, angles[inside][::-1], along[inside][::-1], left=np.nan, right=np.nan)
+    section = np.interp(section_angle(gear), angles[inside][::-1], along[inside][::-1], left=np.nan, right=np.nan)
     length = np.append(length, section)
     tangents = np.column_stack([np.interp(length, along, part) for part in _tangents(samples).T])
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
-    return FilletCurve(outline, samples, length, tangents, np.append(np.interp(length[:-1], along, angles), SECTION_ANGLE))
+    return FilletCurve(outline, samples, length, tangents, np.append(np.interp(length[:-1], along, angles), section_angle(gear)))
+
+
+def section_angle(gear: Gear) -> float:
+    """Angle (rad) in the transverse section of the tangent at SECTION_ANGLE in the normal one: what is across the tooth is wider there by 1/cos(helix angle)."""
+    return float(np.arctan(np.tan(SECTION_ANGLE) * gear.rack_stretch)) if gear.helix_angle else SECTION_ANGLE
 
 
 def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStress) -> np.ndarray:

@@ -20,6 +20,9 @@ THIN_TIP = 0.2
 # Each gear and its mate.
 NAMES = (("pinion", "wheel"), ("wheel", "pinion"))
 
+# Overlap, in modules, that four printed decimals of both profile shifts leave in a pair without backlash.
+PRINTED_DIGITS = 1e-4
+
 
 def check_pair(pair: GearPair) -> None:
     """Refuse a pair that cannot run; raises GeometryError."""
@@ -65,7 +68,7 @@ def _check_centres(pair: GearPair) -> None:
 
 
 def _check_backlash(pair: GearPair) -> None:
-    if pair.backlash < -ROUNDING:
+    if pair.backlash < -PRINTED_DIGITS * pair.pinion.module:
         refuse(
             "pair",
             f"no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre distance "

@@ -27,10 +27,12 @@ def standard_gear(teeth: int, helix_angle: float, bore: float) -> GearData:
     return GearData(teeth, 0.0, reference + 2.0 * MODULE, root, bore * root, rack_tip_radius=0.25)
 
 
-def standard_pair(face_width: float, helix_angle: float = 0.0, material: Material = STEEL, bore: float = 0.5) -> GearPairData:
-    """20 and 30 teeth of module 3 mm; face_width mm, helix_angle rad."""
-    centre_distance = 0.5 * sum(TEETH) * MODULE / cos(helix_angle)
-    pinion, wheel = (standard_gear(teeth, helix_angle, bore) for teeth in TEETH)
+def standard_pair(
+    face_width: float, helix_angle: float = 0.0, material: Material = STEEL, bore: float = 0.5, teeth: tuple[int, int] = TEETH
+) -> GearPairData:
+    """20 and 30 teeth unless given, module 3 mm; face_width mm, helix_angle rad."""
+    centre_distance = 0.5 * sum(teeth) * MODULE / cos(helix_angle)
+    pinion, wheel = (standard_gear(number, helix_angle, bore) for number in teeth)
     return GearPairData(MODULE, PRESSURE_ANGLE, centre_distance, face_width, pinion, wheel, material, helix_angle)
 
 

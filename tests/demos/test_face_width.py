@@ -1,0 +1,58 @@
+"""The demonstration of transmission error over face width."""
+
+import re
+
+import numpy as np
+import pytest
+from demos.face_width import widths
+from demos.face_width.picture import expected, picture
+from demos.face_width.stiffness_function import contact_lines, mesh_stiffness
+
+from fenics_gears import load_scene
+from fenics_gears.commands.cli import main
+from fenics_gears.geometry.pair import gear_pair
+
+PHASES = np.linspace(0.0, 1.0, 2001)
+
+
+@pytest.mark.parametrize("overlap_ratio", [0.3, 1.4])
+def test_lines_of_contact_are_as_long_as_the_plane_of_action_has_them(overlap_ratio):
+    """Brute force: lines half a base pitch and so on apart, cut off at the ends of the path of contact and of the face; both series lose their ripple where the overlap ratio is whole."""
+    contact_ratio, heights = 1.6, (np.arange(4000) + 0.5) / 4000
+    along = PHASES[:, None] + overlap_ratio * heights
+    pairs = np.floor(contact_ratio - along % 1.0).astype(int) + 1
+    length = pairs.mean(axis=1)
+    # The series counts from the corner at which a line enters; a shift of phase is no difference.
+    found = contact_lines(PHASES, contact_ratio, overlap_ratio)
+    np.testing.assert_allclose(np.sort(found), np.sort(length / length[:-1].mean()), atol=5e-3)
+    for formula in (contact_lines, mesh_stiffness):
+        assert expected(formula, contact_ratio, 2.0) < 1e-12 < expected(formula, contact_ratio, 1.5)
+
+
+def test_widths_are_overlap_ratios_at_the_same_load_per_width():
+    """Definition: epsilon_beta = b sin(beta)/(pi m_n) of the base scene is 1; the study's widths and torques are multiples of a quarter of it."""
+    assert gear_pair(load_scene(widths.STUDY.parent / "pair.toml").gears).overlap_ratio == pytest.approx(1.0, abs=1e-4)
+    lines = [re.findall(r'"([\d.]+) ', line) for line in widths.STUDY.read_text(encoding="utf-8").splitlines()]
+    swept = [list(map(float, values)) for values in lines if len(values) == 10]
+    assert len(swept) == 2
+    for values in swept:
+        np.testing.assert_allclose(values, values[0] * np.arange(1, 11), rtol=1e-3)
+
+
+def test_a_whole_overlap_ratio_has_less_ripple(tmp_path):
+    """Authority: the demonstration's own words, on coarse bodies and two widths; table and picture have both."""
+    text = widths.STUDY.read_text(encoding="utf-8").replace('"pair.toml"', f'"{widths.STUDY.parent / "pair.toml"}"')
+    # The third and the fourth of each swept field's values, on half as many slices and layers.
+    def kept(found):
+        values = found[1].split(", ")[2:4]
+        return f"= [{', '.join(values if chr(34) in found[1] else [str(max(4, int(value) // 2)) for value in values])}]"
+
+    coarse = 'accuracy = { body_element_size = "2.5 mm", flank_element_size = "0.2 mm", steps_per_mesh_cycle = 12 }'
+    text = re.sub(r"= \[(.*)\]", kept, text).replace("[sweep]", f"[set]\n{coarse}\n\n[sweep]")
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    assert main(["study", str(tmp_path / "study.toml"), "--output", str(tmp_path / "out")]) == 0
+    found = widths.cases(tmp_path / "out")
+    assert [round(case.overlap_ratio, 2) for case in found] == [0.75, 1.0]
+    assert found[1].peak_to_peak < 0.5 * found[0].peak_to_peak
+    assert widths.table(found).count("\n") == 4
+    assert [len(axes.get_lines()) for axes in picture(found).axes] == [4]
