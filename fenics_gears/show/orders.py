@@ -10,11 +10,11 @@ import numpy as np
 from fenics_gears.effects import common_period
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.pairs import shown
+from fenics_gears.results.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, OrderLines, known_orders, order_lines, origin
 from fenics_gears.show.chart import BARS, Chart, Curve, Flag
 from fenics_gears.show.motion import error_values
 from fenics_gears.show.panels import GREY, PALETTE
 from fenics_gears.show.run import Run
-from fenics_gears.show.spectrum import COLOURS, MESH, PINION, OrderLines, known_orders, order_lines, origin
 
 MESH_ORDERS, FOLLOWED_ORDERS, CYCLES_TO_FOLLOW = 10.5, 4, 8
 # Of the picture by orders of the pinion: mesh orders and decades that it shows. Contact is solved to 1e-4 um.
@@ -23,6 +23,7 @@ MESH_ORDERS_SHOWN, DECADES, LEAST_AMPLITUDE = 4.5, 3, 1e-4
 LEAST_PART = 1e-5
 # Of the largest force; what varies by less is the solver's tolerance.
 LEAST_VARIATION = 1e-6
+COLOURS = {MESH: PALETTE[0], PINION: PALETTE[1], WHEEL: PALETTE[2], BOTH: PALETTE[5], HUNTING: GREY}
 ERROR, FORCE, BETWEEN, OF_ERROR = "Transmission error", "Mesh force", "between mesh orders", "Orders of the transmission error"
 
 
