@@ -1,4 +1,4 @@
-"""All curves over time of a result as one CSV table, for programs that do not read NetCDF."""
+"""CSV tables for programs that do not read NetCDF: all curves over time of a result, and what a dataset has over given dimensions."""
 
 from __future__ import annotations
 
@@ -20,6 +20,18 @@ def save_curves(result: xr.Dataset, path: Path) -> None:
         writer = csv.writer(file)
         writer.writerow(columns)
         writer.writerows([f"{value:.{DIGITS}g}" for value in row] for row in zip(*columns.values()))
+
+
+def save_table(dataset: xr.Dataset, dimensions: tuple[str, ...], path: Path) -> None:
+    """Write the variables over these dimensions: a line for each combination of their coordinates, the last changing fastest."""
+    template = xr.DataArray(np.zeros([dataset.sizes[name] for name in dimensions]), dims=dimensions)
+    coordinates = [name for name, each in dataset.coords.items() if each.dims and set(each.dims) <= set(dimensions)]
+    names = [*coordinates, *(name for name, each in dataset.data_vars.items() if set(each.dims) == set(dimensions))]
+    columns = [dataset[name].broadcast_like(template).transpose(*dimensions).values.ravel() for name in names]
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow([f"{name}{_unit(dataset[name].attrs.get('units', '1'))}" for name in names])
+        writer.writerows([value if isinstance(value, str) else f"{value:.{DIGITS}g}" for value in row] for row in zip(*columns))
 
 
 def curves(result: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
