@@ -14,17 +14,13 @@ from fenics_gears.commands.shared import (
     checked_scene,
     plots,
     positive_count,
+    print_files,
     shown_progress,
     under_mpirun,
 )
 from fenics_gears.errors import ComputationError
 
-MAP_FILE, MOST_RUNS = "map.nc", 1000
-# Tables by the dimensions of what they hold.
-TABLES = {
-    ("load",): "over_load.csv", ("load", "mesh_phase"): "harris_map.csv", ("load", "harmonic"): "harmonics.csv", ("load", "mode"): "natural_frequencies.csv",
-    ("load", "mesh_frequency"): "over_speed.csv", ("load", "mesh_frequency", "order"): "spectra.csv",
-}  # fmt: skip
+MOST_RUNS = 1000
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -82,28 +78,18 @@ def _run(options: argparse.Namespace, team) -> int:
     from fenics_gears.studies.map_results import map_dataset
 
     found = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
-    files = _written(found, directory, scene)
-    if not options.quiet:
-        for file in files:
-            print(file)
+    print_files(_written(found, directory, scene), options.quiet)
     return ComputationError.exit_code if any(outcome.failures for outcome in outcomes.values()) else 0
 
 
 def _written(found, directory: Path, scene) -> list[Path]:
     """The files of a map: dataset, tables and pictures."""
-    from fenics_gears import results
-    from fenics_gears.results.curves_table import save_table
-    from fenics_gears.system.output import write_whole
-
-    drawing = plots()
+    from fenics_gears.results.curves_table import save_tables
     from fenics_gears.show.drawing import picture
     from fenics_gears.show.map_charts import map_pictures
     from fenics_gears.show.run import design
 
-    results.save(found, directory / MAP_FILE)
-    there = {dimensions: name for dimensions, name in TABLES.items() if any(set(each.dims) == set(dimensions) for each in found.data_vars.values())}
-    tables = [write_whole(directory / name, lambda path, over=dimensions: save_table(found, over, path)) for dimensions, name in there.items()]
-    supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
+    drawing, supports = plots(), [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
     figures = {name: picture(drawing.heading(subject, scene.title, more), charts) for name, (subject, charts) in map_pictures(found).items()}
-    return [directory / MAP_FILE, *tables, *drawing.save_figures(figures, directory)]
+    return [*save_tables(found, directory, "map"), *drawing.save_figures(figures, directory)]

@@ -10,6 +10,7 @@ import xarray as xr
 from fenics_gears.results.spectrum import level
 from fenics_gears.show.chart import BAND, MARKED_LINES, MARKERS, WORDS, Chart, Curve
 from fenics_gears.show.harris_map import harris_map
+from fenics_gears.show.noise_charts import stems
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
 
 MESH_ORDERS = 5
@@ -125,9 +126,8 @@ def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference
     curves = []
     for speed, own, colour in zip(speeds, levels, shades(len(speeds))[::-1]):
         seen = np.isfinite(own) & (own > highest - DECIBELS) & (orders * speed <= widest)
-        line = np.repeat(orders[seen] * speed, 3)
-        heights = speed + high * np.outer(1.0 + (own[seen] - highest) / DECIBELS, [0.0, 1.0, 0.0]).ravel()
-        curves.append(Curve(f"{speed:g} Hz", np.concatenate([[0.0], line, [widest]]), np.concatenate([[speed], heights, [speed]]), colour, width=1.2, listed=False))
+        x, y = stems(np.concatenate([[0.0], orders[seen] * speed, [widest]]), np.concatenate([[speed], speed + high * (1.0 + (own[seen] - highest) / DECIBELS), [speed]]), speed)
+        curves.append(Curve(f"{speed:g} Hz", x, y, colour, width=1.2, listed=False))
     for natural in np.unique(np.round(np.nan_to_num(found["natural_frequency"].values), 1)):
         if 0.0 < natural < widest:
             curves.append(Curve("natural frequencies", np.full(2, natural), np.array([0.0, speeds[-1] + high]), PALETTE[1], "dash", 1.0, listed=False))
