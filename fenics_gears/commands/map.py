@@ -59,16 +59,17 @@ def draw_map(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace, team) -> int:
     """The stages of a map, on rank 0."""
-    from fenics_gears.studies.load_map import OVER_SPEED, QUASI_STATIC, duration, load_map
+    from fenics_gears.studies.load_map import OVER_SPEED, QUASI_STATIC, load_map
     from fenics_gears.studies.run_study import run_with
     from fenics_gears.studies.summary import last_words
+    from fenics_gears.system.progress import seconds_in_words
 
     scene = checked_scene(options.scene)
     wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
     directory, outcomes = options.output or Path("results") / f"{scene.name}_map", {}
     studies = wanted.studies
     if not options.quiet:
-        print(f"{scene.title}: {wanted.count} runs, about {duration(wanted.expected_seconds)} on one core.", file=sys.stderr, flush=True)
+        print(f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core.", file=sys.stderr, flush=True)
     for name, study in studies.items():
         outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
         if words := last_words(outcome, "the map"):

@@ -10,14 +10,14 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.results.key_numbers import MICROMETRE
 from fenics_gears.results.settled import of_settled
 from fenics_gears.results.spectrum import FLAT_TOP, WINDOWS, OrderLines, level, order_lines, sidebands
 from fenics_gears.scene.read import scene_from_text
 
 SIGNALS = {"transmission_error": ("um", "transmission error along the line of action"), "mesh_force": ("N", "mesh force")}
-# Of the largest force; what varies by less is the solver's tolerance.
+# Of the largest force. Without inertia and friction the load alone sets the mesh force; what varies of it then is round-off.
 LEAST_VARIATION = 1e-6
 HARMONICS, GEARS = np.arange(1, 11), ("pinion", "wheel")
 
@@ -50,15 +50,7 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
 def signals(run: xr.Dataset) -> dict[str, np.ndarray]:
     """Transmission error (time,), um, and the mesh force (time,), N, where it varies."""
     error, force = run["transmission_error"].values * run.attrs["base_radius_wheel"] / MICROMETRE, mesh_force(run)
-    return {"transmission_error": error} | ({} if force is None else {"mesh_force": force})
-
-
-def mesh_force(run: xr.Dataset) -> np.ndarray | None:
-    """Force of drive flanks less that of coast flanks (time,), N; None where the load alone sets it, and what varies of it is round-off."""
-    if "normal_force" not in run:
-        return None
-    force = run["normal_force"].values - (run["coast_normal_force"].values if "coast_normal_force" in run else 0.0)
-    return force if np.ptp(force) > LEAST_VARIATION * largest_normal_force(run) else None
+    return {"transmission_error": error} | ({"mesh_force": force} if np.ptp(force) > LEAST_VARIATION * largest_normal_force(run) else {})
 
 
 def window_cycles(window: str) -> int:

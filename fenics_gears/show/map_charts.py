@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.key_numbers import HARMONIC_NAMES
 from fenics_gears.results.spectrum import level
 from fenics_gears.show.chart import BAND, MARKED_LINES, MARKERS, WORDS, Chart, Curve
 from fenics_gears.show.harris_map import harris_map
@@ -48,7 +49,7 @@ def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
 def over_load(found: xr.Dataset) -> list[Chart]:
     """Transmission error peak to peak, its harmonics and the mesh stiffness over the load."""
     found = found.sortby("load")
-    harmonics = {f"{number} × mesh": found["transmission_error_harmonic"].sel(harmonic=number) for number in found["harmonic"].values} if "harmonic" in found.dims else {}
+    harmonics = {f"{number} × mesh": found[name] for number, name in enumerate(HARMONIC_NAMES, 1) if name in found}
     stiffness = {words: found[name] for name, words in (("mean_mesh_stiffness", "secant"), ("mean_mesh_stiffness_tangent", "tangent")) if name in found}
     charts = [
         _curves({"": found["peak_to_peak_transmission_error"]}, "load", LOAD, "Transmission error, peak to peak", "Peak to peak (µm)"),
@@ -62,12 +63,12 @@ def over_speed(found: xr.Dataset) -> list[Chart]:
     """Dynamic factor, transmission error and mesh force over the speed, a curve for each load."""
     found = found.sortby(["load", "mesh_frequency"])
     kinds = {
-        "dynamic_factor": ("Dynamic factor: largest force of a tooth pair over that without inertia", "Dynamic factor"),
+        "dynamic_factor_by_force": ("Dynamic factor: largest force of a tooth pair over that without inertia", "Dynamic factor"),
         "dynamic_peak_to_peak_transmission_error": ("Transmission error, peak to peak", "Peak to peak (µm)"),
-        "rms_transmission_error": ("Transmission error without its mean, r.m.s.", "R.m.s. (µm)"),
-        "rms_normal_force": ("Mesh force without its mean, r.m.s.", "R.m.s. (N)"),
+        "dynamic_rms_transmission_error": ("Transmission error without its mean, r.m.s.", "R.m.s. (µm)"),
+        "dynamic_rms_normal_force": ("Mesh force without its mean, r.m.s.", "R.m.s. (N)"),
     }
-    of_loads = {name: {f"{load:g} N m": found[name].sel(load=load) for load in found["load"].values} for name in kinds if np.isfinite(found[name]).any()}
+    of_loads = {name: {f"{load:g} N m": found[name].sel(load=load) for load in found["load"].values} for name in kinds if name in found}
     return [_curves(curves, "mesh_frequency", _speed(found), *kinds[name], shades(len(curves))) for name, curves in of_loads.items()]
 
 
@@ -113,7 +114,7 @@ def campbell(found: xr.Dataset) -> Chart:
 
 def waterfall(found: xr.Dataset) -> list[Chart]:
     """Spectra of transmission error and mesh force one above the other by speed, at one load."""
-    signals = {"transmission_error_order": ("Transmission error", "1 µm"), "normal_force_order": ("Mesh force", "1 N")}
+    signals = {"transmission_error_amplitude": ("Transmission error", "1 µm"), "mesh_force_amplitude": ("Mesh force", "1 N")}
     found = found.sortby("mesh_frequency")
     return [_waterfall(found, found[name].transpose("mesh_frequency", "order").values, *words) for name, words in signals.items() if np.nanmax(found[name], initial=0.0) > 0.0]
 

@@ -21,6 +21,7 @@ from fenics_gears.simulation.dynamic_factor import quasi_static
 from fenics_gears.studies.axis import AxisError, values_in_words
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.study_file import study_of
+from fenics_gears.system.progress import seconds_in_words
 
 QUASI_STATIC, OVER_SPEED = "quasi_static", "over_speed"
 LOADS, SPEEDS = "--loads", "--speeds"
@@ -89,17 +90,9 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
     if found.count > most:
         raise SceneError(
             f"gears map: {len(torques)} loads{f' with {len(written)} speeds each, and at rest,' if written else ''} are {found.count} runs, about "
-            f"{duration(found.expected_seconds)} on one core. Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {found.count}. {NOTHING_DONE}"
+            f"{seconds_in_words(found.expected_seconds)} on one core. Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {found.count}. {NOTHING_DONE}"
         )
     return found
-
-
-def duration(seconds: float) -> str:
-    """A time in words: "40 s", "12 min", "3.4 h"."""
-    for unit, length in (("s", 1.0), ("min", 60.0), ("h", 3600.0)):
-        if seconds < 90.0 * length:
-            return f"{max(seconds, 1.0) / length:.2g} {unit}"
-    return f"{seconds / 86400.0:.2g} days" if seconds > 2 * 86400.0 else f"{seconds / 3600.0:.0f} h"
 
 
 def _values(option: str, written: Sequence[str], *kinds: str) -> tuple[str, ...]:
@@ -135,14 +128,14 @@ def _quasi_static(wanted: LoadMap) -> dict[str, Any]:
     alike = common_period(quasi_static(scene)) == 1
     without = [*sorted(left), "motion.settling_time", *(("motion.recorded_cycles", "output.contact_fields") if alike else ())]
     fixed = {"motion.mesh_cycles": 2} if alike else {}
-    return {"without": without, "set": {**fixed, **_shared_accuracy(wanted)}, "sweep": {TORQUE: list(wanted.loads)}}
+    return {"without": without, "set": {**fixed, **shared_accuracy(wanted)}, "sweep": {TORQUE: list(wanted.loads)}}
 
 
 def _over_speed(wanted: LoadMap) -> dict[str, Any]:
     """Changes of the scene: steady speeds, each run until its start has died down, and no contact fields, which would take most of the room."""
     by_pinion = _by_pinion(wanted.speeds[0])
     without = ["speed_ramp", FREQUENCY if by_pinion else PINION_SPEED, "motion.recorded_cycles"]
-    fixed: dict[str, Any] = {"output.contact_fields": False, **_shared_accuracy(wanted)}
+    fixed: dict[str, Any] = {"output.contact_fields": False, **shared_accuracy(wanted)}
     steady = replace(wanted.scene, speed_ramp=None)
     seconds = settling_time(model_of(steady))
     if isfinite(seconds) and "settling_time" not in tomllib.loads(wanted.scene.text).get("motion", {}):
@@ -151,7 +144,7 @@ def _over_speed(wanted: LoadMap) -> dict[str, Any]:
     return {"without": without, "set": fixed, "sweep": {TORQUE: list(wanted.loads), PINION_SPEED if by_pinion else FREQUENCY: list(wanted.speeds)}}
 
 
-def _shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
+def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
     """Settings that the scene leaves to the program and that depend on the load: the same for all, so that all loads share gears and contact operators.
 
     Flank elements are those of the geometric mean of the loads, the contact length is that of the largest.

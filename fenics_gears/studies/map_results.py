@@ -1,7 +1,8 @@
-"""The dataset of a map over loads and speeds, from the cases of its studies."""
+"""The dataset of a map over loads and speeds, from its studies."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,11 +11,11 @@ import xarray as xr
 import fenics_gears
 from fenics_gears import results
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
-from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.units import quantity
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import model_of
+from fenics_gears.results.contact_variables import mesh_force
 from fenics_gears.results.key_numbers import HARMONIC_NAMES, MICROMETRE
 from fenics_gears.results.settled import of_settled
 from fenics_gears.results.spectrum import NO_WINDOW, order_lines
@@ -25,9 +26,10 @@ from fenics_gears.studies.run_study import Outcome
 
 # Half mesh orders tell a motion that repeats only after two mesh cycles.
 ORDERS = np.arange(1, 21) / 2.0
-HARMONIC, MODE = "harmonic", "mode"
-# What the study over loads has, in its own units.
-TAKEN = ("mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "peak_contact_pressure", "largest_pair_force", "mesh_efficiency")
+# What a map takes of its studies; of that with inertia by the prefix.
+CURVES, ERRORS = ("transmission_error", "mesh_stiffness"), ("peak_to_peak_transmission_error", "mean_transmission_error", "rms_transmission_error", *HARMONIC_NAMES)
+AT_REST = (*ERRORS, "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "peak_contact_pressure", "largest_pair_force", "mesh_efficiency")
+WITH_INERTIA, DYNAMIC = (*ERRORS, "rms_normal_force", "largest_pair_force", "contact_loss_share"), "dynamic_"
 Columns = dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]
 
 
@@ -37,13 +39,17 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
     Transmission errors are in um along the line of action. A case without a result has not a number.
     """
     scene, pair = wanted.scene, model_of(wanted.scene).pair
-    loads = np.array([quantity(each)[0] * 1e-3 for each in wanted.loads])
-    found = xr.Dataset(coords={"load": ("load", loads, _labels("N m", "torque on the wheel"))})
-    found = found.assign(_over_loads(load_combined(at_rest.file), pair))
+    length, study = pair.wheel.base_radius / MICROMETRE, load_combined(at_rest.file)
+    found = xr.Dataset(coords={"load": ("load", np.array([quantity(each)[0] * 1e-3 for each in wanted.loads]), _labels("N m", "torque on the wheel"))})
+    found = found.assign(_taken(study, AT_REST, ("load",), length))
+    if "mesh_phase" in study:
+        found = found.assign_coords(mesh_phase=study["mesh_phase"]).assign(_taken(study, CURVES, ("load", "mesh_phase"), length))
     if scene.inertia is not None:
-        found = found.assign(_natural_frequencies(scene, loads, found.get("mean_mesh_stiffness_tangent"), pair))
+        found = found.assign(frequencies_over_load(scene, found["load"].values, found.get("mean_mesh_stiffness_tangent"), pair))
     if over_speed is not None:
-        found = found.assign(_over_speeds(over_speed, pair, len(loads))).set_coords("pinion_speed")
+        study, dimensions = load_combined(over_speed.file), ("load", "mesh_frequency")
+        found = found.assign(_spectra(over_speed, pair, found.sizes["load"])).set_coords("pinion_speed")
+        found = found.assign(_taken(study, WITH_INERTIA, dimensions, length, DYNAMIC) | _taken(study, ("dynamic_factor_by_force",), dimensions, length))
     said = {"title": scene.title, "scene": scene.text, "fenics_gears_version": fenics_gears.__version__, "base_radius_wheel": pair.wheel.base_radius}
     return found.assign_attrs(said)
 
@@ -52,29 +58,17 @@ def _labels(units: str, name: str) -> dict[str, str]:
     return {"units": units, "long_name": name}
 
 
-def _over_loads(study: xr.Dataset, pair: GearPair) -> Columns:
-    """Curves and numbers of the quasi-static study."""
-    length = pair.wheel.base_radius / MICROMETRE
+def _taken(study: xr.Dataset, names: Sequence[str], dimensions: tuple[str, ...], length: float, prefix: str = "") -> Columns:
+    """Those of the study's variables that it has; angles of the wheel as lengths (um)."""
     found: Columns = {}
-    if "mesh_phase" in study:
-        found["mesh_phase"] = (("mesh_phase",), study["mesh_phase"].values, _labels("1", "mesh cycles"))
-        found["transmission_error"] = (("load", "mesh_phase"), study["transmission_error"].values * length, _labels("um", "transmission error along the line of action"))
-        if "mesh_stiffness" in study:
-            found["mesh_stiffness"] = (("load", "mesh_phase"), study["mesh_stiffness"].values, dict(study["mesh_stiffness"].attrs))
-    for name in ("peak_to_peak_transmission_error", "mean_transmission_error"):
-        found[name] = (("load",), study[name].values * length, _labels("um", f"{study[name].attrs['long_name']}, along the line of action"))
-    for name in TAKEN:
-        if name in study:
-            found[name] = (("load",), study[name].values, dict(study[name].attrs))
-    harmonics = [name for name in HARMONIC_NAMES if name in study]
-    if harmonics:
-        found[HARMONIC] = ((HARMONIC,), np.arange(1, len(harmonics) + 1), _labels("1", "multiple of the mesh frequency"))
-        amplitudes = np.stack([study[name].values for name in harmonics], axis=-1)
-        found["transmission_error_harmonic"] = (("load", HARMONIC), amplitudes, _labels("um", "amplitude of the transmission error along the line of action"))
+    for name in (name for name in names if name in study):
+        units, words = (study[name].attrs[each] for each in ("units", "long_name"))
+        labels = _labels("um", f"{words}, along the line of action") if units == "rad" else _labels(units, words)
+        found[prefix + name] = (dimensions, study[name].values * (length if units == "rad" else 1.0), labels)
     return found
 
 
-def _natural_frequencies(scene: Scene, loads: np.ndarray, tangents: xr.DataArray | None, pair: GearPair) -> Columns:
+def frequencies_over_load(scene: Scene, loads: np.ndarray, tangents: xr.DataArray | None, pair: GearPair) -> Columns:
     """Natural frequencies of the drivetrain (load, mode), the mesh being a spring of its mean tangent stiffness at the load."""
     every = []
     for place, torque in enumerate(loads):
@@ -87,54 +81,31 @@ def _natural_frequencies(scene: Scene, loads: np.ndarray, tangents: xr.DataArray
     values = np.array([[(mode.frequency, mode.damping_ratio) for mode in each or nothing] for each in every]).reshape(len(loads), len(modes), 2)
     note = _labels("Hz", "natural frequency with the mean tangent mesh stiffness")
     return {
-        MODE: ((MODE,), np.arange(1, len(modes) + 1), _labels("1", "number of the mode")),
-        "natural_frequency": (("load", MODE), values[..., 0], note),
-        "damping_ratio": (("load", MODE), values[..., 1], _labels("1", "part of the critical damping of the mode")),
-        "excited": ((MODE,), np.array([int(mode.excited) for mode in modes], dtype=int), _labels("1", "1 where contact forces excite the mode")),
-        "motion": ((MODE,), np.array([mode.motion for mode in modes], dtype=object), {"long_name": "what moves, where a gear tilts or moves along its axis"}),
+        "mode": (("mode",), np.arange(1, len(modes) + 1), _labels("1", "number of the mode")),
+        "natural_frequency": (("load", "mode"), values[..., 0], note),
+        "damping_ratio": (("load", "mode"), values[..., 1], _labels("1", "part of the critical damping of the mode")),
+        "excited": (("mode",), np.array([int(mode.excited) for mode in modes], dtype=int), _labels("1", "1 where contact forces excite the mode")),
+        "motion": (("mode",), np.array([mode.motion for mode in modes], dtype=object), {"long_name": "what moves, where a gear tilts or moves along its axis"}),
     }
 
 
-def _over_speeds(outcome: Outcome, pair: GearPair, loads: int) -> Columns:
-    """Numbers and spectra of the steady runs; the last axis of the study is the speed."""
+def _spectra(outcome: Outcome, pair: GearPair, loads: int) -> Columns:
+    """Amplitudes of the steady runs by mesh order; the last axis of the study is the speed."""
     cases = outcome.study.cases
     frequencies = np.array([case.scene.motion.mesh_frequency for case in cases[: len(cases) // loads]])
-    found: Columns = {
-        "mesh_frequency": (("mesh_frequency",), frequencies, _labels("Hz", "mesh frequency")),
-        "pinion_speed": (("mesh_frequency",), 60.0 * frequencies / pair.pinion.teeth, _labels("rpm", "speed of the pinion")),
-        "order": (("order",), ORDERS, _labels("1", "mesh order")),
+    amplitudes = np.full((len(cases), 2, len(ORDERS)), np.nan)
+    for index in outcome.records:
+        run = of_settled(results.load(outcome.file.parent / "cases" / f"{cases[index].name}.nc"))
+        amplitudes[index] = [_orders(run, curve) for curve in (run["transmission_error"].values * pair.wheel.base_radius / MICROMETRE, mesh_force(run))]
+    dimensions = ("load", "mesh_frequency", "order")
+    error, force = np.moveaxis(amplitudes.reshape(loads, len(frequencies), 2, len(ORDERS)), 2, 0)
+    return {
+        "mesh_frequency": (dimensions[1:2], frequencies, _labels("Hz", "mesh frequency")),
+        "pinion_speed": (dimensions[1:2], 60.0 * frequencies / pair.pinion.teeth, _labels("rpm", "speed of the pinion")),
+        "order": (dimensions[2:], ORDERS, _labels("1", "mesh order")),
+        "transmission_error_amplitude": (dimensions, error, _labels("um", "amplitude of the transmission error along the line of action, with inertia")),
+        "mesh_force_amplitude": (dimensions, force, _labels("N", "amplitude of the mesh force")),
     }
-    every = [_of_case(outcome, case.index, pair) for case in cases]
-    known = next((each for each in every if each), {})
-    for name, (values, labels) in known.items():
-        inner = ("order",) if np.ndim(values) else ()
-        stacked = np.array([each[name][0] if name in each else np.full(np.shape(values), np.nan) for each in every])
-        found[name] = (("load", "mesh_frequency", *inner), stacked.reshape(loads, len(frequencies), *np.shape(values)), labels)
-    return found
-
-
-def _of_case(outcome: Outcome, index: int, pair: GearPair) -> dict[str, tuple]:
-    """What a run has, by name with labels; nothing where it failed."""
-    record = outcome.records.get(index)
-    if record is None:
-        return {}
-    try:
-        run = of_settled(results.load(outcome.file.parent / "cases" / f"{outcome.study.cases[index].name}.nc"))
-    except ComputationError:
-        return {}
-    error = run["transmission_error"].values * pair.wheel.base_radius / MICROMETRE
-    force = run["normal_force"].values - (run["coast_normal_force"].values if "coast_normal_force" in run else 0.0)
-    found = {
-        "dynamic_peak_to_peak_transmission_error": (
-            record.numbers["peak_to_peak_transmission_error"] * pair.wheel.base_radius / MICROMETRE, _labels("um", "transmission error, peak to peak, with inertia")),
-        "rms_transmission_error": (float(error[:-1].std()), _labels("um", "r.m.s. of the transmission error without its mean, with inertia")),
-        "rms_normal_force": (float(force[:-1].std()), _labels("N", "r.m.s. of the mesh force without its mean")),
-        "dynamic_factor": (record.numbers.get("dynamic_factor_by_force", np.nan), _labels("1", "largest force of a tooth pair over that without inertia")),
-        "contact_loss_share": (record.numbers.get("contact_loss_share", 0.0), _labels("1", "share of the time without contact")),
-        "transmission_error_order": (_orders(run, error), _labels("um", "amplitude of the transmission error along the line of action, with inertia")),
-        "normal_force_order": (_orders(run, force), _labels("N", "amplitude of the mesh force")),
-    }  # fmt: skip
-    return found
 
 
 def _orders(run: xr.Dataset, values: np.ndarray) -> np.ndarray:
