@@ -13,7 +13,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.results.key_numbers import MICROMETRE
 from fenics_gears.results.settled import of_settled
-from fenics_gears.results.spectrum import FLAT_TOP, WINDOWS, OrderLines, level, order_lines, sidebands
+from fenics_gears.results.spectrum import FLAT_TOP, NO_WINDOW, WINDOWS, OrderLines, level, order_lines, sidebands
 from fenics_gears.scene.read import scene_from_text
 
 SIGNALS = {"transmission_error": ("um", "transmission error along the line of action"), "mesh_force": ("N", "mesh force")}
@@ -27,7 +27,7 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
 
     `..._sideband_energy` over `harmonic` and `gear`: sum of squares of the sidebands of a mesh harmonic at whole turns of a gear; `..._sideband_ratio`: of those of
     both gears, each once, to the square of the harmonic; not a number where the record cannot tell them apart.
-    window: one of `WINDOWS`; None: none for whole hunting tooth periods and whole mesh cycles, the flat top for a ramp. Raises ComputationError for
+    window: one of `WINDOWS`; None: none, over whole hunting tooth periods or else whole mesh cycles, and the flat top for a ramp. Raises ComputationError for
     less than a mesh cycle.
     """
     gears = scene_from_text(str(result.attrs["scene"])).gears
@@ -37,7 +37,7 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
     length = window_cycles(window or FLAT_TOP)
     if cycles < (length if ramp else 1.0) - 1e-9:
         raise ComputationError(f"{cycles:.3g} mesh cycles are stored; a spectrum needs {length if ramp else 1}. Run more of them.")
-    used = f"{window or FLAT_TOP}, over {length} mesh cycles at a time" if ramp else window or "none, or Hann's where mesh cycles are not whole"
+    used = f"{window or FLAT_TOP}, over {length} mesh cycles at a time" if ramp else window or NO_WINDOW
     found = xr.Dataset(attrs={"window": used, "references": "amplitudes of 1 um and of 1 N"})
     for name, values in signals(run).items():
         if ramp:
