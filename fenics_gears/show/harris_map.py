@@ -5,11 +5,14 @@ After S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.show.chart import WORDS, Chart, Curve
+from fenics_gears.show.motion import LEAST_LENGTH
 from fenics_gears.show.panels import DARK, shades
 from fenics_gears.show.units import factor, in_unit
 
@@ -33,7 +36,7 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str =
     phase = error["mesh_phase"].values
     curves = [Curve(f"{load:g} N m", *_two_cycles(phase, each), colour, listed=False) for load, each, colour in zip(loads, values, shades(len(loads)))]
     drawn = [*curves, *_names(curves)]
-    return Chart(caption, drawn, "Mesh phase (mesh cycles)", "Transmission error along the line of action (µm)", note, 520, x_range=(0.0, CYCLES + ROOM))
+    return Chart(caption, drawn, "Mesh phase (mesh cycles)", "Transmission error along the line of action (µm)", note, 520, least=LEAST_LENGTH, x_range=(0.0, CYCLES + ROOM))
 
 
 def _micrometres(error: xr.DataArray, attributes: dict) -> np.ndarray:
@@ -57,14 +60,19 @@ def _two_cycles(phase: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _names(curves: list[Curve]) -> list[Curve]:
-    """Each curve's load right of its end, apart from the next; of very many curves only some have it."""
+    """Each curve's load right of its end; of very many curves only some have it."""
     named = [curves[place] for place in np.unique(np.linspace(0, len(curves) - 1, min(len(curves), MOST_NAMED)).round().astype(int))] if curves else []
     if not named:
         return []
     every = np.concatenate([curve.y for curve in curves])
-    apart, named = APART * (np.ptp(every[np.isfinite(every)]) or 1.0), sorted(named, key=lambda curve: curve.y[-1])
-    heights = np.array([curve.y[-1] for curve in named], dtype=float)
+    ends = [(CYCLES, float(curve.y[-1]), curve.name) for curve in named]
+    return [words_apart(ends, APART * (np.ptp(every[np.isfinite(every)]) or 1.0), "right")]
+
+
+def words_apart(ends: Sequence[tuple[float, float, str]], apart: float, beside: str) -> Curve:
+    """Words beside places of a chart, those that would lie on each other moved up until they are apart."""
+    ends = sorted(ends, key=lambda end: end[1])
+    heights = np.array([height for _, height, _ in ends])
     for place in range(1, len(heights)):
         heights[place] = max(heights[place], heights[place - 1] + apart)
-    ends = np.full(len(named), CYCLES)
-    return [Curve("loads", ends, heights, DARK, mode=WORDS, listed=False, words=[curve.name for curve in named], beside="right")]
+    return Curve("words", np.array([x for x, _, _ in ends]), heights, DARK, mode=WORDS, listed=False, words=[words for *_, words in ends], beside=beside)

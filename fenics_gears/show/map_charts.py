@@ -9,8 +9,8 @@ import xarray as xr
 
 from fenics_gears.results.key_numbers import HARMONIC_NAMES
 from fenics_gears.results.spectrum import level
-from fenics_gears.show.chart import BAND, MARKED_LINES, MARKERS, WORDS, Chart, Curve
-from fenics_gears.show.harris_map import harris_map
+from fenics_gears.show.chart import BAND, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span
+from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.noise_charts import stems
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
 
@@ -22,6 +22,8 @@ DECIBELS, STEPS_HIGH = 40.0, 2.5
 BESIDE = 1.12
 # Natural frequencies that differ by less between loads are drawn as one line.
 ALIKE = 0.005
+# Least distance of words, in parts of the second axis.
+WORDS_APART = 0.035
 # A vibration that is damped more has no resonance: its response falls from standstill on.
 MOST_DAMPED = 0.5**0.5
 
@@ -51,12 +53,12 @@ def over_load(found: xr.Dataset) -> list[Chart]:
     found = found.sortby("load")
     harmonics = {f"{number} × mesh": found[name] for number, name in enumerate(HARMONIC_NAMES, 1) if name in found}
     stiffness = {words: found[name] for name, words in (("mean_mesh_stiffness", "secant"), ("mean_mesh_stiffness_tangent", "tangent")) if name in found}
-    charts = [
-        _curves({"": found["peak_to_peak_transmission_error"]}, "load", LOAD, "Transmission error, peak to peak", "Peak to peak (µm)"),
-        _curves(harmonics, "load", LOAD, "Harmonics of the transmission error", "Amplitude (µm)"),
-        _curves(stiffness, "load", LOAD, "Mesh stiffness over the face width, mean of the mesh cycle", "N/(mm µm)"),
-    ]
-    return [chart for chart in charts if chart.curves]
+    kinds = (
+        ({"": found["peak_to_peak_transmission_error"]}, "Transmission error, peak to peak", "Peak to peak (µm)"),
+        (harmonics, "Harmonics of the transmission error", "Amplitude (µm)"),
+        (stiffness, "Mesh stiffness over the face width, mean of the mesh cycle", "N/(mm µm)"),
+    )
+    return [_curves(curves, "load", LOAD, *titles) for curves, *titles in kinds if curves]
 
 
 def over_speed(found: xr.Dataset) -> list[Chart]:
@@ -74,7 +76,7 @@ def over_speed(found: xr.Dataset) -> list[Chart]:
 
 def _curves(curves: dict[str, xr.DataArray], over: str, x_title: str, caption: str, y_title: str, colours: Sequence[str] = PALETTE) -> Chart:
     drawn = [Curve(name, values[over].values, values.values, colour, mode=MARKED_LINES) for (name, values), colour in zip(curves.items(), colours)]
-    return Chart(caption, drawn, x_title, y_title, height=270)
+    return Chart(caption, drawn, x_title, y_title, height=270, least=span([(each.name, each.y, "") for each in drawn]))
 
 
 def _speed(found: xr.Dataset) -> str:
@@ -84,31 +86,27 @@ def _speed(found: xr.Dataset) -> str:
 
 def campbell(found: xr.Dataset) -> Chart:
     """Frequency over speed: the mesh orders as lines from the origin, natural frequencies level, marked where an order meets one that contact excites."""
-    fastest, natural = float(found["mesh_frequency"].max()), found["natural_frequency"].transpose("load", "mode").values
-    top = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * float(np.nanmax(natural, initial=0.0))))
-    orders = np.arange(1, MESH_ORDERS + 1)
+    fastest, largest = float(found["mesh_frequency"].max()), float(np.nanmax(found["natural_frequency"], initial=0.0))
+    top, orders = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest)), np.arange(1, MESH_ORDERS + 1)
     ends = np.minimum(fastest, top / orders)
     curves = [Curve("mesh orders", np.array([0.0, end]), np.array([0.0, order * end]), PALETTE[0], listed=order == 1) for order, end in zip(orders, ends)]
-    curves.append(Curve("orders", ends, orders * ends, DARK, mode=WORDS, listed=False, words=[f"{order} × mesh" for order in orders], beside="right"))
-    meetings: list[tuple[float, float]] = []
-    listed: set[str] = set()
-    damped = found["damping_ratio"].transpose("load", "mode").values.min(axis=0)
-    for values, damping, excited, motion in zip(natural.T, damped, found["excited"].values, found["motion"].values):
-        low, high = np.nanmin(values), np.nanmax(values)
-        if low > top:
-            continue
-        middle, spread = 0.5 * (low + high), high > (1.0 + ALIKE) * low
-        name, colour = ("natural frequencies", PALETTE[1]) if excited else ("natural frequencies that contact does not excite", GREY)
-        words = (f"{low:.0f} to {high:.0f} Hz" if spread else f"{middle:.0f} Hz") + (motion and f", {motion}")
-        ends, shape = np.array([0.0, fastest]), {"mode": BAND} if spread else {"dash": "dash"}
-        curves.append(Curve(name, ends, np.array([[low, low], [high, high]]) if spread else np.full(2, middle), colour, listed=name not in listed, **shape))
-        if words not in listed:
-            curves.append(Curve("words", np.zeros(1), np.array([high]), DARK, mode=WORDS, listed=False, words=[words]))
-        meetings += [(middle / order, middle) for order in orders if excited and damping < MOST_DAMPED and middle / order <= fastest]
-        listed |= {name, words}
-    if meetings:
-        x, y = np.array(meetings).T
-        curves.append(Curve("resonances", x, y, PALETTE[1], mode=MARKERS))
+    curves.append(Curve("orders", ends, orders * ends, DARK, mode=WORDS, listed=False, words=[f"{order} ×" for order in orders], beside="right"))
+    modes = found[["natural_frequency", "damping_ratio", "excited", "motion"]].dropna("load").isel(mode=found["natural_frequency"].min("load").values < top)
+    low, high = modes["natural_frequency"].min("load").values, modes["natural_frequency"].max("load").values
+    middle, spread, excited = 0.5 * (low + high), high > (1.0 + ALIKE) * low, modes["excited"].values.astype(bool)
+    for mode in range(len(low)):
+        name, colour = ("natural frequencies", PALETTE[1]) if excited[mode] else ("not excited by contact", GREY)
+        values = np.array([[low[mode]] * 2, [high[mode]] * 2]) if spread[mode] else np.full(2, middle[mode])
+        kind, dash = (BAND, "solid") if spread[mode] else (LINES, "dash")
+        curves.append(Curve(name, np.array([0.0, fastest]), values, colour, dash, mode=kind, listed=name not in [curve.name for curve in curves]))
+    words = [f"{low[mode]:.0f} to {high[mode]:.0f} Hz" if spread[mode] else f"{middle[mode]:.0f} Hz" for mode in range(len(low))]
+    # Modes of one frequency are named once.
+    said = {each: ", ".join(dict.fromkeys([each, *(motion for own, motion in zip(words, modes["motion"].values) if own == each and motion)])) for each in words}
+    curves += [words_apart([(0.0, height, said[each]) for each, height in dict(zip(words, high)).items()], WORDS_APART * top, "top right")] if said else []
+    resonant = middle[excited & (modes["damping_ratio"].min("load").values < MOST_DAMPED)]
+    x, y = resonant[:, None] / orders, np.outer(resonant, np.ones(len(orders)))
+    if (x <= fastest).any():
+        curves.append(Curve("resonances", x[x <= fastest], y[x <= fastest], PALETTE[1], mode=MARKERS))
     return Chart("", curves, _speed(found), FREQUENCY, height=560, x_range=(0.0, BESIDE * fastest), y_range=(0.0, 1.06 * top))
 
 

@@ -68,6 +68,13 @@ def test_a_load_without_a_result_has_no_curve():
     assert list(drawn(harris_map(failed))) == ["50 N m", "200 N m", "437 N m"]
 
 
+def test_curves_that_differ_by_round_off_are_drawn_flat():
+    """Authority: contact is solved to 1e-4 um; less than 0.1 um fills no chart."""
+    flat = errors() * 0.0 + 20.0 + np.random.default_rng(1).normal(size=(4, 81)) * 1e-14
+    low, high = harris_map(flat.assign_attrs(units="um")).limits
+    assert high - low >= 0.1
+
+
 def test_what_is_no_map_is_refused():
     """Authority: the message names what is there."""
     with pytest.raises(ComputationError, match="needs the dimensions load and mesh_phase.*wheel_torque, mesh_phase"):

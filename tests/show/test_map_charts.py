@@ -29,7 +29,7 @@ def test_resonances_are_where_orders_meet_natural_frequencies():
     chart = campbell(made_up())
     (met,) = (curve for curve in chart.curves if curve.mode == MARKERS)
     assert met.x.tolist() == [300.0, 200.0, 150.0, 120.0] and set(met.y) == {600.0}
-    assert [word for curve in chart.curves if curve.mode == WORDS for word in curve.words] == [*(f"{order} × mesh" for order in range(1, 6)), "600 Hz"]
+    assert [word for curve in chart.curves if curve.mode == WORDS for word in curve.words] == [*(f"{order} ×" for order in range(1, 6)), "600 Hz"]
     assert not [curve for curve in campbell(made_up(damping=0.8)).curves if curve.mode == MARKERS]
 
 
