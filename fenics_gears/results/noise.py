@@ -28,20 +28,21 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
     `..._sideband_energy` over `harmonic` and `gear`: sum of squares of the sidebands of a mesh harmonic at whole turns of a gear; `..._sideband_ratio`: of those of
     both gears, each once, to the square of the harmonic; not a number where the record cannot tell them apart.
     window: one of `WINDOWS`; None: none, over whole hunting tooth periods or else whole mesh cycles, and the flat top for a ramp. Raises ComputationError for
-    less than a mesh cycle.
+    a record too short to have mesh orders apart.
     """
     gears = scene_from_text(str(result.attrs["scene"])).gears
     ramp = "mesh_frequency" in result
     run = result if ramp else of_settled(result)
     cycles = float(np.ptp(run["mesh_phase"].values)) if run.sizes["time"] > 1 else 0.0
-    length = window_cycles(window or FLAT_TOP)
-    if cycles < (length if ramp else 1.0) - 1e-9:
-        raise ComputationError(f"{cycles:.3g} mesh cycles are stored; a spectrum needs {length if ramp else 1}. Run more of them.")
-    used = f"{window or FLAT_TOP}, over {length} mesh cycles at a time" if ramp else window or NO_WINDOW
-    found = xr.Dataset(attrs={"window": used, "references": "amplitudes of 1 um and of 1 N"})
+    used = window or (FLAT_TOP if ramp else NO_WINDOW)
+    needed = window_cycles(used) if ramp or used != NO_WINDOW else 1
+    if cycles < needed - 1e-9:
+        raise ComputationError(f'{cycles:.3g} settled mesh cycles are stored; a spectrum in the window "{used}" needs {needed}. Run more of them, or take another window.')
+    over = f", over {needed} mesh cycles at a time" if ramp else ""
+    found = xr.Dataset(attrs={"window": f"{used}{over}", "references": "amplitudes of 1 um and of 1 N"})
     for name, values in signals(run).items():
         if ramp:
-            found = found.assign(_followed(name, values, run, window or FLAT_TOP))
+            found = found.assign(_followed(name, values, run, used)).set_coords("mesh_frequency")
         else:
             found = found.assign(_steady(name, values, cycles, (gears.pinion.teeth, gears.wheel.teeth), window))
     return found

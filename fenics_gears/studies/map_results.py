@@ -45,7 +45,7 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
     if "mesh_phase" in study:
         found = found.assign_coords(mesh_phase=study["mesh_phase"]).assign(_taken(study, CURVES, ("load", "mesh_phase"), length))
     if scene.inertia is not None:
-        found = found.assign(frequencies_over_load(scene, found["load"].values, found.get("mean_mesh_stiffness_tangent"), pair))
+        found = found.assign(frequencies_over_load(scene, found["load"].values, found.get("mean_mesh_stiffness_tangent"), pair)).set_coords(["excited", "motion"])
     if over_speed is not None:
         study, dimensions = load_combined(over_speed.file), ("load", "mesh_frequency")
         found = found.assign(_spectra(over_speed, pair, found.sizes["load"])).set_coords("pinion_speed")

@@ -54,8 +54,9 @@ def test_a_short_record_has_mesh_orders_but_no_sidebands(paper_scene):
     found = noise_figures(made_up(paper_scene, 2, cosine(1.0)))
     assert "transmission_error_sideband_ratio" not in found
     assert float(found["transmission_error_amplitude"].sel(order=1.0)) == pytest.approx(1.0, rel=1e-9)
-    with pytest.raises(ComputationError, match="0.5 mesh cycles are stored; a spectrum needs 1"):
-        noise_figures(made_up(paper_scene, 0.5, cosine(1.0)))
+    for cycles, window, needed in ((0.5, None, 1), (2, HANN, 4), (9, FLAT_TOP, 10)):
+        with pytest.raises(ComputationError, match=f"{cycles} settled mesh cycles are stored; .* needs {needed}"):
+            noise_figures(made_up(paper_scene, cycles, cosine(1.0)), window)
 
 
 def test_orders_of_a_ramp_are_those_that_scipy_finds(paper_scene):
