@@ -61,7 +61,8 @@ def _run(options: argparse.Namespace, team) -> int:
     """The stages of a map, on rank 0."""
     from fenics_gears.studies.load_map import OVER_SPEED, QUASI_STATIC, load_map
     from fenics_gears.studies.run_study import run_with
-    from fenics_gears.studies.summary import last_words
+    from fenics_gears.studies.summary import last_words, summary_rows
+    from fenics_gears.system.console import print_rows
     from fenics_gears.system.progress import seconds_in_words
 
     scene = checked_scene(options.scene)
@@ -72,6 +73,8 @@ def _run(options: argparse.Namespace, team) -> int:
         print(f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core.", file=sys.stderr, flush=True)
     for name, study in studies.items():
         outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
+        if not options.quiet:
+            print_rows(study.title, summary_rows(outcome))
         if words := last_words(outcome, "the map"):
             print(words, file=sys.stderr)
         if outcome.interrupted:
