@@ -51,7 +51,9 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
     Raises GeometryError for impossible gears.
     """
     model = model_of(scene)
-    sections: list[tuple[str, Rows]] = [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
+    derived = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
+    sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
+    sections += [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
     if model.drivetrain.mass is not None:
         sections.append(("Inertia", _inertia_rows(model)))
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(model)))
@@ -72,6 +74,7 @@ def _model_rows(model: Model) -> Rows:
         ("equations in time", _method(model), ""),
         *([] if model.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
         ("nominal force along the line of action", model.scene.load.wheel_torque / model.pair.wheel.base_radius, "N"),
+        *([] if model.scene.friction is None else [("coefficient of friction", model.friction_coefficient, model.scene.friction.formula and f"after {model.scene.friction.formula}" or "")]),
         *(_speed_rows(model) if model.scene.motion.speed_given else []),
     ]
 

@@ -29,6 +29,16 @@ class Load:
     wheel_torque: float
 
 
+@dataclass(frozen=True)
+class Derived:
+    """A figure that a scene leaves out: what `gears check` calls it, its value and unit, and the formula that it comes from."""
+
+    name: str
+    value: float
+    unit: str
+    formula: str
+
+
 # Mesh cycles until every tooth has met every other: the least common multiple of the numbers of teeth.
 HUNTING_TOOTH_PERIOD = "hunting tooth period"
 # Recorded cycles where the scene does not give their number and all cycles are alike, or the result could not hold all.
@@ -93,7 +103,7 @@ class Scene:
     """All input of a run, and the text it was read from.
 
     One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an effect that the scene does
-    not name is None. (Elastic teeth are an effect too: they are there where `gears` have a material.)
+    not name is None; `derived`: what the scene leaves out of gears and load. (Elastic teeth are an effect too: they are there where `gears` have a material.)
     """
 
     title: str
@@ -104,6 +114,7 @@ class Scene:
     output: Output = Output()
     text: str = ""
     name: str = "scene"
+    derived: tuple[Derived, ...] = ()
     body_meshes: BodyMeshes | None = None
     shafts: Shafts | None = None
     bearings: Bearings | None = None

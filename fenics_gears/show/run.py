@@ -206,7 +206,7 @@ def conditions(scene: Scene) -> str:
 
 def design(scene: Scene) -> str:
     """Friction, modifications, errors and ripple of a scene, whatever its load and speed."""
-    friction = "no friction" if scene.friction is None else f"friction coefficient {scene.friction.coefficient:g}"
+    friction = "no friction" if scene.friction is None else "friction " + (scene.friction.formula and f"after {scene.friction.formula}" or f"coefficient {scene.friction.coefficient:g}")
     helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
     shaping = (each for each in effects_on(scene) if each.removal or each.gaps or each.section in ALONG_THE_FACE)
     shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)
