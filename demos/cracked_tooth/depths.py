@@ -15,7 +15,7 @@ from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Scene
-from fenics_gears.show.spectrum import OrderLines, order_lines
+from fenics_gears.results.spectrum import OrderLines, order_lines
 from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 HERE = Path(__file__).parent

@@ -39,7 +39,7 @@ def main(arguments: list[str] | None = None) -> int:
 def named_lines(result) -> dict[str, float]:
     """Amplitudes (um on the wheel's base circle) of the orders that one cause is known for; `result`: of whole hunting tooth periods."""
     from fenics_gears.show.run import scene_of
-    from fenics_gears.show.spectrum import order_lines
+    from fenics_gears.results.spectrum import order_lines
 
     gears, phase = scene_of(result).gears, result["mesh_phase"].values
     error = result["transmission_error"].values * result.attrs["base_radius_wheel"] * 1e3

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import os
+import shutil
+import subprocess
 import sys
 from collections.abc import Callable, Iterable
 from importlib import import_module
@@ -41,6 +44,37 @@ def add_memory_argument(command) -> None:
         "--memory", metavar="SIZE", default=argparse.SUPPRESS, type=_size,
         help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free, shared by the processes of an MPI job)',
     )  # fmt: skip
+
+
+def add_processes_argument(command) -> None:
+    """The option --processes of a command that computes many cases."""
+    command.add_argument("-n", "--processes", type=positive_count, metavar="N", help="start mpirun with N processes, which share the cases")
+
+
+def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
+    """The command of these arguments under mpirun, which finds its settings (as root, say) in the environment that `prepare` has completed."""
+    mpirun = shutil.which("mpirun")
+    if mpirun is None:
+        raise SceneError("There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run alone.")
+    command = [mpirun, "-n", str(options.processes)]
+    if options.processes > (os.cpu_count() or 1):
+        command.append("--oversubscribe")
+    command += [sys.executable, "-m", "fenics_gears", *arguments, *(["--quiet"] if options.quiet else [])]
+    running = subprocess.Popen(command)
+    try:
+        return running.wait()
+    except KeyboardInterrupt:
+        # Ctrl-C is mpirun's as well, which ends its processes; to kill it meanwhile would leave them behind.
+        running.wait()
+        print("Interrupted. The cases that were done are kept; the same command goes on from there.", file=sys.stderr)
+        return INTERRUPTED
+
+
+def positive_count(text: str) -> int:
+    """A whole number above zero, for argparse."""
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above 0")
+    return int(text)
 
 
 def _size(text: str) -> str:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import os
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import INTERRUPTED, add_memory_argument, plots, shown_progress
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.commands.shared import INTERRUPTED, add_memory_argument, add_processes_argument, plots, shown_progress, under_mpirun
+from fenics_gears.errors import ComputationError
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -18,7 +15,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("study", parents=[shared], help="run a parameter study and draw it, alone or under mpirun; a stopped study is continued")
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the study file>)")
-    command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes, which share the cases")
+    add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=study)
 
@@ -26,7 +23,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def study(options: argparse.Namespace) -> int:
     """Run a study."""
     if options.processes is not None:
-        return _under_mpirun(options)
+        directory = ["--output", str(options.output)] if options.output is not None else []
+        return under_mpirun(options, ["study", str(options.study), *directory])
     from fenics_gears.studies.run_study import run_study
     from fenics_gears.studies.summary import last_words, summary_rows
 
@@ -45,31 +43,3 @@ def study(options: argparse.Namespace) -> int:
     if outcome.interrupted:
         return INTERRUPTED
     return ComputationError.exit_code if outcome.failures else 0
-
-
-def _under_mpirun(options: argparse.Namespace) -> int:
-    """The same study under mpirun, which finds its settings (as root, say) in the environment that `prepare` has completed."""
-    mpirun = shutil.which("mpirun")
-    if mpirun is None:
-        raise SceneError("There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run the study alone.")
-    command = [mpirun, "-n", str(options.processes)]
-    if options.processes > (os.cpu_count() or 1):
-        command.append("--oversubscribe")
-    command += [sys.executable, "-m", "fenics_gears", "study", str(options.study)]
-    command += ["--output", str(options.output)] if options.output is not None else []
-    command += ["--quiet"] if options.quiet else []
-    running = subprocess.Popen(command)
-    try:
-        return running.wait()
-    except KeyboardInterrupt:
-        # Ctrl-C is mpirun's as well, which ends its processes; to kill it meanwhile would leave them behind.
-        running.wait()
-        print("Interrupted. The cases that were done are kept; the same command goes on from there.", file=sys.stderr)
-        return INTERRUPTED
-
-
-def _count(text: str) -> int:
-    """A whole number above zero, for argparse."""
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above 0")
-    return int(text)

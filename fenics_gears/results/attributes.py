@@ -62,6 +62,8 @@ RESULT_ATTRIBUTES = (
         ResultAttribute(f"transmission_error_harmonic_{n}", "um", f"amplitude of the transmission error at {words} mesh frequency, along the line of action", OF_WHOLE_CYCLES)
         for n, words in enumerate(("the", "twice the", "three times the", "four times the", "five times the"), 1)
     ),
+    ResultAttribute("rms_transmission_error", "um", "root mean square of the transmission error without its mean, along the line of action", OF_WHOLE_CYCLES),
+    ResultAttribute("rms_normal_force", "N", "root mean square of the mesh force (drive less coast flanks) without its mean", OF_WHOLE_CYCLES),
     ResultAttribute("mean_mesh_stiffness", "N/(mm um)", "mesh stiffness c_gamma: mean of `mesh_stiffness` while the flanks touch, per face width", WITH_TEETH),
     ResultAttribute("mean_mesh_stiffness_tangent", "N/(mm um)", "mean of `mesh_stiffness_tangent`, which governs small vibrations, per face width", WITH_TEETH),
     ResultAttribute("single_pair_stiffness", "N/(mm um)", "single stiffness c': largest `mesh_stiffness` while one tooth pair is loaded, per face width", WITH_TEETH + " and in some steps one pair is loaded"),

@@ -65,6 +65,11 @@ def largest_normal_force(result: xr.Dataset, steps: slice = slice(None)) -> floa
     return float(max(forces))
 
 
+def mesh_force(result: xr.Dataset) -> np.ndarray:
+    """Force (time,), N, of the drive flanks less that of the coast flanks."""
+    return result["normal_force"].values - (result["coast_normal_force"].values if "coast_normal_force" in result else 0.0)
+
+
 def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of each tooth pair (steps, slots), on drive and coast flanks; zero where a pair does not touch.
 

@@ -1,4 +1,4 @@
-"""All curves over time of a result as one CSV table, for programs that do not read NetCDF."""
+"""CSV tables for programs that do not read NetCDF: all curves over time of a result, and what a dataset has over given dimensions."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+
+from fenics_gears.results.files import save
+from fenics_gears.system.output import write_whole
 
 # Significant digits: more than a measurement has, and still readable.
 DIGITS = 12
@@ -20,6 +23,27 @@ def save_curves(result: xr.Dataset, path: Path) -> None:
         writer = csv.writer(file)
         writer.writerow(columns)
         writer.writerows([f"{value:.{DIGITS}g}" for value in row] for row in zip(*columns.values()))
+
+
+def save_tables(dataset: xr.Dataset, directory: Path, stem: str) -> list[Path]:
+    """Write a dataset as `stem`.nc and, of its variables over the same dimensions, a table each: a line for each combination of their coordinates.
+
+    A table is called by its dimensions, `map_over_load_and_mesh_phase.csv`. Returns the files.
+    """
+    save(dataset, directory / f"{stem}.nc")
+    every = dict.fromkeys(each.dims for each in dataset.data_vars.values() if each.dims)
+    return [directory / f"{stem}.nc", *(write_whole(directory / f"{stem}_over_{'_and_'.join(dims)}.csv", lambda path, dims=dims: _save_table(dataset, dims, path)) for dims in every)]
+
+
+def _save_table(dataset: xr.Dataset, dimensions: tuple[str, ...], path: Path) -> None:
+    template = xr.DataArray(np.zeros([dataset.sizes[name] for name in dimensions]), dims=dimensions)
+    coordinates = [name for name, each in dataset.coords.items() if each.dims and set(each.dims) <= set(dimensions)]
+    names = [*coordinates, *(name for name, each in dataset.data_vars.items() if each.dims == dimensions)]
+    columns = [dataset[name].broadcast_like(template).transpose(*dimensions).values.ravel() for name in names]
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow([f"{name}{_unit(dataset[name].attrs.get('units', '1'))}" for name in names])
+        writer.writerows([value if isinstance(value, str) else f"{value:.{DIGITS}g}" for value in row] for row in zip(*columns))
 
 
 def curves(result: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:

@@ -10,7 +10,7 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
-from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.results.numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 from fenics_gears.scene.data import Scene
@@ -19,7 +19,7 @@ MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
 HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
 # The numbers that a study takes of each case, where it has them.
 STUDIED = (
-    *HARMONIC_NAMES, "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
+    *HARMONIC_NAMES, "rms_transmission_error", "rms_normal_force", "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
     "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "largest_root_stress_pinion",
     "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
     "overlap_ratio", "total_contact_ratio", "face_load_factor", "face_load_factor_at_pitch_cylinder", "transverse_load_factor",
@@ -35,8 +35,8 @@ def key_numbers(counted: xr.Dataset, pair: GearPair, timed: bool = True) -> dict
 
 
 def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
-    """Harmonics of the transmission error as a length at the wheel's base circle, um, of the last whole mesh cycles; nothing of less than one, or on a
-    ramp, where no two cycles are alike."""
+    """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh force, N, of the last whole mesh
+    cycles; nothing of less than one, or on a ramp, where no two cycles are alike."""
     phase = settled["mesh_phase"].values
     if len(phase) < 2 or "mesh_frequency" in settled:
         return {}
@@ -45,8 +45,8 @@ def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
     if not cycles:
         return {}
     curve = settled["transmission_error"].values[-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
-    found = harmonics(curve, cycles)
-    return {name: float(amplitude) for name, amplitude in zip(HARMONIC_NAMES, found) if np.isfinite(amplitude)}
+    found = {name: float(amplitude) for name, amplitude in zip(HARMONIC_NAMES, harmonics(curve, cycles)) if np.isfinite(amplitude)}
+    return found | {"rms_transmission_error": float(curve.std()), "rms_normal_force": float(mesh_force(settled)[-cycles * a_cycle :].std())}
 
 
 def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:

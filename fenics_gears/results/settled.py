@@ -50,6 +50,12 @@ def settled(model: Model, steps: int) -> Settled:
     return Settled(steps - whole * int(period) * a_cycle if whole else first, warning)
 
 
+def settling_time(model: Model) -> float:
+    """Time (s) in which the start dies down to 0.1 %; infinite where nothing damps what it sets off, zero without vibrations."""
+    rate, _ = _slowest(model)
+    return log(1.0 / QUIET) / rate if rate else inf
+
+
 def settled_steps(result: xr.Dataset) -> slice:
     """Which steps of a result are settled."""
     begin = result.attrs.get("settled_from")

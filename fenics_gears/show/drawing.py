@@ -254,10 +254,10 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     if curve.fill:
         axes.fill(x, y, color=curve.fill, zorder=0.9)
     for words, place, height in zip(curve.words, x, y):
-        up, right = 1 if "top" in curve.beside else -1, 1 if "right" in curve.beside else -1
+        up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
-            ha="left" if right > 0 else "right", va="bottom" if up > 0 else "top", bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
+            ha="left" if right > 0 else "right", va=("center", "bottom", "top")[up], bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
         )  # fmt: skip
 
 

@@ -8,21 +8,21 @@ from math import inf, lcm
 import numpy as np
 
 from fenics_gears.effects import common_period
-from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
+from fenics_gears.results.noise import LEAST_VARIATION
 from fenics_gears.results.pairs import shown
+from fenics_gears.results.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, OrderLines, known_orders, order_lines, origin
 from fenics_gears.show.chart import BARS, Chart, Curve, Flag
 from fenics_gears.show.motion import error_values
 from fenics_gears.show.panels import GREY, PALETTE
 from fenics_gears.show.run import Run
-from fenics_gears.show.spectrum import COLOURS, MESH, PINION, OrderLines, known_orders, order_lines, origin
 
 MESH_ORDERS, FOLLOWED_ORDERS, CYCLES_TO_FOLLOW = 10.5, 4, 8
 # Of the picture by orders of the pinion: mesh orders and decades that it shows. Contact is solved to 1e-4 um.
 MESH_ORDERS_SHOWN, DECADES, LEAST_AMPLITUDE = 4.5, 3, 1e-4
 # Lines below this part of the largest are the solver's tolerance.
 LEAST_PART = 1e-5
-# Of the largest force; what varies by less is the solver's tolerance.
-LEAST_VARIATION = 1e-6
+COLOURS = {MESH: PALETTE[0], PINION: PALETTE[1], WHEEL: PALETTE[2], BOTH: PALETTE[5], HUNTING: GREY}
 ERROR, FORCE, BETWEEN, OF_ERROR = "Transmission error", "Mesh force", "between mesh orders", "Orders of the transmission error"
 
 
@@ -39,11 +39,9 @@ def signals_of(run: Run) -> dict[str, tuple[np.ndarray, str]]:
     """Values (time,) and units of the analysed curves."""
     signals = {ERROR: error_values(run)}
     if "normal_force" in run.dataset and largest_normal_force(run.dataset):
-        force = run.values("normal_force", "N")
-        coast = run.values("coast_normal_force", "N") if "coast_normal_force" in run.dataset else 0.0
-        # Without inertia and friction the load alone sets the force; what varies of it then is round-off.
-        if np.ptp(force - coast) > LEAST_VARIATION * largest_normal_force(run.dataset):
-            signals[FORCE] = (force - coast, "N")
+        force = mesh_force(run.dataset)
+        if np.ptp(force) > LEAST_VARIATION * largest_normal_force(run.dataset):
+            signals[FORCE] = (force, "N")
     return signals
 
 

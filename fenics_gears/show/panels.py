@@ -13,6 +13,8 @@ import numpy as np
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 DARK, GREY, GRID = "#222222", "#8C8C8C", "#E3E3E3"
 WARNING = "#B00020"
+# From low to high, in order of lightness (viridis).
+LOW_TO_HIGH = ("#440154", "#414487", "#2A788E", "#22A884", "#7AD151", "#FDE725")
 DOTS_PER_INCH = 150
 
 _STYLE = {
@@ -45,6 +47,13 @@ def styled(draw: Callable) -> Callable:
             return draw(*arguments, **options)
 
     return inside
+
+
+def shades(count: int) -> list[str]:
+    """Colours of curves in an order, the last one darkest; without the palest, which are no colours of a line."""
+    ends = np.array([[int(colour[place : place + 2], 16) for place in (1, 3, 5)] for colour in LOW_TO_HIGH])
+    places = np.linspace(0.87 * (len(ends) - 1), 0.0, count) if count > 1 else np.zeros(count)
+    return ["#" + "".join(f"{round(np.interp(place, range(len(ends)), part)):02X}" for part in ends.T) for place in places]
 
 
 def limits(values: np.ndarray, least: float) -> tuple[float, float]:

@@ -200,9 +200,14 @@ def conditions(scene: Scene) -> str:
     torque = scene.load.wheel_torque * factor("N mm", "N m")
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
+    return f"{torque:g} N m on the wheel, {speed}, {design(scene)}"
+
+
+def design(scene: Scene) -> str:
+    """Friction, modifications, errors and ripple of a scene, whatever its load and speed."""
     friction = "no friction" if scene.friction is None else "friction " + (scene.friction.formula and f"after {scene.friction.formula}" or f"coefficient {scene.friction.coefficient:g}")
     helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
     shaping = (each for each in effects_on(scene) if each.removal or each.gaps or each.section in ALONG_THE_FACE)
     shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)
     ripple = "" if scene.torque_ripple is None else ", torque ripple"
-    return f"{torque:g} N m on the wheel, {speed}, {friction}{shapes}{ripple}"
+    return f"{friction}{shapes}{ripple}"

@@ -6,7 +6,7 @@ import numpy as np
 
 from fenics_gears.show.cases import Cases, SweptField
 from fenics_gears.show.chart import LINES, MARKED_LINES, Chart, Curve, Field
-from fenics_gears.show.panels import PALETTE
+from fenics_gears.show.panels import LOW_TO_HIGH, PALETTE
 
 # What one plot's legend holds; dashes tell apart what has the same colour.
 MOST_LINES = 2 * len(PALETTE)
@@ -14,8 +14,6 @@ DASHES = ("solid", "dash")
 MARKED_POINTS = 200
 LOGARITHMIC_SPAN = 8.0
 HEIGHT = 340
-# From low to high, in order of lightness (viridis).
-COLOURS = ("#440154", "#414487", "#2A788E", "#22A884", "#7AD151", "#FDE725")
 
 
 def result_charts(cases: Cases) -> dict[str, Chart]:
@@ -100,7 +98,7 @@ def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, na
     for letter, field, places in (("x", axis, x), ("y", other, y)):
         divided += letter if logarithmic(field) else ""
         edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))
-    drawn = Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), COLOURS)
+    drawn = Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), LOW_TO_HIGH)
     ends = [(float(each[0]), float(each[-1])) for each in edges]
     words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
     return Chart(f"{name} over {axis.called} and {other.called}", [], axis.title, other.title, words, 420, x_range=ends[0], y_range=ends[1], logarithmic=divided, field=drawn)

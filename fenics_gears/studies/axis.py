@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -17,6 +18,8 @@ from fenics_gears.studies.fields import ABSENT, PRESENT, Path, is_section
 RANGE_KEYS = ("start", "stop", "count", "step", "spacing")
 SPACINGS = ("linear", "logarithmic")
 MOST_VALUES = 100_000
+# "50 .. 500 N m in 10", "... in 10, logarithmic", "50 .. 500 N m by 50 N m".
+RANGE_IN_WORDS = re.compile(r"(?P<start>.+?)\s*\.\.\s*(?P<stop>.+?)(?:\s+in\s+(?P<count>\d+)(?P<spacing>\s*,?\s*logarithmic)?|\s+by\s+(?P<step>.+?))?")
 
 
 class AxisError(ValueError):
@@ -76,6 +79,23 @@ def values_of(path: Path, written: Any) -> tuple[Any, ...]:
     for value in values:
         _check(path, value)
     return values
+
+
+def values_in_words(written: str) -> tuple[str, ...]:
+    """The values that a word of the command line stands for: "437 N m" for one, "50 .. 500 N m in 10" for a range. Raises AxisError.
+
+    >>> values_in_words("100 .. 300 N m by 100 N m")
+    ('100 N m', '200 N m', '300 N m')
+    """
+    if ".." not in written:
+        return (written.strip(),)
+    found = RANGE_IN_WORDS.fullmatch(written.strip())
+    if found is None or not (found["count"] or found["step"]):
+        raise AxisError('is a range without the number of its values. Allowed: such as "50 .. 500 N m in 10", "50 .. 500 N m in 10, logarithmic", "50 .. 500 N m by 50 N m".')
+    unit = units.unit_of(found["stop"])
+    ends = {name: found[name] if units.unit_of(found[name]) else f"{found[name]} {unit}" for name in ("start", "stop", "step") if found[name]}
+    counted = {"count": int(found["count"]), "spacing": SPACINGS[bool(found["spacing"])]} if found["count"] else {}
+    return tuple(map(str, _range({**ends, **counted})))
 
 
 def _check(path: Path, value: Any) -> None:

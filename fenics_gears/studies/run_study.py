@@ -43,10 +43,14 @@ def run_study(path: Path, output: Path | None, progress: Progress, quiet: bool =
         if team is None:
             return None
         study = load_study(path)
-        directory = output or Path("results") / study.name
-        check_writable(directory)
-        with sole_writer(directory):
-            return _run(study, directory, team, progress, quiet)
+        return run_with(team, study, output or Path("results") / study.name, progress, quiet)
+
+
+def run_with(team: Alone | Together, study: Study, directory: Path, progress: Progress, quiet: bool = False) -> Outcome:
+    """Run what is missing of a study in its directory, with the processes of rank 0's team. Raises ComputationError where the directory cannot be used."""
+    check_writable(directory)
+    with sole_writer(directory):
+        return _run(study, directory, team, progress, quiet)
 
 
 def _run(study: Study, directory: Path, team: Alone | Together, progress: Progress, quiet: bool) -> Outcome:

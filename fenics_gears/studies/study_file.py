@@ -88,7 +88,12 @@ def load_study(path: str | Path) -> Study:
         raise SceneError(f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written.")
     # A swept field has one name here, whether its dots are written bare or within quotes.
     lines = {(name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()}
-    mistakes = Mistakes(str(path), lines)
+    return study_of(tree, path, text, str(path), lines)
+
+
+def study_of(tree: Mapping[str, Any], path: Path, text: str, source: str, lines: Mapping[tuple[str, ...], int]) -> Study:
+    """The study of a parsed file; `path` from whose folder the base scene is named and whose stem is the study's name, `source` and `lines` for messages."""
+    mistakes = Mistakes(source, lines)
     _check_keys(tree, mistakes)
     changes = _changes(tree, mistakes)
     mistakes.check()

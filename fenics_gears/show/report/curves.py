@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fenics_gears.results.spectrum import OrderLines
 from fenics_gears.show.forces import force_charts
 from fenics_gears.show.motion import motion_charts
 from fenics_gears.show.orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
 from fenics_gears.show.pressure import has_pressure, largest_pressures, pressure_maps
 from fenics_gears.show.report.page import Block, Section, Table, Words
 from fenics_gears.show.run import TOO_FEW, Run
-from fenics_gears.show.spectrum import OrderLines
 from fenics_gears.show.thinning import MOST_POINTS
 
 LISTED_ORDERS = 10

@@ -118,8 +118,8 @@ def _flag(layout: dict, chart: Chart) -> None:
 
 def _words(curve: Curve) -> list[dict]:
     """Words beside the points of a curve, on paper, so that lines below do not cross them."""
-    up, right = (1 if side in curve.beside else -1 for side in ("top", "right"))
-    at = {"xanchor": "left" if right > 0 else "right", "yanchor": "bottom" if up > 0 else "top", "xshift": 7 * right, "yshift": 5 * up, "showarrow": False}
+    up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
+    at = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up], "xshift": 7 * right, "yshift": 5 * up, "showarrow": False}
     look = {"font": {"size": 12, "color": DARK}, "bgcolor": "rgba(255, 255, 255, 0.8)", "borderpad": 1}
     return [{"x": x, "y": y, "text": escaped(words)} | at | look for words, x, y in zip(curve.words, numbers(curve.x), numbers(curve.y))]
 

@@ -7,10 +7,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.text import Annotation, Text
 from tests.show.synthetic import made_up_run
 
+from fenics_gears.results.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, order_lines, origin
 from fenics_gears.show.chart import Chart, Curve, Flag
 from fenics_gears.show.drawing import picture
 from fenics_gears.show.plots import run_figures
-from fenics_gears.show.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, order_lines, origin
 
 TEETH, PERIOD, STEPS = (16, 24), 48, 40
 ERRORS = '\n[flank_errors.wheel.waviness]\namplitude = "1 um"\nwaves = 90\n[eccentricity.pinion]\ndistance = "10 um"\n'
