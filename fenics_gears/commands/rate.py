@@ -29,7 +29,7 @@ _NUMBERS = {
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    from fenics_gears.rating.operation import Finish
+    from fenics_gears.rating.finish import Finish
 
     defaults = {each.name: each.default for each in fields(Finish)}
     command = commands.add_parser("rate", parents=[shared], help="rate a run by ISO 6336, beside its computed loads and stresses")
@@ -70,7 +70,7 @@ def rate(options: argparse.Namespace) -> int:
 
 def _finish(options: argparse.Namespace, scene):
     """Material, finish and oil of the options. Raises SceneError for values out of range."""
-    from fenics_gears.rating.operation import Finish
+    from fenics_gears.rating.finish import Finish
 
     given = {}
     if scene.flank_errors is not None and scene.flank_errors.tolerance_class is not None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, pi, sin, sqrt, tan
 
+from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.load_factors import LoadFactors, contact_ratio_factor
-from fenics_gears.rating.operation import Finish, Operation
+from fenics_gears.rating.operation import Operation
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from math import cos, hypot, pi, sin, sqrt
 
 from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
-from fenics_gears.rating.operation import Finish, Operation
+from fenics_gears.rating.finish import Finish
+from fenics_gears.rating.operation import Operation
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a rating is about: the pair under its nominal load, and what the standard wants to know of material, finish and oil."""
+"""What a rating is about: the pair under its nominal load."""
 
 from __future__ import annotations
 
@@ -9,22 +9,6 @@ from math import asin, cos, pi, sin, tan
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
 from fenics_gears.geometry.pair import GearPair
-
-
-@dataclass(frozen=True)
-class Finish:
-    """Endurance limits (MPa), flank tolerance class of ISO 1328-1, mean peak-to-valley roughness Rz (um) and the oil's viscosity grade ISO VG (mm^2/s at 40 degC).
-
-    `flank_limit` is sigma_Hlim, `root_limit` sigma_Flim, which the stress correction 2 of the test gear makes sigma_FE. Of case-carburised steel unless given.
-    """
-
-    flank_limit: float = 1500.0
-    root_limit: float = 430.0
-    tolerance_class: int = 6
-    flank_roughness: float = 4.8
-    root_roughness: float = 16.0
-    viscosity_grade: float = 100.0
-    application_factor: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,11 @@ import xarray as xr
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.model.drivetrain import lumped_gears
+from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.flank import flank_stress
 from fenics_gears.rating.flash_temperature import flash_temperature, standard_share, transverse_line_force
 from fenics_gears.rating.load_factors import load_factors
-from fenics_gears.rating.operation import Finish, Operation, solid_reduced_mass
+from fenics_gears.rating.operation import Operation, solid_reduced_mass
 from fenics_gears.rating.root import root_stresses
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene

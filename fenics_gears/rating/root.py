@@ -7,8 +7,9 @@ from math import acos, cos, degrees, pi, radians, sin, sqrt, tan
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import involute_function
+from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.load_factors import LoadFactors
-from fenics_gears.rating.operation import Finish, Operation
+from fenics_gears.rating.operation import Operation
 
 # Of the standard's test gear: sigma_FE = 2 sigma_Flim.
 STRESS_CORRECTION_OF_TEST_GEAR = 2.0

@@ -6,9 +6,10 @@ from math import cos, radians
 import pytest
 
 from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.flank import elasticity_factor, flank_stress, single_pair_factors, zone_factor
 from fenics_gears.rating.load_factors import LoadFactors, contact_ratio_factor, load_factors
-from fenics_gears.rating.operation import Finish, Operation, solid_reduced_mass
+from fenics_gears.rating.operation import Operation, solid_reduced_mass
 from fenics_gears.rating.root import helix_angle_factor, root_stresses, tooth_form
 from fenics_gears.scene.data import GearData, GearPairData, Material
 
