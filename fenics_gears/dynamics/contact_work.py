@@ -40,7 +40,7 @@ def _works(table, starts, kinds, positions, forces, displacement):
             forces[then], displacement[then], positions[s - 1],
             vector_at(row[GAP], n_1), matrix_at(row[JACOBIAN], m_1, k), matrix_at(row[COMPLIANCE], m_1, m_1),
             forces[now], displacement[now], positions[s],
-            vector_at(row[RIGID_SLIP], slides), matrix_at(row[PREVIOUS_JACOBIAN], slides, k), matrix_at(row[PREVIOUS_COMPLIANCE], slides, m_0),
+            vector_at(row[RIGID_SLIP], slides), matrix_at(row[PREVIOUS_JACOBIAN], slides, k), matrix_at(row[PREVIOUS_COMPLIANCE], m_0, slides),
         )  # fmt: skip
     return works
 
@@ -48,7 +48,7 @@ def _works(table, starts, kinds, positions, forces, displacement):
 @njit(cache=True)
 def _work(
     carried, gap_0, jacobian_0, compliance_0, forces_0, displaced_0, x_0, gap_1, jacobian_1, compliance_1, forces_1, displaced_1, x_1,
-    rigid_slip, previous_jacobian, previous_compliance,
+    rigid_slip, previous_jacobian, columns,
 ):  # fmt: skip
     """Rotation, friction and changes, N mm. `carried` (n,): the node before of each node now, -1 where it is new.
 
@@ -83,26 +83,29 @@ def _work(
         if after < 0 and kinds == 2 and forces_0[n_0 + node] != 0.0:
             there = _at_other(n_0 + node, jacobian_0, compliance_0, x_1, rows_0, rows_1, forces_1)
             changes -= 0.5 * forces_0[n_0 + node] * (there - displaced_0[n_0 + node])
+    # Slip of rigid flanks less the displacement that the same points had before; `columns` (m_0, n_1): of the operator's previous compliance.
+    slid = rigid_slip.copy()
+    for node in range(len(slid)):
+        slid[node] -= previous_jacobian[node] @ x_0
+    for loaded in np.flatnonzero(forces_0):
+        for node in range(len(slid)):
+            slid[node] += columns[loaded, node] * forces_0[loaded]
     for node in range(n_1):
         if fresh[node] and forces_1[node] != 0.0:
             changes -= 0.5 * forces_1[node] * (gap_1[node] - _at_other(node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0))
         if kinds == 1:
             continue
-        # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that the node had then.
+        # `moved`: displacement that the node had before.
         before = carried[node] if not fresh[node] else -1
         p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
         if p_0 == 0.0 and p_1 == 0.0:
             continue
-        slid = rigid_slip[node] - previous_jacobian[node] @ x_0
-        for column in range(len(forces_0)):
-            if forces_0[column] != 0.0:
-                slid += previous_compliance[node, column] * forces_0[column]
         if before >= 0:
             moved = displaced_0[n_0 + before]
         else:
             moved = _at_other(n_1 + node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0)
-        slip = displaced_1[n_1 + node] + slid
-        rotation += 0.5 * (p_0 + p_1) * (slid + moved)
+        slip = displaced_1[n_1 + node] + slid[node]
+        rotation += 0.5 * (p_0 + p_1) * (slid[node] + moved)
         friction += p_1 * slip
         changes += 0.5 * (p_1 - p_0) * slip
     return np.array([rotation, friction, changes])
