@@ -59,14 +59,17 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
     unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
     matrix = np.empty((size + k, size + k))
     right_side = np.empty(size + k)
+    factors = np.zeros(n_closed)
+    if tangential:
+        for b in range(n_closed):
+            factors[b] = _slip_factor(status[closed[b]], friction)
     for a in range(size):
-        row = rows[a]
+        row, values, entries = rows[a], compliance[rows[a]], matrix[a]
         for b in range(size):
-            matrix[a, b] = -compliance[row, rows[b]] * unit * unit
+            entries[b] = -values[rows[b]] * unit * unit
         if tangential:
             for b in range(n_closed):
-                factor = _slip_factor(status[closed[b]], friction)
-                matrix[a, b] -= factor * compliance[row, n + closed[b]] * unit * unit
+                entries[b] -= factors[b] * values[n + closed[b]] * unit * unit
         for c in range(k):
             matrix[a, size + c] = jacobian[row, c] * unit
         right_side[a] = (gap[row] if row < n else -slip_before[row - n]) * unit
@@ -74,7 +77,7 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
         for b in range(size):
             entry = jacobian[rows[b], c]
             if tangential and b < n_closed:
-                entry += _slip_factor(status[closed[b]], friction) * jacobian[n + closed[b], c]
+                entry += factors[b] * jacobian[n + closed[b], c]
             matrix[size + c, b] = entry * unit
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
@@ -85,7 +88,7 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
         node = closed[a]
         forces[node] = solution[a] * unit
         if tangential:
-            forces[n + node] = _slip_factor(status[node], friction) * forces[node]
+            forces[n + node] = factors[a] * forces[node]
     for a in range(n_stick):
         forces[n + stick[a]] = solution[n_closed + a] * unit
     coordinates[:] = solution[size:]

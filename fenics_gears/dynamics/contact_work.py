@@ -114,7 +114,7 @@ def _work(
 @njit(cache=True)
 def _by_shape(rows_0, rows_1, jacobian_0, compliance_0, forces_0, x_0, jacobian_1, compliance_1, forces_1, x_1):
     """Half of p0 (G1 - G0) x1 + p1 (G1 - G0) x0 - p0 (C1 - C0) p1 over the rows of both ends, N mm."""
-    work = 0.0
+    work, loaded = 0.0, np.flatnonzero(forces_1[rows_1])
     for row in range(len(rows_0)):
         i_0, i_1 = rows_0[row], rows_1[row]
         p_0, p_1 = forces_0[i_0], forces_1[i_1]
@@ -123,10 +123,8 @@ def _by_shape(rows_0, rows_1, jacobian_0, compliance_0, forces_0, x_0, jacobian_
         for k in range(len(x_0)):
             work += (jacobian_1[i_1, k] - jacobian_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
         if p_0 != 0.0:
-            for column in range(len(rows_0)):
-                other = forces_1[rows_1[column]]
-                if other != 0.0:
-                    work -= p_0 * (compliance_1[i_1, rows_1[column]] - compliance_0[i_0, rows_0[column]]) * other
+            for column in loaded:
+                work -= p_0 * (compliance_1[i_1, rows_1[column]] - compliance_0[i_0, rows_0[column]]) * forces_1[rows_1[column]]
     return 0.5 * work
 
 
