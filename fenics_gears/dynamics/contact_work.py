@@ -52,7 +52,7 @@ def _work(
 ):  # fmt: skip
     """Rotation, friction and changes, N mm. `carried` (n,): the node before of each node now, -1 where it is new.
 
-    Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
+    `columns` (m_0, n_1): of the operator's previous compliance. Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
     """
     n_0, n_1, kinds = len(gap_0), len(gap_1), 2 if len(rigid_slip) else 1
     successor, fresh = np.full(n_0, -1), np.ones(n_1, dtype=np.bool_)
@@ -83,29 +83,26 @@ def _work(
         if after < 0 and kinds == 2 and forces_0[n_0 + node] != 0.0:
             there = _at_other(n_0 + node, jacobian_0, compliance_0, x_1, rows_0, rows_1, forces_1)
             changes -= 0.5 * forces_0[n_0 + node] * (there - displaced_0[n_0 + node])
-    # Slip of rigid flanks less the displacement that the same points had before; `columns` (m_0, n_1): of the operator's previous compliance.
-    slid = rigid_slip.copy()
-    for node in range(len(slid)):
-        slid[node] -= previous_jacobian[node] @ x_0
-    for loaded in np.flatnonzero(forces_0):
-        for node in range(len(slid)):
-            slid[node] += columns[loaded, node] * forces_0[loaded]
+    loaded = np.flatnonzero(forces_0)
     for node in range(n_1):
         if fresh[node] and forces_1[node] != 0.0:
             changes -= 0.5 * forces_1[node] * (gap_1[node] - _at_other(node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0))
         if kinds == 1:
             continue
-        # `moved`: displacement that the node had before.
+        # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that the node had then.
         before = carried[node] if not fresh[node] else -1
         p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
         if p_0 == 0.0 and p_1 == 0.0:
             continue
+        slid = rigid_slip[node] - previous_jacobian[node] @ x_0
+        for column in loaded:
+            slid += columns[column, node] * forces_0[column]
         if before >= 0:
             moved = displaced_0[n_0 + before]
         else:
             moved = _at_other(n_1 + node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0)
-        slip = displaced_1[n_1 + node] + slid[node]
-        rotation += 0.5 * (p_0 + p_1) * (slid[node] + moved)
+        slip = displaced_1[n_1 + node] + slid
+        rotation += 0.5 * (p_0 + p_1) * (slid + moved)
         friction += p_1 * slip
         changes += 0.5 * (p_1 - p_0) * slip
     return np.array([rotation, friction, changes])
