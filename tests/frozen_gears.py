@@ -16,6 +16,8 @@ GRID = ContactGrid(length=1.5, nodes=20)
 class Frozen:
     """The same position of a cycle at every step; nothing slides."""
 
+    face = None
+
     def __init__(self, cycle, step):
         position = cycle.position(step)
         operator = position.operator

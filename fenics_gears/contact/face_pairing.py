@@ -60,10 +60,11 @@ class FacePairing:
             seen_before = seen_by([pair.coarse for pair in previous])
             before = [self._views(gear, previous, seen_before, True) for gear in range(2)]
             earlier_tangents = [self._views(gear, pairs, seen, True, turned[gear]) for gear in range(2)]
-            earlier = self._seen_compliance(earlier_tangents, seen, before, seen_before)
+            # Reciprocal, so that it lies in memory by columns, as the march reads it.
+            earlier = self._seen_compliance(before, seen_before, earlier_tangents, seen)
         dependent = self._add_fine(compliance, earlier, pairs, previous, turned)
         rows = kinds * _count(pairs)
-        return compliance.reshape(rows, rows), None if previous is None else earlier.reshape(_count(pairs), 2 * _count(previous)), dependent
+        return compliance.reshape(rows, rows), None if previous is None else earlier.reshape(2 * _count(previous), _count(pairs)).T, dependent
 
     def _seen_compliance(self, rows: list[Views], seen: Seen, columns: list[Views], seen_by_columns: Seen, symmetric: bool = False) -> np.ndarray:
         """Between contact nodes (d, n, e, m), mm/N: of the bodies, less what their plane sections give in each slice."""
@@ -98,7 +99,7 @@ class FacePairing:
             more, more_before, rows = known
             compliance[:, nodes[:, None], :, nodes] += share * more.transpose(1, 3, 0, 2)
             if previous is not None:
-                earlier[:, nodes[:, None], :, nodes_before] += share * more_before.transpose(1, 3, 0, 2)
+                earlier[:, nodes_before[:, None], :, nodes] += share * more_before.transpose(3, 1, 2, 0)
             dependent += rows
         return dependent
 

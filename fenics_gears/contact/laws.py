@@ -30,9 +30,15 @@ class Tolerance:
 
 
 @njit(cache=True)
+def opens(normal, u_n, gap, r_n):
+    """Whether a node is open by the projection of its normal force."""
+    return normal + r_n * (u_n - gap) <= 0.0
+
+
+@njit(cache=True)
 def next_status(status, normal, tangential, u_n, gap, slip, r_n, r_t, friction, through_stick):
     """The status that the projections give a node; with `through_stick` a reversal of slip stops at stick first."""
-    if normal + r_n * (u_n - gap) <= 0.0:
+    if opens(normal, u_n, gap, r_n):
         return OPEN
     if r_t == 0.0:
         return SLIP_FORWARD

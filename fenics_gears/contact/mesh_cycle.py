@@ -34,11 +34,14 @@ class Position:
 
     @cached_property
     def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """For compiled code: number of contact nodes, then addresses of the operator's arrays (10,), by the names in `contact.addresses`; and those arrays."""
+        """For compiled code: number of contact nodes, then addresses of the operator's arrays (10,), by the names in `contact.addresses`; and those arrays.
+
+        The previous compliance lies there by columns: few nodes are loaded.
+        """
         operator = self.operator
         found, held = addresses([
             operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair, self.carried_from,
-            operator.rigid_slip, operator.previous_jacobian, operator.previous_compliance,
+            operator.rigid_slip, operator.previous_jacobian, None if operator.previous_compliance is None else operator.previous_compliance.T,
         ])  # fmt: skip
         return np.array([operator.nodes, *found], dtype=np.int64), held
 

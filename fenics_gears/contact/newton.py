@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status, opens
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
@@ -59,14 +59,17 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
     unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
     matrix = np.empty((size + k, size + k))
     right_side = np.empty(size + k)
+    factors = np.zeros(n_closed)
+    if tangential:
+        for b in range(n_closed):
+            factors[b] = _slip_factor(status[closed[b]], friction)
     for a in range(size):
-        row = rows[a]
+        row, values, entries = rows[a], compliance[rows[a]], matrix[a]
         for b in range(size):
-            matrix[a, b] = -compliance[row, rows[b]] * unit * unit
+            entries[b] = -values[rows[b]] * unit * unit
         if tangential:
             for b in range(n_closed):
-                factor = _slip_factor(status[closed[b]], friction)
-                matrix[a, b] -= factor * compliance[row, n + closed[b]] * unit * unit
+                entries[b] -= factors[b] * values[n + closed[b]] * unit * unit
         for c in range(k):
             matrix[a, size + c] = jacobian[row, c] * unit
         right_side[a] = (gap[row] if row < n else -slip_before[row - n]) * unit
@@ -74,7 +77,7 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
         for b in range(size):
             entry = jacobian[rows[b], c]
             if tangential and b < n_closed:
-                entry += _slip_factor(status[closed[b]], friction) * jacobian[n + closed[b], c]
+                entry += factors[b] * jacobian[n + closed[b], c]
             matrix[size + c, b] = entry * unit
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
@@ -85,7 +88,7 @@ def solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction
         node = closed[a]
         forces[node] = solution[a] * unit
         if tangential:
-            forces[n + node] = _slip_factor(status[node], friction) * forces[node]
+            forces[n + node] = factors[a] * forces[node]
     for a in range(n_stick):
         forces[n + stick[a]] = solution[n_closed + a] * unit
     coordinates[:] = solution[size:]
@@ -122,16 +125,33 @@ def solved(matrix, right_side):
 
 
 @njit(cache=True)
-def relative_displacement(compliance, jacobian, forces, coordinates):
-    """u = G q - C p (m,), mm; only loaded nodes are summed, by rows of the symmetric compliance, which lie in one piece."""
-    displacement = np.empty(len(jacobian))
-    for i in range(len(jacobian)):
+def relative_displacement(displacement, first, end, compliance, jacobian, forces, coordinates):
+    """u = G q - C p, mm, into rows `first` to `end` of `displacement` (m,); only loaded nodes are summed, by rows of the symmetric compliance."""
+    for i in range(first, end):
         displacement[i] = _product(jacobian[i], coordinates)
-    for j in range(len(forces)):
-        if forces[j] != 0.0:
-            for i in range(len(displacement)):
-                displacement[i] -= compliance[j, i] * forces[j]
-    return displacement
+    for j in np.flatnonzero(forces):
+        row, force = compliance[j], forces[j]
+        for i in range(first, end):
+            displacement[i] -= row[i] * force
+
+
+@njit(cache=True)
+def _tangents(displacement, compliance, jacobian, forces, coordinates, status, gap, r_scale):
+    """As `relative_displacement`, the tangential rows of the few nodes that are closed or close next; no other has a slip that counts."""
+    n = len(gap)
+    rows = np.empty(n, dtype=np.int64)
+    count = 0
+    for j in range(n):
+        if status[j] != OPEN or not opens(forces[j], displacement[j], gap[j], r_scale / compliance[j, j]):
+            rows[count] = n + j
+            count += 1
+    rows = rows[:count]
+    for i in rows:
+        displacement[i] = _product(jacobian[i], coordinates)
+    for j in np.flatnonzero(forces):
+        row, force = compliance[j], forces[j]
+        for i in rows:
+            displacement[i] -= row[i] * force
 
 
 @njit(cache=True, inline="always")
@@ -271,13 +291,15 @@ def newton(
     """
     n, m, k = len(gap), len(compliance), len(load)
     forces, coordinates, displacement = np.zeros(m), np.zeros(k), np.zeros(m)
-    limit = len(history)
-    for iteration in range(limit):
+    outcome, iteration, limit = CYCLED, 0, len(history)
+    while iteration < limit:
         if len(free_motion) and n > 0 and not np.any(status != OPEN):
             status[first_node(gap, displacement, jacobian, free_motion)] = SLIP_FORWARD
         sets[iteration] = status
         solve_sets(stiffness, load, compliance, jacobian, gap, slip_before, friction, status, forces, coordinates)
-        displacement = relative_displacement(compliance, jacobian, forces, coordinates)
+        relative_displacement(displacement, 0, n, compliance, jacobian, forces, coordinates)
+        if len(slip_before):
+            _tangents(displacement, compliance, jacobian, forces, coordinates, status, gap, r_scale)
         measure(
             history[iteration], stiffness, load, compliance, jacobian, gap, slip_before, friction,
             status, forces, coordinates, displacement,
@@ -291,11 +313,13 @@ def newton(
         repeated = not changed
         for earlier in range(iteration + 1):
             repeated = repeated or _same(sets[earlier], new)
+        iteration += 1
         if repeated:
             outcome = CYCLED if changed else SINGULAR
-            if _within(history[iteration], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
+            if _within(history[iteration - 1], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
                 # Sets may also alternate between solutions that are the same within the tolerance.
                 outcome = CONVERGED
-            return outcome, iteration + 1, forces, coordinates, displacement
+            break
         status[:] = new
-    return CYCLED, limit, forces, coordinates, displacement
+    relative_displacement(displacement, n, m, compliance, jacobian, forces, coordinates)
+    return outcome, iteration, forces, coordinates, displacement

@@ -273,7 +273,7 @@ def operator_on_lines(
         jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines, face).take(coordinates, axis=1),
         gap=over_nodes(pairs, "gap"),
         rigid_slip=slip_of_rigid_flanks(lines, turned(gears, advance)) if frictional else None,
-        previous_compliance=previous_compliance,
+        previous_compliance=np.asfortranarray(previous_compliance) if frictional else None,
         previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance), face).take(coordinates, axis=1) if frictional else None,
         dependent_rows=dependent_rows,
         face=face,

@@ -18,6 +18,8 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
+# Sets of a mesh cycle before, where there are none.
+NO_SETS = np.empty(0, dtype=np.int8)
 POSITION, VELOCITY, ACCELERATION = range(3)
 
 
@@ -45,17 +47,19 @@ class Motion:
         return cls(method, np.ascontiguousarray(drivetrain.stiffness), mass, damping, free, friction, tolerance)
 
 
-def solve_steps(steps: Steps, first: int, end: int, motion: Motion, durations: np.ndarray, loads: np.ndarray) -> int:
+def solve_steps(
+    steps: Steps, first: int, end: int, motion: Motion, durations: np.ndarray, loads: np.ndarray, cycle_before: np.ndarray = NO_SETS
+) -> int:
     """Solve the steps from place `first` on, each from the one before it, to before `end`; returns the first place that is not solved.
 
-    `durations` (s,), s, and `loads` (s, k), N, of all steps.
+    `durations` (s,), s, and `loads` (s, k), N, of all steps; `cycle_before` (N,): sets as `begin` takes them, also of all steps, or none.
     """
     done = np.full(1, first)
     m = motion
     try:
         _solve_steps(
             done, end, steps.table, steps.starts, steps.kinds, m.method, m.stiffness, m.mass, m.damping, m.free_motion,
-            m.friction, m.tolerance.length, m.tolerance.force, durations, loads,
+            m.friction, m.tolerance.length, m.tolerance.force, durations, loads, cycle_before,
             steps.states, steps.forces, steps.displacement, steps.status, steps.iterations,
         )  # fmt: skip
     except np.linalg.LinAlgError:
@@ -67,7 +71,7 @@ def solve_steps(steps: Steps, first: int, end: int, motion: Motion, durations: n
 @njit(cache=True)
 def _solve_steps(
     done, end, table, starts, kinds, method, stiffness, mass, damping, free_motion, friction, length_tolerance, force_tolerance,
-    durations, loads, states, forces, displacement, status, iterations,
+    durations, loads, cycle_before, states, forces, displacement, status, iterations,
 ):  # fmt: skip
     effective, history, duration = stiffness, np.zeros((3, len(stiffness), len(stiffness))), -1.0
     for s in range(done[0], end):
@@ -76,15 +80,15 @@ def _solve_steps(
             effective = _matrices_of_step(method, duration, stiffness, mass, damping, history)
         load = loads[s] if method == STATIC else with_history(loads[s], history, states[s - 1])
         now = slice(kinds * starts[s], kinds * starts[s + 1])
-        nodes = status[starts[s] : starts[s + 1]]
-        _carry(nodes, status[starts[s - 1] : starts[s]], table[s, CARRIED])
+        nodes, last_nodes = status[starts[s] : starts[s + 1]], status[starts[s - 1] : starts[s]]
         n, k = len(nodes), len(load)
+        begin(nodes, last_nodes, integers_at(table[s, CARRIED], n), cycle_before[starts[s] : starts[s + 1]], cycle_before[starts[s - 1] : starts[s]])
         slip_before = np.empty(0)
         if table[s, RIGID_SLIP] != 0:
             before = forces[kinds * starts[s - 1] : kinds * starts[s]]
             slip_before = slip_at_start(
                 vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k),
-                matrix_at(table[s, PREVIOUS_COMPLIANCE], n, len(before)), states[s - 1, POSITION], before,
+                matrix_at(table[s, PREVIOUS_COMPLIANCE], len(before), n), states[s - 1, POSITION], before,
             )  # fmt: skip
         residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
         outcome, count, found, coordinates, moved = newton(
@@ -113,28 +117,33 @@ def _matrices_of_step(method, duration, stiffness, mass, damping, history):
 
 
 @njit(cache=True)
-def _carry(status, before, carried_address):
-    """Begin with the sets of the step before; nodes that are new are open."""
-    carried = integers_at(carried_address, len(status))
+def begin(status, before, carried, now_then, before_then):
+    """Begin with the sets `before` (n before,) of the step before; nodes that are new are open. `carried` (n,): as of a Position.
+
+    `now_then` (n,) and `before_then` (n before,): sets of the same two positions a mesh cycle ago, negative or empty where they are not known.
+    A node that was then as it is in the step before goes on as it did then.
+    """
     for node in range(len(status)):
-        status[node] = before[carried[node]] if carried[node] >= 0 else OPEN
+        last = carried[node]
+        status[node] = before[last] if last >= 0 else OPEN
+        if len(now_then) and now_then[node] >= 0 and (last < 0 or len(before_then) and before_then[last] == before[last]):
+            status[node] = now_then[node]
 
 
 @njit(cache=True)
-def slip_at_start(rigid_slip, previous_jacobian, previous_compliance, position, forces):
+def slip_at_start(rigid_slip, previous_jacobian, columns, position, forces):
     """w_old of [25] (n,), mm: rigid slip less the tangential displacement that the same material points had a step before.
 
-    Arrays as of ContactOperator; `position` (k,) and `forces` of the step before.
+    Arrays as of ContactOperator, `columns` (m before, n) of the `previous_compliance`; `position` (k,) and `forces` of the step before.
     """
-    slip, loaded = rigid_slip.copy(), np.flatnonzero(forces)
-    for node in range(len(slip)):
-        displaced = 0.0
+    displaced = np.zeros(len(rigid_slip))
+    for node in range(len(displaced)):
         for c in range(len(position)):
-            displaced += previous_jacobian[node, c] * position[c]
-        for column in loaded:
-            displaced -= previous_compliance[node, column] * forces[column]
-        slip[node] -= displaced
-    return slip
+            displaced[node] += previous_jacobian[node, c] * position[c]
+    for loaded in np.flatnonzero(forces):
+        for node in range(len(displaced)):
+            displaced[node] -= columns[loaded, node] * forces[loaded]
+    return rigid_slip - displaced
 
 
 @njit(cache=True)

@@ -40,7 +40,7 @@ def _works(table, starts, kinds, positions, forces, displacement):
             forces[then], displacement[then], positions[s - 1],
             vector_at(row[GAP], n_1), matrix_at(row[JACOBIAN], m_1, k), matrix_at(row[COMPLIANCE], m_1, m_1),
             forces[now], displacement[now], positions[s],
-            vector_at(row[RIGID_SLIP], slides), matrix_at(row[PREVIOUS_JACOBIAN], slides, k), matrix_at(row[PREVIOUS_COMPLIANCE], slides, m_0),
+            vector_at(row[RIGID_SLIP], slides), matrix_at(row[PREVIOUS_JACOBIAN], slides, k), matrix_at(row[PREVIOUS_COMPLIANCE], m_0, slides),
         )  # fmt: skip
     return works
 
@@ -48,11 +48,11 @@ def _works(table, starts, kinds, positions, forces, displacement):
 @njit(cache=True)
 def _work(
     carried, gap_0, jacobian_0, compliance_0, forces_0, displaced_0, x_0, gap_1, jacobian_1, compliance_1, forces_1, displaced_1, x_1,
-    rigid_slip, previous_jacobian, previous_compliance,
+    rigid_slip, previous_jacobian, columns,
 ):  # fmt: skip
     """Rotation, friction and changes, N mm. `carried` (n,): the node before of each node now, -1 where it is new.
 
-    Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
+    `columns` (m_0, n_1): of the operator's previous compliance. Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
     """
     n_0, n_1, kinds = len(gap_0), len(gap_1), 2 if len(rigid_slip) else 1
     successor, fresh = np.full(n_0, -1), np.ones(n_1, dtype=np.bool_)
@@ -83,6 +83,7 @@ def _work(
         if after < 0 and kinds == 2 and forces_0[n_0 + node] != 0.0:
             there = _at_other(n_0 + node, jacobian_0, compliance_0, x_1, rows_0, rows_1, forces_1)
             changes -= 0.5 * forces_0[n_0 + node] * (there - displaced_0[n_0 + node])
+    loaded = np.flatnonzero(forces_0)
     for node in range(n_1):
         if fresh[node] and forces_1[node] != 0.0:
             changes -= 0.5 * forces_1[node] * (gap_1[node] - _at_other(node, jacobian_1, compliance_1, x_0, rows_1, rows_0, forces_0))
@@ -94,9 +95,8 @@ def _work(
         if p_0 == 0.0 and p_1 == 0.0:
             continue
         slid = rigid_slip[node] - previous_jacobian[node] @ x_0
-        for column in range(len(forces_0)):
-            if forces_0[column] != 0.0:
-                slid += previous_compliance[node, column] * forces_0[column]
+        for column in loaded:
+            slid += columns[column, node] * forces_0[column]
         if before >= 0:
             moved = displaced_0[n_0 + before]
         else:
@@ -111,7 +111,7 @@ def _work(
 @njit(cache=True)
 def _by_shape(rows_0, rows_1, jacobian_0, compliance_0, forces_0, x_0, jacobian_1, compliance_1, forces_1, x_1):
     """Half of p0 (G1 - G0) x1 + p1 (G1 - G0) x0 - p0 (C1 - C0) p1 over the rows of both ends, N mm."""
-    work = 0.0
+    work, loaded = 0.0, np.flatnonzero(forces_1[rows_1])
     for row in range(len(rows_0)):
         i_0, i_1 = rows_0[row], rows_1[row]
         p_0, p_1 = forces_0[i_0], forces_1[i_1]
@@ -120,10 +120,8 @@ def _by_shape(rows_0, rows_1, jacobian_0, compliance_0, forces_0, x_0, jacobian_
         for k in range(len(x_0)):
             work += (jacobian_1[i_1, k] - jacobian_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
         if p_0 != 0.0:
-            for column in range(len(rows_0)):
-                other = forces_1[rows_1[column]]
-                if other != 0.0:
-                    work -= p_0 * (compliance_1[i_1, rows_1[column]] - compliance_0[i_0, rows_0[column]]) * other
+            for column in loaded:
+                work -= p_0 * (compliance_1[i_1, rows_1[column]] - compliance_0[i_0, rows_0[column]]) * forces_1[rows_1[column]]
     return 0.5 * work
 
 

@@ -19,7 +19,7 @@ from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
 from fenics_gears.contact.step_solver import METHODS, NEWTON
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
-from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, STATIC, Motion, solve_steps
+from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, NO_SETS, STATIC, Motion, solve_steps
 from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
 from fenics_gears.dynamics.steps import Record, Steps, drive_flanks_touch, smallest_openings
 
@@ -142,6 +142,9 @@ class Marcher(Stepper):
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
         most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
+        if self.cycle.face is not None:
+            # The sets of the mesh cycle before are known when a block begins.
+            most = min(most, cycle)
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         first = 1
@@ -172,16 +175,19 @@ class Marcher(Stepper):
         durations = np.zeros(len(steps))
         if self._motion.method != STATIC:
             durations[1:] = [self.clock.duration(step - 1, step) for step in numbers]
+        cycle_before = self._cycle_before(steps) if self.cycle.face is not None else NO_SETS
         loads = np.array([self.load(step) for step in (numbers[0], *numbers)]) if self.loads else np.tile(self.drivetrain.load, (len(steps), 1))
         done = 1
         try:
             while done < len(steps):
                 begun, end = time.perf_counter(), min(done + self._at_once, len(steps))
-                solved = solve_steps(steps, done, end, self._motion, durations, loads)
+                solved = solve_steps(steps, done, end, self._motion, durations, loads, cycle_before)
                 seconds = time.perf_counter() - begun
                 if solved == end:
                     # Ctrl-C is heard between two calls.
                     self._at_once = max(int((end - done) * SECONDS_BETWEEN_REPORTS / max(seconds, 1e-6)), 1)
+                for place in range(done, solved) if len(cycle_before) else ():
+                    self.remember(numbers[place - 1], steps.status[steps.starts[place] : steps.starts[place + 1]])
                 done = solved
                 if done < end:
                     step = numbers[done - 1]
@@ -192,6 +198,11 @@ class Marcher(Stepper):
             if done > 1:
                 take(steps.between(1, done))
         return steps.record(done - 1)
+
+    def _cycle_before(self, steps: Steps) -> np.ndarray:
+        """The sets (N,) of all nodes of some steps a mesh cycle before, -1 where they are not known."""
+        known = zip(map(self.cycle_before, steps.numbers.tolist()), np.diff(steps.starts))
+        return np.concatenate([sets if len(sets) else np.full(nodes, -1, dtype=np.int8) for sets, nodes in known])
 
     def _report(self, report: Callable[[int], None], step: int) -> None:
         now = time.perf_counter()

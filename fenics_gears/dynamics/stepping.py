@@ -14,7 +14,7 @@ from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.clock import Clock, SteadyClock
-from fenics_gears.dynamics.compiled_march import slip_at_start
+from fenics_gears.dynamics.compiled_march import NO_SETS, begin, slip_at_start
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales
@@ -70,6 +70,8 @@ class Stepper:
         self.tolerance = Tolerance.of_load(float(np.abs([drivetrain.load, *varying]).max()))
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
         self._time_scales = equations.time_scales
+        # By step, those of the last mesh cycle and a little more; see `remember`.
+        self._sets: dict[float, np.ndarray] = {}
 
     def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
@@ -88,6 +90,7 @@ class Stepper:
         With a mesh frequency above the lowest of the drivetrain the gears cannot follow: they start at rest in the frame of the nominal
         motion, so as not to part at once. Above the highest they start where the forces of a whole cycle balance.
         """
+        self._sets.clear()
         neighbours = [self._static_start(-1)]
         for step in (0, 1) if self.dynamic.inert else (0,):
             neighbours.append(self.step(self.static, neighbours[-1], step))
@@ -122,6 +125,24 @@ class Stepper:
 
     def step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
         """One step of `scheme` from `last`, divided where the whole step has no solution."""
+        record = self._step(scheme, last, step)
+        self.remember(step, record.solution.status)
+        return record
+
+    def remember(self, step: int, status: np.ndarray) -> None:
+        """Keep the sets (n,) of a step for the next mesh cycle to begin with, over a face.
+
+        There they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a step before is as near.
+        """
+        if self.cycle.face is not None:
+            self._sets[step] = status
+            self._sets.pop(step - self.cycle.steps - 2, None)
+
+    def cycle_before(self, step: float) -> np.ndarray:
+        """The sets (n,) a mesh cycle before `step`; empty where they are not known."""
+        return self._sets.get(step - self.cycle.steps, NO_SETS)
+
+    def _step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
         try:
             return self._part(scheme, last, step, self.cycle.position(step))
         except ContactNotConverged as failure:
@@ -158,13 +179,10 @@ class Stepper:
         operator = position.operator
         slip_before = NO_SLIP
         if operator.rigid_slip is not None:
-            # Rigid flanks have no compliance: zeros that are no array in one piece.
-            compliance = np.ascontiguousarray(operator.previous_compliance)
-            slip_before = slip_at_start(operator.rigid_slip, operator.previous_jacobian, compliance, last.state.position, last.solution.forces)
-        carried = position.carried_from
-        status = np.zeros(operator.nodes, dtype=np.int8)
-        known = carried >= 0
-        status[known] = last.solution.status[carried[known]]
+            columns = np.ascontiguousarray(operator.previous_compliance.T)
+            slip_before = slip_at_start(operator.rigid_slip, operator.previous_jacobian, columns, last.state.position, last.solution.forces)
+        status = np.empty(operator.nodes, dtype=np.int8)
+        begin(status, last.solution.status, position.carried_from, self.cycle_before(step), self.cycle_before(last.step))
         solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 

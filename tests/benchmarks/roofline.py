@@ -54,9 +54,9 @@ def _displacements(table, starts, kinds, forces, positions):
     total = 0.0
     for s in range(1, len(table)):
         m, k = kinds * (starts[s + 1] - starts[s]), positions.shape[1]
-        total += relative_displacement(
-            matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k), forces[kinds * starts[s] : kinds * starts[s + 1]], positions[s]
-        )[0]
+        found, now = np.empty(m), slice(kinds * starts[s], kinds * starts[s + 1])
+        relative_displacement(found, 0, m, matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k), forces[now], positions[s])
+        total += found[0]
     return total
 
 
@@ -66,7 +66,7 @@ def _slips(table, starts, forces, positions, slips):
         n, k = starts[s + 1] - starts[s], positions.shape[1]
         before = forces[2 * starts[s - 1] : 2 * starts[s]]
         slips[starts[s] : starts[s + 1]] = slip_at_start(
-            vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k), matrix_at(table[s, PREVIOUS_COMPLIANCE], n, len(before)),
+            vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k), matrix_at(table[s, PREVIOUS_COMPLIANCE], len(before), n),
             positions[s - 1], before,
         )  # fmt: skip
 

@@ -19,6 +19,7 @@ class SlidingBlock:
     """The contact of a step problem at any time; a whole step slides by its `slip_before`. `solved`: length of every step tried."""
 
     traits = CycleTraits(divisible=True)
+    face = None
 
     def __init__(self, problem: StepProblem):
         self.problem, self.steps, self.solved = problem, 100, []

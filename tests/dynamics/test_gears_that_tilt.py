@@ -41,10 +41,10 @@ class Mesh:
 
         self.cycle = FaceCycle(flanks, bodies, face, openings, ContactGrid(3.0, 12), STEPS, self.shafts.indices, friction)
 
-    def marched(self, plain=False):
-        """One mesh cycle."""
+    def marched(self, plain=False, cycles=1, marcher=Marcher):
+        """One mesh cycle, or more."""
         motion = EquationsOfMotion(self.shafts, 1e-4, 0.1 if self.friction else 0.0)
-        return Marcher(self.cycle, motion, plain).run(STEPS, STEPS + 1).records
+        return marcher(self.cycle, motion, plain).run(cycles * STEPS, cycles * STEPS + 1).records
 
     def reactions(self, record):
         """Force (x, y, z), N, and moment (x, y, z), N mm, of pinion and wheel on their shafts about their mid-widths, from the contact forces."""
@@ -143,8 +143,25 @@ def test_far_bearings_and_a_held_axis_are_the_plane_ones(paper_scene, stand_in_f
 
 
 def test_compiled_and_plain_march_are_the_same(helical):
-    """Two routes to the same number, to the last bit."""
-    fast, slow = (helical[1].marched(plain) for plain in (False, True))
+    """Two routes to the same number, to the last bit; later mesh cycles begin with the sets of the one before."""
+    fast, slow = (helical[1].marched(plain, cycles=3) for plain in (False, True))
     for one, other in zip(fast, slow, strict=True):
         np.testing.assert_array_equal(one.state.position, other.state.position)
         np.testing.assert_array_equal(one.solution.forces, other.solution.forces)
+        np.testing.assert_array_equal(one.solution.displacement, other.solution.displacement)
+        assert one.solution.iterations == other.solution.iterations
+
+
+def test_sets_of_the_mesh_cycle_before_change_iterations_alone(helical):
+    """Uniqueness: where Newton's method begins does not change the solution. A quasi-static cycle repeats itself: one iteration confirms it."""
+
+    class Forgetful(Marcher):
+        def remember(self, step, status):
+            pass
+
+    for mesh in helical:
+        records, others = (mesh.marched(cycles=3, marcher=marcher) for marcher in (Marcher, Forgetful))
+        for one, other in zip(records, others, strict=True):
+            np.testing.assert_allclose(one.solution.forces, other.solution.forces, rtol=0.0, atol=1e-9 * one.solution.forces.max())
+        assert {record.solution.iterations for record in records[-STEPS:]} == {1}
+        assert any(record.solution.iterations > 1 for record in others[-STEPS:])

@@ -32,7 +32,7 @@ def face_scenes(draw, frictions=st.one_of(st.just(0.0), decades(1e-4, 0.2))):
     return helical_scene(
         more + ("[coast_flanks]\n" if coast else ""),
         teeth=(draw(st.integers(18, 40)), draw(st.integers(18, 90))), helix=draw(st.one_of(st.just(0.0), st.floats(1.0, 35.0))),
-        hand=draw(st.sampled_from(("right", "left"))), width=width, torque=torque, offset=draw(st.floats(-0.2, 0.2)) * width, frequency=draw(decades(0.1, 1e4)),
+        hand=draw(st.sampled_from(("right", "left"))), width=width, torque=torque, offset=draw(st.floats(-0.2, 0.2)) * width, frequency=draw(decades(0.1, 1e4)), cycles=2,
         accuracy=f"slices = {draw(st.integers(2, 9))}\ncontact_nodes = {draw(st.integers(2, 13))}\nsteps_per_mesh_cycle = 20",
     )  # fmt: skip
 
