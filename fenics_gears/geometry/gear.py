@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan, cos, pi, sin, tan
+from math import atan, cos, hypot, pi, sin, tan
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.fillet import crossing, fillet_point, touching_end
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
 # Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits of a double.
@@ -113,29 +114,37 @@ class Gear:
         return half_tip_land * cos(alpha) / (1.0 - sin(alpha))
 
     @cached_property
-    def form_roll_angle(self) -> float:
-        """Roll angle (rad) where the fillet ends and the involute begins; negative means undercut.
+    def rack_form_roll_angle(self) -> float:
+        """Roll angle (rad) that the end of the rack's straight flank cuts; negative means undercut.
 
-        The end of the rack's straight flank, at depth c below the pitch line, cuts this point while it crosses the line
-        of action, ``c/sin(alpha)`` before the pitch point.
+        This point, at depth c below the pitch line, cuts while it crosses the line of action, ``c/sin(alpha)`` before the pitch point.
         """
         alpha = self.pressure_angle
         flank_end = self.rack_depth - self.rack_tip_radius * (1.0 - sin(self.normal_pressure_angle))
         return tan(alpha) - flank_end / (self.reference_radius * sin(alpha) * cos(alpha))
 
     @property
-    def form_radius(self) -> float:
-        """Radius (mm) where the fillet meets the involute.
+    def undercut(self) -> bool:
+        """Whether the fillet crosses the involute instead of touching it, so that an edge is where they meet."""
+        return self.rack_form_roll_angle < 0.0
 
-        Raises GeometryError for an undercut gear, whose fillet cuts the involute instead of touching it.
-        """
-        roll = self.form_roll_angle
-        if roll < 0.0:
-            raise GeometryError(
-                f"undercut: the gear with {self.teeth} teeth has no involute down to its fillet "
-                f"(form roll angle {roll:.4f} rad, must not be negative)"
-            )
-        return self.radius(roll)
+    @cached_property
+    def fillet_end(self) -> float:
+        """Fillet parameter (rad, see fillet.py) at the form circle; 0 is the root circle."""
+        return crossing(self) if self.undercut else touching_end(self)
+
+    @cached_property
+    def form_roll_angle(self) -> float:
+        """Roll angle (rad) at the form circle, where the fillet ends and the involute begins."""
+        if not self.undercut:
+            return self.rack_form_roll_angle
+        x, y = fillet_point(self, self.fillet_end)
+        return float(self.roll_angle(hypot(x, y)))
+
+    @property
+    def form_radius(self) -> float:
+        """Radius (mm) of the form circle, where the fillet meets the involute."""
+        return self.radius(self.form_roll_angle)
 
     @cached_property
     def tip_roll_angle(self) -> float:

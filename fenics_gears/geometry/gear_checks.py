@@ -8,13 +8,18 @@ from __future__ import annotations
 from math import cos, isfinite, pi, sin
 from typing import NoReturn
 
+import numpy as np
+
 from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.fillet import fillet_point
 from fenics_gears.geometry.gear import Gear
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
 # Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
 LEAST_RIM = 0.2
+# Thinnest neck of an undercut tooth, in modules.
+LEAST_NECK, NECK_SAMPLES = 0.1, 401
 
 
 def check_gear(gear: Gear, name: str) -> None:
@@ -102,24 +107,26 @@ def _check_rack(gear: Gear, name: str) -> None:
 
 
 def _check_undercut(gear: Gear, name: str) -> None:
-    if gear.form_roll_angle < 0.0:
-        sine = sin(gear.normal_pressure_angle)
-        lowest_root = 2.0 * (gear.reference_radius * cos(gear.pressure_angle) ** 2 - gear.rack_tip_radius * (1.0 - sine))
+    if gear.undercut and (neck := neck_thickness(gear)) < LEAST_NECK * gear.normal_module:
         refuse(
             name,
-            f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm the rack removes involute near the base "
-            f"circle; {gear.teeth} teeth with a rack tip radius of {gear.rack_tip_radius / gear.normal_module:.4g} modules are free of "
-            f"undercut from root diameter {lowest_root:.6g} mm up: raise gears.{name}.root_diameter together with "
-            f"gears.{name}.profile_shift, or gears.{name}.teeth",
+            f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm, the fillets leave a tooth {max(neck, 0.0):.4g} mm thick at its neck; "
+            f"it must have {LEAST_NECK} modules: raise gears.{name}.root_diameter together with gears.{name}.profile_shift, or gears.{name}.teeth",
         )
+
+
+def neck_thickness(gear: Gear) -> float:
+    """Thickness (mm) of a tooth where its two fillets are nearest; negative where they overlap."""
+    x, y = fillet_point(gear, np.linspace(0.0, gear.fillet_end, NECK_SAMPLES)).T
+    return float(2.0 * np.min(np.hypot(x, y) * np.sin(gear.tooth_half_angle_at_base + np.arctan2(x, -y))))
 
 
 def _check_tip(gear: Gear, name: str) -> None:
     if gear.tip_radius <= gear.form_radius:
         refuse(
             name,
-            f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the fillet reaches up to "
-            f"{2.0 * gear.form_radius:.6g} mm: raise gears.{name}.tip_diameter or lower gears.{name}.root_diameter",
+            f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the fillet{' cuts off the involute' if gear.undercut else ' reaches'} up to "
+            f"{2.0 * gear.form_radius:.6g} mm: raise gears.{name}.tip_diameter or {'raise' if gear.undercut else 'lower'} gears.{name}.root_diameter",
         )
     if gear.tip_thickness <= ROUNDING:
         refuse(

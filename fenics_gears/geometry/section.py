@@ -12,9 +12,10 @@ from math import atan2, pi
 
 import numpy as np
 
+from fenics_gears.geometry.fillet import fillet_point, fillet_tangent
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.outline import centreline_angle, fillet_end, fillet_point, fillet_tangent
+from fenics_gears.geometry.outline import centreline_angle
 
 # The fillet is smooth: from 20 points on nothing but round-off changes.
 QUADRATURE_POINTS = 40
@@ -29,7 +30,7 @@ class CrossSection:
 
 
 def gear_section(gear: Gear) -> CrossSection:
-    """The cross-section of a gear from bore to tip. Raises GeometryError for an undercut gear."""
+    """The cross-section of a gear from bore to tip."""
     tip, form = gear.tip_roll_angle, gear.form_roll_angle
     half_tip = gear.tooth_half_angle_at_base - float(involute_function(tip))
     half_tooth = _arc(gear.tip_radius, half_tip) + _involute(gear.base_radius, tip) - _involute(gear.base_radius, form) + _fillet(gear)
@@ -59,7 +60,7 @@ def _involute(base_radius: float, roll_angle: float) -> np.ndarray:
 def _fillet(gear: Gear) -> np.ndarray:
     """Both integrals from the form circle down the fillet and along the root circle to the middle of the tooth space."""
     nodes, weights = np.polynomial.legendre.leggauss(QUADRATURE_POINTS)
-    half = 0.5 * fillet_end(gear)
+    half = 0.5 * gear.fillet_end
     points, tangents = fillet_point(gear, half * (1.0 + nodes)), fillet_tangent(gear, half * (1.0 + nodes))
     turning = half * weights * (points[:, 1] * tangents[:, 0] - points[:, 0] * tangents[:, 1])
     along = np.array([0.5 * turning.sum(), 0.25 * turning @ np.einsum("nd,nd->n", points, points)])
