@@ -55,3 +55,10 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
     normal = canonical_normal(roll)
     centre = canonical_point(base, roll) - radius * normal
     return TipEdge(radius, centre, float(roll), normal, centre / np.linalg.norm(centre))
+
+
+def form_edge(gear: Gear) -> TipEdge:
+    """The sharp edge where the fillet of an undercut gear cuts off its drive flank."""
+    roll = gear.form_roll_angle
+    normal = canonical_normal(roll)
+    return TipEdge(0.0, canonical_point(gear.base_radius, roll), roll, normal, normal)
