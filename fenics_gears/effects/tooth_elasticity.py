@@ -2,48 +2,71 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Optional
+from collections.abc import Iterator, Sequence
+from typing import Literal, Optional
 
-from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable, own_or_shared
+from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.inputs.fields import Section, number, quantity
+from fenics_gears.geometry.materials import MATERIALS
+from fenics_gears.inputs.fields import Section, allowed_in, choice, number, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
 
+CONSTANTS = ("youngs_modulus", "poissons_ratio")
 
-def _youngs_modulus(otherwise: str = ""):
+
+def _youngs_modulus(otherwise: str):
     return quantity("1 kPa", "1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
 
 
-def _poissons_ratio(otherwise: str = ""):
+def _poissons_ratio(otherwise: str):
     return number(0.3, meaning="Poisson's ratio", above=-1, below=0.5, otherwise=otherwise)
 
 
-class MaterialText(Section):
-    """``[gears.material]``: material of both gears. Without this section the flanks are rigid."""
+def _name(otherwise: str):
+    listed = "; ".join(f"{name} {material.youngs_modulus / 1e3:g} GPa, {material.poissons_ratio:g}" for name, (material, _) in MATERIALS.items())
+    return choice(*MATERIALS, meaning=f"material by name, also written `material = \"steel\"` in the section above: {listed}", otherwise=otherwise)
 
-    youngs_modulus: float = _youngs_modulus()
-    poissons_ratio: float = _poissons_ratio()
+
+class MaterialText(Section):
+    """``[gears.material]``: material of both gears, by `name` or by both constants. Without this section the flanks are rigid."""
+
+    name: Optional[Literal[tuple(MATERIALS)]] = _name("both constants are required")
+    youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`")
+    poissons_ratio: Optional[float] = _poissons_ratio("that of the `name`")
 
 
 class OwnMaterialText(Section):
     """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of ``[gears.material]``."""
 
-    youngs_modulus: Optional[float] = _youngs_modulus("from `[gears.material]`")
-    poissons_ratio: Optional[float] = _poissons_ratio("from `[gears.material]`")
+    name: Optional[Literal[tuple(MATERIALS)]] = _name("from `[gears.material]`")
+    youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`, or from `[gears.material]`")
+    poissons_ratio: Optional[float] = _poissons_ratio("that of the `name`, or from `[gears.material]`")
 
 
-def own_material(text: OwnMaterialText | None, shared: MaterialText | None) -> Material | None:
-    """The material of a gear that has one of its own; None for one that has what both share."""
-    if text is None:
+def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | None:
+    """The material of sections of which an earlier one goes before a later one; None where the first is not there."""
+    if texts[0] is None:
         return None
-    return Material(*(float(own_or_shared(text, shared, name)) for name in ("youngs_modulus", "poissons_ratio")))
+    return Material(*(_constant(texts, constant) for constant in CONSTANTS))
+
+
+def _constant(texts: Sequence[MaterialText | OwnMaterialText | None], constant: str) -> float:
+    for text in (each for each in texts if each is not None):
+        if getattr(text, constant) is not None:
+            return float(getattr(text, constant))
+        if text.name is not None:
+            return getattr(MATERIALS[text.name][0], constant)
+    raise AssertionError(f"no {constant} in a checked scene")
 
 
 def materials_are_complete(tree: Tree) -> Iterator[Problem]:
     """Where one gear gives way so does the other, and each has both constants."""
     gears = table(tree, "gears") or {}
+    shared = table(gears, "material")
+    for name in CONSTANTS if shared is not None and "name" not in shared else ():
+        if name not in shared:
+            yield Problem(("gears", "material", name), None, f'is missing. Allowed: {allowed_in(MaterialText, name).description}; or a material by name, such as name = "steel".')
     if "material" in gears or not material_sections(tree):
         return
     for gear in GEARS:
@@ -53,8 +76,8 @@ def materials_are_complete(tree: Tree) -> Iterator[Problem]:
             yield Problem(("gears", gear, "material"), None, message)
             continue
         written = table(own, "material")
-        for name in OwnMaterialText.model_fields:
-            if written is not None and name not in written:
+        for name in CONSTANTS if written is not None and "name" not in written else ():
+            if name not in written:
                 message = "is missing. Add it, or [gears.material] with what both gears share."
                 yield Problem(("gears", gear, "material", name), None, message)
 
@@ -66,6 +89,7 @@ EFFECT = Effect(
     absent="rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair touches",
     text=MaterialText,
     data=Material,
+    read=material_of,
     unknowns=("normal force of each closed contact node",),
     terms=("compliance of the flanks",),
     variables=(

@@ -17,7 +17,7 @@ from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Allowed, Section, out_of_range, refused
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, quantity_at, quantity_in, table
+from fenics_gears.inputs.tree import Tree, dotted, load_in, quantity_in, table
 from fenics_gears.inputs.written import as_written
 
 HIGHEST_ORDER = 1e6
@@ -93,15 +93,16 @@ class TorqueRippleText(Section):
 
 def torque_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
     """A torque that changes its sign needs the coast flanks."""
-    ripple, torque = table(tree, "torque_ripple"), quantity_at(tree, "load", "wheel_torque")
+    ripple, mean = table(tree, "torque_ripple"), load_in(tree)
     written = ripple.get("harmonics") if ripple else None
-    if torque is None or "coast_flanks" in tree or not isinstance(written, list):
+    if mean is None or "coast_flanks" in tree or not isinstance(written, list):
         return
+    torque, of_wheel = mean[1], "" if mean[0][-1] == "wheel_torque" else " is on the wheel"
     amplitudes = [quantity_in(each.get("amplitude")) for each in written if isinstance(each, Mapping)]
     total = sum(amplitude for amplitude in amplitudes if amplitude is not None)
     if isfinite(total) and total > abs(torque):
         message = (
-            f"has amplitudes of {total * 1e-3:.6g} N m together, more than load.wheel_torque: the torque can change its sign and drive the pair "
+            f"has amplitudes of {total * 1e-3:.6g} N m together, more than {dotted(mean[0])}{of_wheel}: the torque can change its sign and drive the pair "
             f"from the wheel. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any with the section [coast_flanks]."
         )
         yield Problem(("torque_ripple", "harmonics"), as_written(written), message)

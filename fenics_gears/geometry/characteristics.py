@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import atan, degrees
+from math import atan, cos, degrees
 
 from fenics_gears.geometry.gear_checks import ROUNDING
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import specific_sliding
+from fenics_gears.geometry.tooth_thickness import ball_diameter, base_tangent_length, dimension_over_balls, normal_thickness, spanned_teeth
 
 
 def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:
@@ -31,6 +32,8 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("end of contact, from T1", pair.path_end, "mm"),
         ("pitch point, from T2 (e)", pair.pitch_point_to_wheel_tangent, "mm"),
         ("backlash along the line of action", _rounded(pair.backlash), "mm"),
+        ("circumferential backlash at the pitch circles (j_wt)", _rounded(pair.backlash / cos(pair.operating_pressure_angle)), "mm"),
+        *([("normal backlash (j_bn)", _rounded(pair.backlash * pair.cosine), "mm")] if pair.helix is not None else []),
         ("centre distance without backlash", pair.centre_distance_without_backlash, "mm"),
     ]
 
@@ -51,11 +54,15 @@ def _gear_rows(pair: GearPair, name: str) -> list[tuple[str, float, str]]:
     gear, number = getattr(pair, name), ("pinion", "wheel").index(name)
     # Where its active profile starts and where its tip meets the mate.
     lowest, tip = (pair.path_start, pair.path_end) if name == "pinion" else (pair.path_end, pair.path_start)
+    teeth, ball = spanned_teeth(gear), ball_diameter(gear)
     rows = [
         ("reference diameter", 2.0 * gear.reference_radius, "mm"),
         ("base diameter", 2.0 * gear.base_radius, "mm"),
         ("form diameter", 2.0 * gear.form_radius, "mm"),
         ("dedendum", gear.dedendum / gear.normal_module, "modules"),
+        ("normal tooth thickness at the reference circle", normal_thickness(gear), "mm"),
+        (f"base tangent length over {teeth} teeth (W_k)", base_tangent_length(gear, teeth), "mm"),
+        (f"dimension over balls of {ball:.6g} mm (M_d)", dimension_over_balls(gear, ball), "mm"),
         ("tooth thickness at the tip", gear.tip_thickness, "mm"),
         ("tip clearance", pair.tip_clearances[number], "mm"),
         ("roll angle, form circle", degrees(gear.form_roll_angle), "deg"),

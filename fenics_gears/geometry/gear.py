@@ -10,6 +10,7 @@ import numpy as np
 
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.fillet import crossing, fillet_point, touching_end
+from fenics_gears.geometry.gear_data import GearData
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
 # Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits of a double.
@@ -179,3 +180,19 @@ class Gear:
         """Arc thickness (mm) of the tooth at a radius (mm, any shape, on the involute)."""
         half_angle = self.tooth_half_angle_at_base - involute_function(self.roll_angle(radius))
         return 2.0 * np.asarray(radius, dtype=float) * half_angle
+
+
+def transverse_gear(gear: GearData, module: float, pressure_angle: float, helix_angle: float) -> Gear:
+    """The gear's transverse section. The tangent of the pressure angle stretches with the pitch line, as the module does (ISO 21771)."""
+    stretch = 1.0 / cos(helix_angle)
+    return Gear(
+        teeth=gear.teeth,
+        module=module * stretch,
+        pressure_angle=atan(tan(pressure_angle) * stretch) if helix_angle else pressure_angle,
+        profile_shift=gear.profile_shift / stretch,
+        tip_radius=0.5 * gear.tip_diameter,
+        root_radius=0.5 * gear.root_diameter,
+        bore_radius=0.5 * gear.bore_diameter,
+        rack_tip_radius=gear.rack_tip_radius * module,
+        helix_angle=helix_angle,
+    )

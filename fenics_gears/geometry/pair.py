@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import acos, atan, cos, floor, pi, sin, sqrt, tan
+from math import acos, cos, floor, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING
 
-from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear import Gear, transverse_gear
 from fenics_gears.geometry.gear_checks import check_gear
-from fenics_gears.geometry.gear_data import GearData, GearPairData
+from fenics_gears.geometry.gear_data import GearPairData
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 from fenics_gears.geometry.pair_checks import check_pair
 
@@ -207,7 +207,7 @@ def gear_pair(data: GearPairData) -> GearPair:
 
     Raises GeometryError, which names what is wrong, on which gear, by how much, and what to change.
     """
-    pinion, wheel = _gear(data, data.pinion), _gear(data, data.wheel)
+    pinion, wheel = (transverse_gear(gear, data.module, data.pressure_angle, data.helix_angle) for gear in (data.pinion, data.wheel))
     check_gear(pinion, "pinion")
     check_gear(wheel, "wheel")
     pair = GearPair(pinion, wheel, data.centre_distance, data.face_width, data.face_widths, _helix(data), data.axial_offsets)
@@ -222,19 +222,3 @@ def _helix(data: GearPairData) -> Helix | None:
     from fenics_gears.geometry.helix import Helix
 
     return Helix(data.helix_angle, data.pinion_hand)
-
-
-def _gear(data: GearPairData, gear: GearData) -> Gear:
-    """The gear's transverse section. The tangent of the pressure angle stretches with the pitch line, as the module does (ISO 21771)."""
-    stretch = 1.0 / cos(data.helix_angle)
-    return Gear(
-        teeth=gear.teeth,
-        module=data.module * stretch,
-        pressure_angle=atan(tan(data.pressure_angle) * stretch) if data.helix_angle else data.pressure_angle,
-        profile_shift=gear.profile_shift / stretch,
-        tip_radius=0.5 * gear.tip_diameter,
-        root_radius=0.5 * gear.root_diameter,
-        bore_radius=0.5 * gear.bore_diameter,
-        rack_tip_radius=gear.rack_tip_radius * data.module,
-        helix_angle=data.helix_angle,
-    )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from math import pi
 from typing import Any
 
 from fenics_gears.inputs import units
@@ -60,6 +61,27 @@ def teeth_in(tree: Tree, gear: str) -> int | None:
     """Teeth of the "pinion" or the "wheel"; None where the number is missing or none that a gear has."""
     teeth = value_at(tree, "gears", gear, "teeth")
     return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
+
+
+# What a load may be given by: torque that resists the wheel, torque that drives the pinion, power that goes through, without losses.
+LOADS = ("wheel_torque", "pinion_torque", "power")
+
+
+def wheel_torque(name: str, number: float, teeth: Sequence[int], mesh_frequency: float | None) -> float | None:
+    """Torque on the wheel, N mm, of one of `LOADS` (N mm, N mm/s); None for a power without a mesh frequency (Hz)."""
+    if name == "power":
+        return number * teeth[1] / (2.0 * pi * mesh_frequency) if mesh_frequency else None
+    return number if name == "wheel_torque" else number * teeth[1] / teeth[0]
+
+
+def load_in(tree: Tree) -> tuple[Path, float] | None:
+    """The field that gives the load, and the torque (N mm) on the wheel; None where there is none that can be read."""
+    teeth = [teeth_in(tree, gear) or 1 for gear in GEARS]
+    frequency, speed = quantity_at(tree, "motion", "mesh_frequency"), quantity_at(tree, "motion", "pinion_speed")
+    frequency = speed / (2.0 * pi) * teeth[0] if frequency is None and speed is not None else frequency
+    given = [(name, number) for name in LOADS if (number := quantity_at(tree, "load", name)) is not None]
+    torque = wheel_torque(*given[0], teeth, frequency) if given else None
+    return None if torque is None else (("load", given[0][0]), torque)
 
 
 # What makes a scene three-dimensional, in the order in which messages name it.

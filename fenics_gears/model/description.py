@@ -51,7 +51,9 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
     Raises GeometryError for impossible gears.
     """
     model = model_of(scene)
-    sections: list[tuple[str, Rows]] = [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
+    derived = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
+    sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
+    sections += [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
     if model.drivetrain.mass is not None:
         sections.append(("Inertia", _inertia_rows(model)))
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(model)))

@@ -14,6 +14,7 @@ from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
+from fenics_gears.geometry.drawing import Derived
 from fenics_gears.geometry.eccentricity_data import Eccentricity
 from fenics_gears.geometry.face_data import LeadModifications, Misalignment
 from fenics_gears.geometry.flank_error_data import FlankErrors
@@ -93,7 +94,7 @@ class Scene:
     """All input of a run, and the text it was read from.
 
     One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an effect that the scene does
-    not name is None. (Elastic teeth are an effect too: they are there where `gears` have a material.)
+    not name is None; `derived`: what the scene leaves out of gears and load. (Elastic teeth are an effect too: they are there where `gears` have a material.)
     """
 
     title: str
@@ -104,6 +105,7 @@ class Scene:
     output: Output = Output()
     text: str = ""
     name: str = "scene"
+    derived: tuple[Derived, ...] = ()
     body_meshes: BodyMeshes | None = None
     shafts: Shafts | None = None
     bearings: Bearings | None = None

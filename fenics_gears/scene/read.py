@@ -9,13 +9,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.effects import tooth_elasticity, top_level
+from fenics_gears.effects import top_level
 from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, line_numbers
 from fenics_gears.inputs.written import WrittenFloat, as_toml
-from fenics_gears.scene import data, schema
+from fenics_gears.scene import data
+from fenics_gears.scene.gears import gear_pair_data, load_data, with_material_sections
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
 
@@ -42,9 +43,9 @@ def text_of(path: Path, kind: str) -> str:
 
 
 def parsed(text: str, source: str) -> dict[str, Any]:
-    """What a TOML text holds, its numbers as they were written. Raises SceneError, which calls the text `source`."""
+    """What a TOML text holds, its numbers as they were written, and a material's name as its section. Raises SceneError, which calls the text `source`."""
     try:
-        return tomllib.loads(text, parse_float=WrittenFloat)
+        return with_material_sections(tomllib.loads(text, parse_float=WrittenFloat))
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
 
@@ -107,35 +108,25 @@ def _nearest_file(path: Path) -> str:
 
 
 def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
-    """The dataclasses of a scene whose tree has neither problems of its schema, `checked` being what that gave, nor broken rules."""
+    """The dataclasses of a scene whose tree has neither problems of its schema, `checked` being what that gave, nor broken rules.
+
+    Raises GeometryError for a figure of the gears that cannot be derived.
+    """
+    gears, derived = gear_pair_data(checked.gears)
+    motion = _motion(checked)
+    load, of_load = load_data(checked.load, checked.gears, motion)
     return data.Scene(
         title=checked.title or name,
-        gears=_gears(checked.gears),
-        load=same_names(data.Load, checked.load),
-        motion=_motion(checked),
+        gears=gears,
+        load=load,
+        motion=motion,
         accuracy=same_names(data.Accuracy, checked.accuracy),
         output=data.Output(checked.output.root_stress, contact_fields=checked.output.contact_fields is not False),
         text=text,
         name=name,
+        derived=(*derived, *of_load),
         **{effect.section: effect.from_text(getattr(checked, effect.section), directory) for effect in top_level()},
     )
-
-
-def _gears(gears: schema.Gears) -> data.GearPairData:
-    widths = [own.face_width or gears.face_width for own in (gears.pinion, gears.wheel)]
-    offsets = tuple(float(own.axial_offset or 0.0) for own in (gears.pinion, gears.wheel))
-    # Where both ends are apart by as much, and so where there is no offset, the smaller width is the common one, to the last digit.
-    apart = abs(offsets[0] - offsets[1])
-    common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
-    alike = widths[0] == widths[1] == common
-    pinion, wheel = (
-        same_names(
-            data.GearData, own, ("axial_offset",), face_width=None if alike else width, material=tooth_elasticity.own_material(own.material, gears.material)
-        )
-        for own, width in zip((gears.pinion, gears.wheel), widths)
-    )
-    material = tooth_elasticity.EFFECT.from_text(gears.material)
-    return same_names(data.GearPairData, gears, face_width=common, pinion=pinion, wheel=wheel, material=material, axial_offsets=offsets)
 
 
 def _motion(checked) -> data.Motion:

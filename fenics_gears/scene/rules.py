@@ -14,9 +14,10 @@ from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.names import nearest
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.synonyms import meant
-from fenics_gears.inputs.tree import GEARS, Tree, given_for, material_sections, quantity_at, quantity_in, table, teeth_in, value_at
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, load_in, material_sections, quantity_at, quantity_in, table, teeth_in, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
+from fenics_gears.scene.drawing_rules import DRAWING_RULES
 from fenics_gears.scene.face_rules import faces_are_resolved_by_elastic_contact, fields_of_faces_have_a_face
 from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears, Motion
 
@@ -193,8 +194,9 @@ def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
 
     if gears and not material_sections(tree):
         yield problem("needs teeth that give way. Add [gears.material], or leave the target out.")
-    if quantity_at(tree, "load", "wheel_torque") == 0.0:
-        yield problem("has no meaning without a load: nothing gives way then. Give load.wheel_torque, or leave the target out.")
+    load = load_in(tree)
+    if load is not None and load[1] == 0.0:
+        yield problem(f"has no meaning without a load: nothing gives way then. Give {'.'.join(load[0])}, or leave the target out.")
     if "body_meshes" in tree:
         yield problem("cannot refine the meshes of [body_meshes]. Leave one of the two out.")
 
@@ -226,6 +228,7 @@ _RULES = (
     _a_target_chooses_alone,
     faces_are_resolved_by_elastic_contact,
     fields_of_faces_have_a_face,
+    *DRAWING_RULES,
 )
 
 

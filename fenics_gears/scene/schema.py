@@ -12,72 +12,12 @@ from typing import Any, Literal, Optional
 from pydantic import BaseModel, Field, create_model
 
 from fenics_gears.effects import top_level
-from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.inputs.fields import Allowed, Section, choice, number, quantity, refused, switch, text, whole_number
+from fenics_gears.inputs.fields import Allowed, Section, choice, quantity, refused, switch, text, whole_number
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-
-
-def _diameter(example: str, meaning: str):
-    return quantity("0.1 mm", "100 m", example, meaning=meaning)
-
-
-def _face_width(meaning: str, otherwise: str):
-    return quantity("0.01 mm", "100 m", "15 mm", meaning=meaning, otherwise=otherwise)
-
-
-class Gear(Section):
-    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives, the wheel is driven; both are external gears."""
-
-    teeth: int = whole_number(5, 1000, 16, meaning="number of teeth")
-    profile_shift: float = number(0.196, meaning="profile shift coefficient, in modules", lowest=-5, highest=5)
-    tip_diameter: float = _diameter("82.64 mm", "tip diameter")
-    root_diameter: float = _diameter("62.50 mm", "root diameter, from which the dedendum of the generating rack follows")
-    bore_diameter: float = _diameter("30 mm", "bore diameter; the bore is a rigid ring on the shaft")
-    rack_tip_radius: float = number(
-        0.38, meaning="tip radius of the generating rack, in modules; it shapes the fillet", lowest=0, highest=2, default=0.38
-    )
-    face_width: Optional[float] = _face_width("face width of this gear", "that of `[gears]`")
-    axial_offset: Optional[float] = quantity(
-        "-100 m", "100 m", "2 mm", meaning="mid-width of this gear along the axis, from a place common to both gears, positive to the right, the end from which the pinion is seen to turn counter-clockwise", otherwise="0 mm"
-    )
-    material: Optional[OwnMaterialText] = None
-
-
-class Gears(Section):
-    """``[gears]``: what both gears share."""
-
-    module: float = quantity("0.01 mm", "1 m", "4.5 mm", meaning="module: with `helix_angle` the normal module, without it that of the plane of rotation")
-    pressure_angle: float = quantity("10 deg", "35 deg", "20 deg", meaning="pressure angle of the generating rack: with `helix_angle` in its normal section")
-    helix_angle: Optional[float] = quantity(
-        "1e-3 deg",
-        "45 deg",
-        "15 deg",
-        meaning="helix angle at the reference cylinder, without sign; what is given in modules then counts in normal modules (ISO 21771)",
-        otherwise="spur gears",
-        below="For spur gears, leave it out.",
-    )
-    pinion_hand: Optional[Literal["right", "left"]] = choice(
-        "right", "left", meaning="hand of the pinion's helix; the wheel has the other", otherwise="`right`; has no meaning without `helix_angle`"
-    )
-    centre_distance: float = quantity("0.1 mm", "100 m", "91.5 mm", meaning="distance of the axes")
-    face_width: Optional[float] = _face_width("face width of both gears; gears of unequal width mesh over the smaller one, centred unless they have an `axial_offset`", "each gear has its own `face_width`")
-    pinion: Gear
-    wheel: Gear
-    material: Optional[MaterialText] = None
-
-
-class Load(Section):
-    """``[load]``: the mean torque on the end of the output shaft."""
-
-    wheel_torque: float = quantity(
-        "-1e12 N m",
-        "1e12 N m",
-        "437 N m",
-        meaning="torque that resists the wheel's rotation; where it is negative, the wheel drives, which needs `[coast_flanks]`",
-    )
-
+from fenics_gears.scene.gear_schema import Gears
+from fenics_gears.scene.load import Load
 
 WHOLE_PERIOD = {HUNTING_TOOTH_PERIOD: None}
 

@@ -1,0 +1,17 @@
+"""Gear materials by name: Young's modulus, MPa, Poisson's ratio, and where they are from."""
+
+from __future__ import annotations
+
+from fenics_gears.geometry.gear_data import Material
+
+_ISO_6336, _PLASTICS = "ISO 6336-2, elasticity factor Z_E", "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I; at 20 degC, dry, short term"
+MATERIALS: dict[str, tuple[Material, str]] = {
+    "steel": (Material(206e3, 0.3), "ISO 6336-1"),
+    "cast steel": (Material(202e3, 0.3), _ISO_6336),
+    "ductile cast iron": (Material(173e3, 0.3), _ISO_6336),
+    "grey cast iron": (Material(118e3, 0.3), _ISO_6336),
+    "tin bronze": (Material(113e3, 0.3), _ISO_6336),
+    "cast tin bronze": (Material(103e3, 0.3), _ISO_6336),
+    "POM": (Material(2.9e3, 0.35), _PLASTICS),
+    "PA66": (Material(3.0e3, 0.39), _PLASTICS),
+}

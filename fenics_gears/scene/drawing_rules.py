@@ -1,0 +1,82 @@
+"""Rules of what a drawing may leave out: of alternatives one is given, and what belongs together is there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from fenics_gears.inputs.fields import allowed_in
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import GEARS, LOADS, Tree, table, value_at
+from fenics_gears.inputs.written import as_written
+from fenics_gears.scene.gear_schema import Gear
+from fenics_gears.scene.load import Load
+
+# Measures of the tooth thickness, each with what has to be known with it.
+MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
+
+
+def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:
+    """Each gear has a profile shift or a measure of its thickness, and no more than one measure."""
+    gears = table(tree, "gears") or {}
+    for gear in GEARS:
+        own = table(gears, gear)
+        if own is None:
+            continue
+        measures = [name for name in MEASURES if name in own]
+        if not measures and "profile_shift" not in own:
+            allowed = allowed_in(Gear, "profile_shift").description
+            yield Problem(("gears", gear, "profile_shift"), None, f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}.")
+        for name in measures[1:]:
+            yield Problem(("gears", gear, name), as_written(own[name]), f"stands beside {measures[0]}; allowed is one measure of the tooth thickness. Leave one out.")
+        for name in measures:
+            beside = MEASURES[name]
+            if beside is not None and beside not in own:
+                yield Problem(("gears", gear, beside), None, f"is missing. Allowed: {allowed_in(Gear, beside).description}; {name} has no meaning without it.")
+
+
+def _backlash_has_its_place(tree: Tree) -> Iterator[Problem]:
+    """A backlash is made by thinner teeth of both gears, or by the centre distance of measured ones."""
+    gears = table(tree, "gears") or {}
+    if "backlash" not in gears:
+        return
+    measured = [f"gears.{gear}.{name}" for gear in GEARS for name in MEASURES if name in (table(gears, gear) or {})]
+    if measured and (len({name.split(".")[1] for name in measured}) == 1 or "centre_distance" in gears):
+        beside = measured[0] if "centre_distance" not in gears else f"{measured[0]} and gears.centre_distance"
+        message = f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured tooth thicknesses of both without centre_distance. Leave one out."
+        yield Problem(("gears", "backlash"), as_written(gears["backlash"]), message)
+
+
+def _no_figure_is_given_twice(tree: Tree) -> Iterator[Problem]:
+    """What follows from a figure of the rack is not given beside it."""
+    gears = table(tree, "gears") or {}
+    if "tip_shortening" in gears and all("tip_diameter" in (table(gears, gear) or {}) for gear in GEARS):
+        message = "stands beside the tip diameters of both gears, which say the same. Leave it out, or a tip diameter."
+        yield Problem(("gears", "tip_shortening"), as_written(gears["tip_shortening"]), message)
+    for gear in GEARS:
+        own = table(gears, gear) or {}
+        rack = table(own, "rack") or {}
+        for name, diameter in (("addendum", "tip_diameter"), ("dedendum", "root_diameter"), ("tip_radius", "rack_tip_radius")):
+            if name in rack and diameter in own:
+                yield Problem(("gears", gear, "rack", name), as_written(rack[name]), f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out.")
+
+
+def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
+    """One of torque on the wheel, torque on the pinion and power; a power has a steady speed."""
+    load, motion = table(tree, "load"), tree.get("motion", {})
+    if load is None:
+        return
+    given = [name for name in LOADS if name in load]
+    if not given:
+        yield Problem(("load", "wheel_torque"), None, f"is missing. Allowed: {allowed_in(Load, 'wheel_torque').description}; or pinion_torque or power.")
+    for name in given[1:]:
+        yield Problem(("load", name), as_written(load[name]), f"stands beside {given[0]}; allowed is one of {', '.join(LOADS)}. Leave one out.")
+    if "power" not in given:
+        return
+    written = as_written(value_at(tree, "load", "power"))
+    if isinstance(motion, Mapping) and not {"mesh_frequency", "pinion_speed"} & set(motion):
+        yield Problem(("load", "power"), written, 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.')
+    if "speed_ramp" in tree:
+        yield Problem(("load", "power"), written, "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque.")
+
+
+DRAWING_RULES = (_thickness_is_given_once, _backlash_has_its_place, _no_figure_is_given_twice, _load_is_given_once)
