@@ -4,12 +4,14 @@ The rounding of the rack's tip is an ellipse in the transverse section of a heli
 rho = rack_tip_radius and k = 1/cos(helix angle). Where its normal has the angle t from the depth direction and D = sqrt(1 + (k^2 - 1) sin(t)^2), its point
 is (k^2 sin(t), cos(t)) rho/D from its centre and its radius of curvature k^2 rho/D^3. A spur gear has k = D = 1, a circle.
 
-Where the rack cuts deep, or protrudes beyond its flank, the fillet does not touch the involute but crosses it: what is below the crossing is cut away.
+Where the rack cuts deep, the fillet does not touch the involute but crosses it: what is below the crossing is cut away. So it is where the rounding protrudes
+beyond the rack's flank. From the rounding up, at the protuberance angle, a short straight flank then goes back; the fillet's parameter goes on along it, t beyond
+its value at the end of the rounding being length in modules.
 """
 
 from __future__ import annotations
 
-from math import pi
+from math import cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,26 +30,40 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
     ``l = rack_tip_radius/D + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied
     Theory, ch. 6).
     """
-    angle = np.asarray(parameter, dtype=float)
-    distance = _distance_from_pitch_point(gear, angle)
+    angle, along = _on_rack(gear, parameter)
+    distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
     in_space = np.stack([-distance * np.sin(angle), distance * np.cos(angle) - gear.reference_radius], axis=-1)
-    return _turned(in_space, _body_angle(gear, angle))
+    return _turned(in_space, _body_angle(gear, angle, along))
 
 
 def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
     """Derivative (..., 2), mm/rad, of ``fillet_point`` by its parameter."""
-    angle = np.asarray(parameter, dtype=float)
+    angle, along = _on_rack(gear, parameter)
     direction = np.stack([-np.cos(angle), -np.sin(angle)], axis=-1)
-    return fillet_speed(gear, angle)[..., None] * _turned(direction, _body_angle(gear, angle))
+    return fillet_speed(gear, parameter)[..., None] * _turned(direction, _body_angle(gear, angle, along))
 
 
 def fillet_speed(gear: Gear, parameter) -> np.ndarray:
     """Length (mm) of fillet per rad of its parameter: rolling on the rack's rounding plus sliding."""
-    angle = np.asarray(parameter, dtype=float)
+    angle, along = _on_rack(gear, parameter)
     depth, excess, flattening = gear.rack_tip_centre[1], _excess(gear), _flattening(gear, angle)
     turning = depth / (gear.reference_radius * np.cos(angle) ** 2) - excess * np.cos(angle) / (gear.reference_radius * flattening**3)
     curvature_radius = gear.rack_stretch**2 * gear.rack_tip_radius / flattening**3
-    return curvature_radius + _distance_from_pitch_point(gear, angle) * turning
+    speed = curvature_radius + _distance_from_pitch_point(gear, angle) * turning
+    if not gear.protuberance:
+        return speed
+    distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
+    on_flank = gear.module * (1.0 - distance / (gear.reference_radius * np.cos(angle)))
+    return np.where(along > 0.0, on_flank, speed)
+
+
+def _on_rack(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray | float]:
+    """Angle (rad) of the rack's normal at a fillet parameter, and the length (mm) along the straight flank of a protuberance."""
+    angle = np.asarray(parameter, dtype=float)
+    if not gear.protuberance:
+        return angle, 0.0
+    end = 0.5 * pi - gear.transverse_protuberance_angle
+    return np.minimum(angle, end), gear.module * np.maximum(angle - end, 0.0)
 
 
 def _distance_from_pitch_point(gear: Gear, angle):
@@ -65,7 +81,7 @@ def _flattening(gear: Gear, angle):
     return np.sqrt(1.0 + (gear.rack_stretch**2 - 1.0) * np.sin(angle) ** 2)
 
 
-def _body_angle(gear: Gear, angle):
+def _body_angle(gear: Gear, angle, along=0.0):
     """Angle (rad) from the generating pose into the tooth's body frame while ``angle`` is being cut.
 
     The space lies over the rack's tooth at first; the gear has then rolled the rack's travel over its reference radius.
@@ -73,7 +89,7 @@ def _body_angle(gear: Gear, angle):
     across, depth = gear.rack_tip_centre
     # Where the normal meets the pitch line: from the ellipse's centre it is aside of a circle's.
     aside = _excess(gear) * np.sin(angle) / _flattening(gear, angle)
-    rolled = (across + aside - depth * np.tan(angle)) / gear.reference_radius
+    rolled = (across + aside - depth * np.tan(angle) + along / np.cos(angle)) / gear.reference_radius
     return 0.5 * gear.angular_pitch - gear.tooth_half_angle_at_base - rolled
 
 
@@ -92,13 +108,28 @@ def touching_end(gear: Gear) -> float:
 def crossing(gear: Gear) -> float:
     """Fillet parameter (rad) where the fillet of an undercut gear comes out of its involute, by halving to the last digit.
 
-    The fillet rises steadily. At the base circle it is inside the tooth; it ends on the involute's other branch, outside.
+    The fillet rises steadily. Where its rack's normal is that of the flank, or at the base circle, it is inside the tooth; it ends outside.
     """
-    return _halved(lambda parameter: _outside(gear, parameter) >= 0.0, _at_base_circle(gear), touching_end(gear))
+    touching, last = touching_end(gear), _last(gear)
+    inside = touching if gear.protuberance and _radius(gear, touching) > gear.base_radius else _at_base_circle(gear)
+    return halved(lambda parameter: _outside(gear, parameter) >= 0.0, inside, last)
+
+
+def _last(gear: Gear) -> float:
+    """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance has gone back to the flank, if it still rises there."""
+    if not gear.protuberance:
+        return touching_end(gear)
+    angle, flank = gear.transverse_protuberance_angle, gear.pressure_angle
+    end, rounding = 0.5 * pi - angle, gear.rack_tip_radius
+    flattening = float(_flattening(gear, end))
+    across, depth = gear.rack_tip_centre
+    beyond = across + gear.rack_stretch**2 * rounding * cos(angle) / flattening - gear.rack_half_thickness(depth + rounding * sin(angle) / flattening)
+    length = beyond / (cos(angle) * tan(flank) - sin(angle)) / gear.module
+    return end + length if length > 0.0 and fillet_speed(gear, end + 0.5 * length) > 0.0 else end
 
 
 def _at_base_circle(gear: Gear) -> float:
-    return _halved(lambda parameter: _radius(gear, parameter) >= gear.base_radius, 0.0, touching_end(gear))
+    return halved(lambda parameter: _radius(gear, parameter) >= gear.base_radius, 0.0, _last(gear))
 
 
 def _radius(gear: Gear, parameter: float) -> float:
@@ -112,7 +143,7 @@ def _outside(gear: Gear, parameter: float) -> float:
     return float(np.arctan2(x, -y) + involute_function(roll))
 
 
-def _halved(reached, low: float, high: float) -> float:
+def halved(reached, low: float, high: float) -> float:
     """The least number between two from which on `reached` is true, to the last digit; `high` where it never is."""
     while low < (middle := 0.5 * (low + high)) < high:
         low, high = (low, middle) if reached(middle) else (middle, high)

@@ -15,7 +15,10 @@ class Material:
 
 @dataclass(frozen=True)
 class GearData:
-    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's."""
+    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's.
+
+    `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
+    """
 
     teeth: int
     profile_shift: float
@@ -25,6 +28,9 @@ class GearData:
     rack_tip_radius: float
     face_width: float | None = None
     material: Material | None = None
+    tip_chamfer: float = 0.0
+    protuberance: float = 0.0
+    protuberance_angle: float = 0.0
 
 
 @dataclass(frozen=True)
