@@ -8,7 +8,7 @@ allowance where a thickness or a backlash is given beside x. k shortens the tips
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, floor, sqrt, tan
 
 from fenics_gears.geometry import tooth_thickness
@@ -51,7 +51,7 @@ class Rack:
 
 @dataclass(frozen=True)
 class DrawnGear:
-    """What is known of a gear; None is not given. At most one of the measures of its thickness, all in mm."""
+    """What is known of a gear; None is not given. At most one of the measures of its thickness, all in mm. `protuberance`: its amount beyond the finished flank, mm, and its angle, rad."""
 
     teeth: int
     rack: Rack
@@ -63,6 +63,7 @@ class DrawnGear:
     spanned_teeth: int | None = None
     dimension_over_balls: float | None = None
     ball_diameter: float | None = None
+    protuberance: tuple[float, float] = (0.0, 0.0)
 
     @property
     def measured(self) -> bool:
@@ -205,11 +206,11 @@ def _gear_data(pair: DrawnPair, drawn: DrawnGear, name: str, shift: float, cut: 
         found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
     radius = rack.tip_radius
     if radius is None:
-        room = rack_gear(pair, drawn.teeth, cut, root).largest_rack_tip_radius / pair.module
+        room = replace(rack_gear(pair, drawn.teeth, cut, root), protuberance=drawn.protuberance[0]).largest_rack_tip_radius / pair.module
         radius = min(rack.standard_tip_radius, max(0.0, floor((room - 1e-9) * STEPS_OF_TIP_RADIUS) / STEPS_OF_TIP_RADIUS))
         why = f"what has room on the rack's tip, less than the usual {rack.standard_tip_radius:g}" if radius < rack.standard_tip_radius else "that of the rack"
         found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
-    return GearData(drawn.teeth, cut, tip, root, 0.0, radius)
+    return GearData(drawn.teeth, cut, tip, root, 0.0, radius, protuberance=drawn.protuberance[0], protuberance_angle=drawn.protuberance[1])
 
 
 def _asked_measures(pair: DrawnPair, drawn: DrawnGear, name: str, cut: float) -> Iterator[Derived]:

@@ -122,11 +122,23 @@ def neck_thickness(gear: Gear) -> float:
 
 
 def _check_tip(gear: Gear, name: str) -> None:
+    if not 0.0 <= gear.tip_chamfer < gear.tip_radius - gear.form_radius and gear.tip_radius > gear.form_radius:
+        refuse(
+            name,
+            f"gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm; between the form circle and the tip circle are {gear.tip_radius - gear.form_radius:.4g} mm, and "
+            f"involute must be left: lower it to 0 mm or more, but less than that",
+        )
     if gear.tip_radius <= gear.form_radius:
         refuse(
             name,
             f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the fillet{' cuts off the involute' if gear.undercut else ' reaches'} up to "
             f"{2.0 * gear.form_radius:.6g} mm: raise gears.{name}.tip_diameter or {'raise' if gear.undercut else 'lower'} gears.{name}.root_diameter",
+        )
+    if gear.tip_chamfer and gear.tip_thickness <= ROUNDING:
+        refuse(
+            name,
+            f"pointed tip: the chamfers of gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm take {gear.chamfered_arc:.4g} mm off either side of the tip circle, "
+            f"where the tooth is {gear.tip_thickness + 2.0 * gear.chamfered_arc:.4g} mm thick: lower gears.{name}.tip_chamfer or gears.{name}.tip_diameter",
         )
     if gear.tip_thickness <= ROUNDING:
         refuse(

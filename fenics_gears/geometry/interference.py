@@ -22,10 +22,13 @@ def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     that sampling it costs an error of second order only.
     """
     if gear.undercut:
-        return _clearance_along_circles(gear, mate, centre_distance)
+        return min(_clearance_along_circles(gear, mate, centre_distance, corner) for corner in _corners(mate))
+    return min(_clearance_of_corner(gear, mate, centre_distance, corner) for corner in _corners(mate))
+
+
+def _clearance_of_corner(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
     at_contact = atan(mate.tip_roll_angle) - _operating_angle(gear, mate, centre_distance)
-    mate_angle = np.linspace(at_contact, 0.0, PATH_POINTS)
-    radius, angle = _tip_corner_path(gear, mate, centre_distance, mate_angle)
+    radius, angle = _tip_corner_path(gear, mate, centre_distance, np.linspace(at_contact, 0.0, PATH_POINTS), corner)
     fillet = fillet_point(gear, np.linspace(gear.fillet_end, 0.0, FILLET_POINTS))
     fillet_radius = np.hypot(fillet[:, 0], fillet[:, 1])
     # From straight down, as that of the path.
@@ -36,13 +39,21 @@ def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     return float(np.min(radius[over_fillet] - np.interp(angle[over_fillet], fillet_angle, fillet_radius)))
 
 
-def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float) -> float:
+def _corners(gear: Gear) -> list[tuple[float, float]]:
+    """Radius (mm) of each corner of a tip's drive side, and the angle (rad) by which it lies behind the end of the involute: a chamfer has two."""
+    if not gear.tip_chamfer:
+        return [(gear.tip_radius, 0.0)]
+    behind = gear.tooth_half_angle_at_base - involute_function(gear.tip_roll_angle) - 0.5 * gear.tip_thickness / gear.tip_radius
+    return [(gear.tip_form_radius, 0.0), (gear.tip_radius, float(behind))]
+
+
+def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
     """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner, from where this comes below the gear's tip.
 
     An undercut fillet has up to two points at a polar angle, but one at a radius.
     """
-    above = acos((centre_distance**2 + mate.tip_radius**2 - gear.tip_radius**2) / (2.0 * centre_distance * mate.tip_radius))
-    radius, angle = _tip_corner_path(gear, mate, centre_distance, np.linspace(above, 0.0, PATH_POINTS))
+    above = acos((centre_distance**2 + corner[0] ** 2 - gear.tip_radius**2) / (2.0 * centre_distance * corner[0]))
+    radius, angle = _tip_corner_path(gear, mate, centre_distance, np.linspace(above + corner[1], corner[1], PATH_POINTS), corner)
     fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, FILLET_POINTS))
     involute = -involute_function(gear.roll_angle(np.maximum(radius, gear.form_radius)))
     cut = np.interp(radius, np.hypot(fillet[:, 0], fillet[:, 1]), np.arctan2(fillet[:, 0], -fillet[:, 1]))
@@ -54,21 +65,23 @@ def _operating_angle(gear: Gear, mate: Gear, centre_distance: float) -> float:
     return float(np.arccos((gear.base_radius + mate.base_radius) / centre_distance))
 
 
-def _tip_corner_path(gear: Gear, mate: Gear, centre_distance: float, mate_angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Radius (mm) and polar angle from straight down (rad) of the mate's tip corner in the gear's tooth frame.
+def _tip_corner_path(
+    gear: Gear, mate: Gear, centre_distance: float, mate_angle: np.ndarray, corner: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Radius (mm) and polar angle from straight down (rad) of a corner of the mate's tip in the gear's tooth frame.
 
-    ``mate_angle`` (n,), rad, and ``gear_angle`` are those of the corner from the line of centres, seen from either centre. Where the corner
-    is on the line of action it lies on the involute.
+    ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, seen from the mate's centre. Where that end
+    is on the line of action it lies on the gear's involute.
     """
     operating = _operating_angle(gear, mate, centre_distance)
     contact_roll = np.tan(operating) * (1.0 + mate.base_radius / gear.base_radius)
     contact_roll -= mate.base_radius * mate.tip_roll_angle / gear.base_radius
     at_contact = atan(mate.tip_roll_angle) - operating
 
-    def seen(turned):
-        return mate.tip_radius * np.sin(turned), centre_distance - mate.tip_radius * np.cos(turned)
+    def seen(radius, turned):
+        return radius * np.sin(turned), centre_distance - radius * np.cos(turned)
 
-    across, along = seen(mate_angle)
-    gear_angle = np.arctan2(*seen(at_contact)) - np.arctan2(across, along)
+    across, along = seen(corner[0], mate_angle - corner[1])
+    gear_angle = np.arctan2(*seen(mate.tip_form_radius, at_contact)) - np.arctan2(across, along)
     gear_rotation = mate.teeth / gear.teeth * (at_contact - mate_angle)
     return np.hypot(across, along), -involute_function(contact_roll) + gear_angle - gear_rotation

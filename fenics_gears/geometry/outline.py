@@ -33,6 +33,11 @@ class ToothOutline:
         """Drive-flank points (..., 2), mm, at roll angles (...) in rad."""
         return canonical_point(self.gear.base_radius, roll_angle)
 
+    @property
+    def tip_corner(self) -> np.ndarray:
+        """Point (2,), mm, of the drive side where the tip circle begins, beyond the chamfer if there is one."""
+        return tip_corner(self.gear)
+
     def coast(self, points) -> np.ndarray:
         """Mirror images (..., 2) about the tooth's centreline of points (..., 2)."""
         cosine, sine = cos(2.0 * self.centreline_angle), sin(2.0 * self.centreline_angle)
@@ -44,13 +49,21 @@ def centreline_angle(gear: Gear) -> float:
     return -0.5 * pi - gear.tooth_half_angle_at_base
 
 
+def tip_corner(gear: Gear) -> np.ndarray:
+    """Point (2,), mm, where the tip circle begins on the drive side: at the end of the involute, or beyond the straight chamfer there."""
+    if not gear.tip_chamfer:
+        return canonical_point(gear.base_radius, gear.tip_roll_angle)
+    angle = centreline_angle(gear) + 0.5 * gear.tip_thickness / gear.tip_radius
+    return gear.tip_radius * np.array([cos(angle), sin(angle)])
+
+
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
     """Outline of one tooth.
 
     Raises GeometryError when the gear has no involute above its fillet, or when neighbouring fillets would
     overlap because the rack's tip has no room for its rounding.
     """
-    if gear.tip_radius <= gear.form_radius:
+    if gear.tip_form_radius <= gear.form_radius:
         raise GeometryError(
             f"no involute: the tip circle of the gear with {gear.teeth} teeth, radius {gear.tip_radius:.6g} mm, must lie "
             f"above its fillet, which reaches up to {gear.form_radius:.6g} mm"

@@ -14,8 +14,8 @@ import numpy as np
 
 from fenics_gears.geometry.fillet import fillet_point, fillet_tangent
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.involute import canonical_point, involute_function
+from fenics_gears.geometry.outline import centreline_angle, tip_corner
 
 # The fillet is smooth: from 20 points on nothing but round-off changes.
 QUADRATURE_POINTS = 40
@@ -32,8 +32,9 @@ class CrossSection:
 def gear_section(gear: Gear) -> CrossSection:
     """The cross-section of a gear from bore to tip."""
     tip, form = gear.tip_roll_angle, gear.form_roll_angle
-    half_tip = gear.tooth_half_angle_at_base - float(involute_function(tip))
-    half_tooth = _arc(gear.tip_radius, half_tip) + _involute(gear.base_radius, tip) - _involute(gear.base_radius, form) + _fillet(gear)
+    half_tip = 0.5 * gear.tip_thickness / gear.tip_radius if gear.tip_chamfer else gear.tooth_half_angle_at_base - float(involute_function(tip))
+    chamfer = _straight(tip_corner(gear), canonical_point(gear.base_radius, tip)) if gear.tip_chamfer else 0.0
+    half_tooth = _arc(gear.tip_radius, half_tip) + chamfer + _involute(gear.base_radius, tip) - _involute(gear.base_radius, form) + _fillet(gear)
     area, moment = 2 * gear.teeth * half_tooth - _arc(gear.bore_radius, 2.0 * pi)
     return CrossSection(float(area), float(moment))
 
@@ -50,6 +51,12 @@ def cells_section(points: np.ndarray, cells: np.ndarray) -> CrossSection:
 def _arc(radius: float, angle: float) -> np.ndarray:
     """Both integrals over an arc of the circle about the centre."""
     return np.array([0.5 * radius**2, 0.25 * radius**4]) * angle
+
+
+def _straight(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Both integrals along a straight line: of the triangle with the centre."""
+    area = 0.5 * (start[0] * end[1] - start[1] * end[0])
+    return area * np.array([1.0, (start @ start + start @ end + end @ end) / 6.0])
 
 
 def _involute(base_radius: float, roll_angle: float) -> np.ndarray:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import degrees
 from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import CONSTANTS, material_of
 from fenics_gears.geometry.drawing import NAMES, RACKS, Derived, DrawnGear, DrawnPair, Rack, completed
+from fenics_gears.geometry.gear_checks import refuse
 from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
@@ -32,7 +34,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     pair = DrawnPair(
         float(gears.module), float(gears.pressure_angle), float(gears.helix_angle or 0.0), _number(gears.centre_distance), _number(gears.backlash), _number(gears.tip_shortening)
     )
-    distance, drawn, derived = completed(pair, tuple(_drawn(own, gears.rack) for own in both))
+    distance, drawn, derived = completed(pair, tuple(_drawn(own, gears.rack, name, pair.pressure_angle) for own, name in zip(both, NAMES)))
     widths = [float(own.face_width or gears.face_width) for own in both]
     offsets = tuple(float(own.axial_offset or 0.0) for own in both)
     # Where both ends are apart by as much, and so where there is no offset, the smaller width is the common one, to the last digit.
@@ -40,7 +42,9 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
     alike = widths[0] == widths[1] == common
     pinion, wheel = (
-        replace(gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material))
+        replace(
+            gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material), tip_chamfer=float(own.tip_chamfer or 0.0)
+        )
         for gear, own, width in zip(drawn, both, widths)
     )
     given = {"helix_angle": float(gears.helix_angle)} if gears.helix_angle is not None else {}
@@ -55,10 +59,31 @@ def _number(value: float | None) -> float | None:
     return None if value is None else float(value)
 
 
-def _drawn(own: Gear, shared: RackText | None) -> DrawnGear:
+def _drawn(own: Gear, shared: RackText | None, name: str, pressure_angle: float) -> DrawnGear:
     measures = {name: value if isinstance(value := getattr(own, name), int) else _number(value) for name in MEASURES}
     numbers = {name: _number(getattr(own, name)) for name in ("profile_shift", "tip_diameter", "root_diameter")}
-    return DrawnGear(own.teeth, _rack(own, shared), **numbers, **measures)
+    return DrawnGear(own.teeth, _rack(own, shared), **numbers, **measures, protuberance=_protuberance(own, shared, name, pressure_angle))
+
+
+def _protuberance(own: Gear, shared: RackText | None, name: str, pressure_angle: float) -> tuple[float, float]:
+    """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both. Raises GeometryError."""
+    sections = [each for each in (own.rack, shared) if each is not None]
+    amount, angle, stock = (
+        next((float(getattr(each, field)) for each in sections if getattr(each, field) is not None), None) for field in ("protuberance", "protuberance_angle", "finishing_stock")
+    )
+    home = f"gears.{name}.rack" if own.rack is not None and own.rack.protuberance is not None else "gears.rack"
+    if (stock or 0.0) > (amount or 0.0):
+        refuse(
+            name,
+            f"{home}.finishing_stock = {stock:.4g} mm is more than {home}.protuberance = {amount or 0.0:.4g} mm: finishing would leave a step in the root; "
+            "allowed is as much as the protuberance: raise protuberance or lower finishing_stock",
+        )
+    if angle is not None and not amount:
+        refuse(name, f"{home}.protuberance_angle = {degrees(angle):.4g} deg has no meaning without {home}.protuberance: give it, or leave both out")
+    if angle is not None and angle >= pressure_angle:
+        refuse(name, f"{home}.protuberance_angle = {degrees(angle):.4g} deg must be less than gears.pressure_angle = {degrees(pressure_angle):.4g} deg: lower it")
+    beyond = (amount or 0.0) - (stock or 0.0)
+    return beyond, (0.5 * pressure_angle if angle is None else angle) if beyond else 0.0
 
 
 def _rack(own: Gear, shared: RackText | None) -> Rack:

@@ -10,7 +10,6 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 
 
-
 def few_teeth(teeth, profile_shift):
     """Changes to the paper's pair: a standard pinion with few teeth, and the centre distance it asks for."""
     pitch = 4.5 * (teeth + 2.0 * profile_shift)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.involute import canonical_normal
 from fenics_gears.geometry.fillet import fillet_point, fillet_speed, fillet_tangent
+from fenics_gears.geometry.involute import canonical_normal
 from fenics_gears.geometry.outline import tooth_outline
 
 CUTS = {
