@@ -46,8 +46,8 @@ def design_warnings(pair: GearPair) -> list[str]:
     for name, other, lowest in _shortened(pair):
         found.append(
             f"{name}: undercut: the {other}'s tip would be in contact down to roll angle {in_degrees(lowest)}, but the involute is cut away below "
-            f"{in_degrees(getattr(pair, name).form_roll_angle)} (form circle): contact ratio {pair.contact_ratio:.4g} instead of {whole:.4g}; raise "
-            f"gears.{name}.profile_shift together with its diameters, or gears.{name}.teeth"
+            f"{in_degrees(getattr(pair, name).form_roll_angle)} (form circle): contact ratio {pair.contact_ratio:.4g} instead of {whole:.4g}; "
+            f"{_less_undercut(pair, name)}"
         )
     return found
 
@@ -94,14 +94,20 @@ def _check_tip_clearance(pair: GearPair) -> None:
 
 def _check_contact_ratio(pair: GearPair) -> None:
     if pair.contact_ratio < 1.0:
-        cut = "".join(f", shortened by the undercut {name}" for name, *_ in _shortened(pair))
-        undercut = ", or raise the profile_shift of an undercut gear together with its root_diameter" if cut else ""
+        short = [name for name, *_ in _shortened(pair) if getattr(pair, name).undercut]
+        cut = "".join(f", shortened by the undercut {name}" for name in short)
+        undercut = "".join(f", or {_less_undercut(pair, name)}" for name in short)
         refuse(
             "pair",
             f"{'transverse ' if pair.helix else ''}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, otherwise a tooth pair leaves before the "
             f"next one enters: raise gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance "
             f"({pair.centre_distance:.6g} mm){undercut}",
         )
+
+
+def _less_undercut(pair: GearPair, name: str) -> str:
+    protuberance = "lower protuberance of its rack, or " if getattr(pair, name).protuberance else ""
+    return f"{protuberance}raise gears.{name}.profile_shift together with its diameters, or gears.{name}.teeth"
 
 
 def _shortened(pair: GearPair) -> Iterator[tuple[str, str, float]]:

@@ -62,12 +62,17 @@ def _on_edges(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
     found, half = np.zeros((4, sum(counts)), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
     cut = cycle.pair.pinion.undercut, cycle.pair.wheel.undercut
     for pair, nodes in zip(pairs, node_slices(pairs)):
-        if pair.place.line is not None:
-            continue
-        below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
         first, last = nodes.start, nodes.stop - 1
-        found[0, first] = below[0] >= below[1] and below[0] > -half
-        found[1, last] = above[1] <= above[0] and above[1] < half
+        if pair.place.line is None:
+            below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
+            found[0, first] = below[0] >= below[1] and below[0] > -half
+            found[1, last] = above[1] <= above[0] and above[1] < half
+        elif any(cut):
+            from fenics_gears.contact.corner import edge_ends
+
+            below, above = edge_ends(cycle.pair, cycle.corner, pair.place)
+        else:
+            continue
         found[2, last] = cut[0] and above[0] <= above[1] and above[0] < half
         found[3, first] = cut[1] and below[1] >= below[0] and below[1] > -half
     return found
