@@ -87,7 +87,7 @@ def sector_boundary(
     outline = tooth_outline(gear, FILLET_SAMPLES)
     flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank, sizes.mate_tip))
     root = root_curve(outline)
-    corner = outline.tip_corner
+    corner = outline.tip_corner if gear.tip_chamfer else flank[-1]
     tip = _arc(gear.tip_radius, corner, outline.coast(corner))
     coast = outline.coast(flank[::-1])
     hub_angles = outline.centreline_angle + 0.5 * gear.angular_pitch * np.array([-1.0, 1.0])
