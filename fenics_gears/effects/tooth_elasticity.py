@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Literal, Optional
 
 from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
@@ -48,16 +48,9 @@ def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | Non
     """The material of sections of which an earlier one goes before a later one; None where the first is not there."""
     if texts[0] is None:
         return None
-    return Material(*(_constant(texts, constant) for constant in CONSTANTS))
-
-
-def _constant(texts: Sequence[MaterialText | OwnMaterialText | None], constant: str) -> float:
-    for text in (each for each in texts if each is not None):
-        if getattr(text, constant) is not None:
-            return float(getattr(text, constant))
-        if text.name is not None:
-            return getattr(MATERIALS[text.name][0], constant)
-    raise AssertionError(f"no {constant} in a checked scene")
+    there = [text for text in texts if text is not None]
+    stated = [each for text in there for each in (text, MATERIALS[text.name][0] if text.name is not None else text)]
+    return Material(*(next(float(value) for each in stated if (value := getattr(each, constant)) is not None) for constant in CONSTANTS))
 
 
 def materials_are_complete(tree: Tree) -> Iterator[Problem]:

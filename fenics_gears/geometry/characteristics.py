@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan, cos, degrees
+from math import atan, degrees
 
 from fenics_gears.geometry.gear_checks import ROUNDING
 from fenics_gears.geometry.pair import GearPair
@@ -32,7 +32,7 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("end of contact, from T1", pair.path_end, "mm"),
         ("pitch point, from T2 (e)", pair.pitch_point_to_wheel_tangent, "mm"),
         ("backlash along the line of action", _rounded(pair.backlash), "mm"),
-        ("circumferential backlash at the pitch circles (j_wt)", _rounded(pair.backlash / cos(pair.operating_pressure_angle)), "mm"),
+        ("circumferential backlash at the pitch circles (j_wt)", _rounded(pair.circumferential_backlash), "mm"),
         *([("normal backlash (j_bn)", _rounded(pair.backlash * pair.cosine), "mm")] if pair.helix is not None else []),
         ("centre distance without backlash", pair.centre_distance_without_backlash, "mm"),
     ]

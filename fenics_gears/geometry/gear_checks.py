@@ -5,7 +5,7 @@ Every message says what is wrong, on which gear, the value, the limit, and the f
 
 from __future__ import annotations
 
-from math import cos, isfinite, pi, sin
+from math import cos, floor, isfinite, pi, sin
 from typing import NoReturn
 
 import numpy as np
@@ -20,6 +20,8 @@ ROUNDING = 1e-6
 LEAST_RIM = 0.2
 # Thinnest neck of an undercut tooth, in modules.
 LEAST_NECK, NECK_SAMPLES = 0.1, 401
+# Parts of a module to which a tip radius is rounded down.
+STEPS_OF_TIP_RADIUS = 10_000
 
 
 def check_gear(gear: Gear, name: str) -> None:
@@ -34,6 +36,11 @@ def check_gear(gear: Gear, name: str) -> None:
 def refuse(name: str, message: str) -> NoReturn:
     """Raise the GeometryError; ``name`` is "pinion", "wheel" or "pair"."""
     raise GeometryError(f"{name}: {message}")
+
+
+def tip_radius_with_room(gear: Gear) -> float:
+    """Tip radius, in modules, that the rack's tip has room for: the full radius, rounded down so that both roundings fit; 0 where the rack ends in a point."""
+    return max(0.0, floor((gear.largest_rack_tip_radius / gear.normal_module - 1e-9) * STEPS_OF_TIP_RADIUS) / STEPS_OF_TIP_RADIUS)
 
 
 def _check_numbers(gear: Gear, name: str) -> None:
@@ -101,7 +108,7 @@ def _check_rack(gear: Gear, name: str) -> None:
         refuse(
             name,
             f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / gear.normal_module:.4g} modules, but "
-            f"the rack's tip has room for {gear.largest_rack_tip_radius / gear.normal_module:.4g} (full radius) at this dedendum of "
+            f"the rack's tip has room for {tip_radius_with_room(gear):.4g} (full radius) at this dedendum of "
             f"{gear.dedendum / gear.normal_module:.4g} modules: lower gears.{name}.rack_tip_radius or raise gears.{name}.root_diameter",
         )
 

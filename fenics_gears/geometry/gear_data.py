@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+# ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST 13755-2015; A is also the rack of DIN 867.
+RACKS = {"ISO 53 A": (1.0, 1.25, 0.38), "ISO 53 B": (1.0, 1.25, 0.3), "ISO 53 C": (1.0, 1.25, 0.25), "ISO 53 D": (1.0, 1.4, 0.39)}
+
 
 @dataclass(frozen=True)
 class Material:
@@ -15,7 +18,7 @@ class Material:
 
 @dataclass(frozen=True)
 class GearData:
-    """One gear: diameters in mm, rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's.
+    """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's.
 
     `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
     """

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from fenics_gears.geometry.gear_data import Material
 
-_ISO_6336, _PLASTICS = "ISO 6336-2, elasticity factor Z_E", "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I; at 20 degC, dry, short term"
+_ISO_6336 = "ISO 6336-2, table of the elasticity factor"
+# The table has moduli alone; Poisson's ratios are common ones.
+_PLASTICS = "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I: short term, room temperature"
 MATERIALS: dict[str, tuple[Material, str]] = {
     "steel": (Material(206e3, 0.3), "ISO 6336-1"),
     "cast steel": (Material(202e3, 0.3), _ISO_6336),

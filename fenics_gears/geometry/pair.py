@@ -186,6 +186,11 @@ class GearPair:
         return self.base_pitch - 2.0 * (pinion_tooth + wheel_tooth)
 
     @property
+    def circumferential_backlash(self) -> float:
+        """Gap (mm) as an arc of the pitch circles, j_wt of ISO 21771."""
+        return self.backlash / cos(self.operating_pressure_angle)
+
+    @property
     def centre_distance_without_backlash(self) -> float:
         """Centre distance (mm) at which both flanks of a tooth touch."""
         pinion, wheel = self.pinion, self.wheel

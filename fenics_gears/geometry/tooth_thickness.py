@@ -11,9 +11,6 @@ from math import acos, atan, cos, hypot, pi, sqrt, tan
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
-# Ball diameters that the program chooses, mm, are multiples of this.
-BALL_STEP = 0.05
-
 
 def base_helix_angle(gear: Gear) -> float:
     """Helix angle at the base cylinder: tan(beta_b) = tan(beta) cos(alpha_t)."""
@@ -87,10 +84,10 @@ def shift_of_dimension_over_balls(gear: Gear, dimension: float, ball_diameter: f
 
 
 def ball_diameter(gear: Gear) -> float:
-    """Diameter of a ball that touches the flanks near the shifted reference circle, exactly there for spur gears but for the steps of `BALL_STEP`."""
+    """Diameter of a ball that touches the flanks near the shifted reference circle, exactly there for spur gears but for rounding to 0.05 mm."""
     roll = float(gear.roll_angle(max(_middle_radius(gear), gear.base_radius)))
     centre = tan(roll + pi / gear.teeth - gear.tooth_half_angle_at_base)
-    return max(1, round(2.0 * gear.base_radius * (centre - roll) * cos(base_helix_angle(gear)) / BALL_STEP)) * BALL_STEP
+    return max(1, round(40.0 * gear.base_radius * (centre - roll) * cos(base_helix_angle(gear)))) / 20.0
 
 
 def _middle_radius(gear: Gear) -> float:

@@ -55,12 +55,7 @@ SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
         "ball_diameter": ("dm", "d_m", "pin_diameter", "dp", "wire_diameter"),
         "rack": ("tool", "hob", "basic_rack", "reference_profile"),
     },
-    "gears.rack": {
-        "profile": ("type", "standard", "name"),
-        "addendum": ("hap", "h_ap", "ha", "addendum_coefficient"),
-        "dedendum": ("hfp", "h_fp", "hf", "dedendum_coefficient"),
-        "tip_radius": ("rho_fp", "rhofp", "root_radius", "fillet_radius"),
-    },
+    "gears.rack": {"profile": ("type", "standard"), "addendum": ("hap", "h_ap"), "dedendum": ("hfp", "h_fp"), "tip_radius": ("rho_fp", "root_radius", "fillet_radius")},
     "gears.material": {
         "youngs_modulus": ("e", "modulus", "elastic_modulus", "modulus_of_elasticity", "young", "e_modulus"),
         "poissons_ratio": ("nu", "poisson", "poisson_ratio", "mu"),

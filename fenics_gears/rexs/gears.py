@@ -5,18 +5,17 @@ from __future__ import annotations
 from functools import partial
 from math import acos, atan, cos, isclose, tan
 
+from fenics_gears.geometry.gear_data import RACKS
 from fenics_gears.rexs.attributes import Reading, every, first, given, needed
 from fenics_gears.rexs.stage import GearParts, Stage
 from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place, together
 
 # By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's problems.
 Sections = dict[str, dict[str, Value | None]]
-# ISO 53, basic rack A: addendum, dedendum and tip radius of the rack's tooth, in modules.
-ADDENDUM, DEDENDUM, RACK_TIP_RADIUS = 1.0, 1.25, 0.38
+STANDARD = "ISO 53 A"
+ADDENDUM, DEDENDUM, _ = RACKS[STANDARD]
 # A gear without a known bore: the rim is thick enough not to matter.
 BORE = 0.4
-# ISO 6336-1: Young's modulus (N/mm^2) and Poisson's ratio of steel.
-STEEL = (206e3, 0.3)
 MATERIAL = ("youngs_modulus", "poissons_ratio")
 # Rounding that is allowed where the file repeats module, teeth or shifts, in modules.
 ROUNDED = 1e-3
@@ -41,7 +40,9 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
         pair["face_width"] = widths[0]
     else:
         gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
-    return {"gears": pair, "gears.pinion": gears[0], "gears.wheel": gears[1], **(reading.attempt(_materials, stage) or {})}
+    rack = {"profile": Value(0.0, f'"{STANDARD}"', "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip", assumed=True)}
+    racks = {f"gears.{name}.rack": rack for name, gear in zip(("pinion", "wheel"), gears) if "rack_tip_radius" not in gear}
+    return {"gears": pair, "gears.pinion": gears[0], "gears.wheel": gears[1], **racks, **(reading.attempt(_materials, stage) or {})}
 
 
 def _of_both(stage: Stage, asked: str, different: str) -> Value:
@@ -129,13 +130,14 @@ def _gear_section(reading: Reading, part: GearParts, beta: float, module: Value 
     tip = reading.attempt(needed, part, "tip_diameter") if given(part, "tip_diameter") else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
     stated = given(part, "root_diameter")
     root = reading.attempt(needed, part, "root_diameter") if stated else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
+    radius = reading.attempt(_of_tool, part, module, "rack_tip_radius")
     return {
         "teeth": teeth,
         "profile_shift": shift,
         "tip_diameter": tip,
         "root_diameter": root,
         "bore_diameter": reading.attempt(_bore_diameter, part, root),
-        "rack_tip_radius": reading.attempt(_rack_tip_radius, part, module),
+        **({"rack_tip_radius": radius} if radius is not None else {}),
     }
 
 
@@ -161,10 +163,6 @@ def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, sh
     return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
 
 
-def _rack_tip_radius(part: GearParts, module: Value) -> Value:
-    return _of_tool(part, module, "rack_tip_radius") or bare(RACK_TIP_RADIUS, "no tip radius of the tool; that of ISO 53", assumed=True)
-
-
 def _of_tool(part: GearParts, module: Value, asked: str) -> Value | None:
     """A measure of the tool that made the root, in modules."""
     agreed([module, *every(part, "tool_module")], "The tool has another module than the gear")
@@ -186,8 +184,7 @@ def _materials(stage: Stage) -> Sections:
     found = {name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in zip(("pinion", "wheel"), stage.gears) if part.material}
     if not found:
         why = "no material; that of steel (ISO 6336-1)"
-        steel = computed(STEEL[0], 1e3, "GPa", why, assumed=True), bare(STEEL[1], why, assumed=True)
-        return {"gears.material": dict(zip(MATERIAL, steel))}
+        return {"gears.material": {"name": Value(0.0, '"steel"', why, assumed=True)}}
     try:
         return {"gears.material": {asked: agreed([each[asked] for each in found.values()], "") for asked in MATERIAL}}
     except ValueProblem:

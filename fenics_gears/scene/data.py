@@ -14,7 +14,6 @@ from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.geometry.drawing import Derived
 from fenics_gears.geometry.eccentricity_data import Eccentricity
 from fenics_gears.geometry.face_data import LeadModifications, Misalignment
 from fenics_gears.geometry.flank_error_data import FlankErrors
@@ -28,6 +27,16 @@ class Load:
     """Torque on the wheel's shaft, N mm; positive when it resists the drive."""
 
     wheel_torque: float
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A figure that a scene leaves out: what `gears check` calls it, its value and unit, and the formula that it comes from."""
+
+    name: str
+    value: float
+    unit: str
+    formula: str
 
 
 # Mesh cycles until every tooth has met every other: the least common multiple of the numbers of teeth.

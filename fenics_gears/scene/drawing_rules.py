@@ -8,11 +8,8 @@ from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import GEARS, LOADS, Tree, table, value_at
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.gear_schema import Gear
-from fenics_gears.scene.load import Load
-
-# Measures of the tooth thickness, each with what has to be known with it.
-MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
+from fenics_gears.scene.gear_schema import MEASURES, Gear
+from fenics_gears.scene.schema import Load
 
 
 def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:

@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Literal, Optional
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
-from fenics_gears.geometry.drawing import RACKS
+from fenics_gears.geometry.gear_data import RACKS
 from fenics_gears.inputs.fields import Section, choice, number, quantity, whole_number
+
+# Measures of the tooth thickness, each with what has to be known with it.
+MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
 
 
 def _length(example: str, meaning: str, otherwise: str):

@@ -11,12 +11,12 @@ from typing import Any
 
 from fenics_gears.effects import top_level
 from fenics_gears.effects.effect import same_names
-from fenics_gears.errors import SceneError
+from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, line_numbers
 from fenics_gears.inputs.written import WrittenFloat, as_toml
 from fenics_gears.scene import data
-from fenics_gears.scene.gears import gear_pair_data, load_data, with_material_sections
+from fenics_gears.scene.drawing import gear_pair_data, load_data, with_material_sections
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
 
@@ -86,7 +86,10 @@ def scene_from_text(
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
         raise SceneError(_message(problems, line_numbers(text), source, with_lines))
-    return checked_scene(checked, text, name, directory)
+    try:
+        return checked_scene(checked, text, name, directory)
+    except GeometryError as error:
+        raise GeometryError(f"{source}: {error}\nNothing was computed or written.") from error
 
 
 def _why_no_toml(error: Exception) -> str:

@@ -98,7 +98,7 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
         fenics_gears_version=fenics_gears.__version__,
         cases=len(study.cases),
         cases_failed=len(failures),
-        remarks="\n".join(kept_sizes(study.axes)),
+        remarks="\n".join(kept_sizes(study.axes, study.cases[0].scene.derived)),
         complete=int(len(records) == len(study.cases)),
         curves=why_not or ", ".join(name for name in CURVES if name in result),
     )

@@ -4,17 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from fenics_gears.scene.data import Derived
 from fenics_gears.studies.axis import Axis
 
 TIP, ROOT, SHIFT, CENTRES = "tip_diameter", "root_diameter", "profile_shift", "centre_distance"
 OF_ONE_GEAR = {SHIFT: (TIP, ROOT), "teeth": (TIP, ROOT)}
 OF_BOTH_GEARS = {"module": (TIP, ROOT), "helix_angle": (TIP, ROOT), "pressure_angle": (), CENTRES: (SHIFT, TIP)}
+# A field's name as a derived figure is called: "pinion tip diameter".
+IN_WORDS = str.maketrans("._", "  ")
 
 
-def kept_sizes(axes: Iterable[Axis]) -> list[str]:
-    """A sentence for each swept size of the gears, on the diameters, profile shifts and the centre distance that stay the same in all cases."""
-    swept = {axis.dotted for axis in axes}
-    return [_sentence(name, kept) for name in sorted(swept) if (kept := [each for each in _bound_to(name) if each not in swept])]
+def kept_sizes(axes: Iterable[Axis], derived: Iterable[Derived] = ()) -> list[str]:
+    """A sentence for each swept size of the gears, on the diameters, profile shifts and the centre distance that stay the same in all cases.
+
+    derived: what the scenes leave out, which follows the swept size.
+    """
+    swept, follow = {axis.dotted for axis in axes}, {each.name for each in derived}
+    kept = {name: [each for each in _bound_to(name) if each not in swept and each[len("gears.") :].translate(IN_WORDS) not in follow] for name in sorted(swept)}
+    return [_sentence(name, sizes) for name, sizes in kept.items() if sizes]
 
 
 def _bound_to(name: str) -> list[str]:

@@ -258,8 +258,8 @@ def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Sc
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
         return None, problems
-    scene = checked_scene(checked, as_toml(tree), name, directory)
     try:
+        scene = checked_scene(checked, as_toml(tree), name, directory)
         model_of(scene)
     except SceneError as error:
         return None, [Problem((), None, str(error))]

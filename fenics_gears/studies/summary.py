@@ -29,7 +29,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         without_meaning = sum(NO_MEANING in record.warnings for record in records)
         if without_meaning:
             rows.append(("cases without meaning", f"{without_meaning}, see the variable meaningless", ""))
-    rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes)]
+    rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes, outcome.study.cases[0].scene.derived)]
     return rows
 
 

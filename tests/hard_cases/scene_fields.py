@@ -22,6 +22,7 @@ SHAFT = {"torsional_stiffness": "0.203e9 N mm/rad"}
 # What a field stands instead of: it cannot be beside these.
 INSTEAD = {
     ("motion", "pinion_speed"): ["mesh_frequency"],
+    **{("load", name): ["wheel_torque"] for name in ("pinion_torque", "power")},
     **{(*path, "density"): [*LUMPED] for path in (("inertia",), ("inertia", "pinion"), ("inertia", "wheel"))},
     **{("damping", name): [*RAYLEIGH, "pinion", "wheel"] for name in ("ratio", "ratios")},
 }
@@ -30,7 +31,7 @@ SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/
 UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a torque": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
     "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2", "a density": "g/cm^3", "a time": "s",
-    "a percentage": "%",
+    "a percentage": "%", "a power": "kW",
 }  # fmt: skip
 
 
