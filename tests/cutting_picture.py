@@ -1,6 +1,5 @@
 """Draws docs/pictures/cutting.png: teeth between the positions of the rack that cuts them. ``python -m tests.cutting_picture``"""
 
-from dataclasses import replace
 from math import pi, radians
 from pathlib import Path
 

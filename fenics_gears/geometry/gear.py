@@ -10,7 +10,7 @@ import numpy as np
 
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.fillet import crossing, fillet_point, touching_end
-from fenics_gears.geometry.gear_data import GearData
+from fenics_gears.geometry.gear_data import GearData, Web
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
 # Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits of a double.
@@ -40,6 +40,7 @@ class Gear:
     tip_chamfer: float = 0.0
     protuberance: float = 0.0
     protuberance_angle: float = 0.0
+    web: Web | None = None
 
     @property
     def normal_module(self) -> float:
@@ -74,7 +75,11 @@ class Gear:
     def of_module_one(self) -> Gear:
         """The similar gear whose module is the unit of length."""
         lengths = ("tip_radius", "root_radius", "bore_radius", "rack_tip_radius", "tip_chamfer", "protuberance")
-        return replace(self, module=1.0, **dict(zip(lengths, self.in_modules(*(getattr(self, length) for length in lengths)))))
+        web = self.web
+        if web is not None:
+            hub, rim = self.in_modules(web.hub_radius, web.rim_radius)
+            web = Web(hub, rim, web.share)
+        return replace(self, module=1.0, web=web, **dict(zip(lengths, self.in_modules(*(getattr(self, length) for length in lengths)))))
 
     @property
     def angular_pitch(self) -> float:
@@ -228,4 +233,5 @@ def transverse_gear(gear: GearData, module: float, pressure_angle: float, helix_
         tip_chamfer=gear.tip_chamfer,
         protuberance=gear.protuberance,
         protuberance_angle=gear.protuberance_angle,
+        web=gear.web,
     )

@@ -28,6 +28,7 @@ def check_gear(gear: Gear, name: str) -> None:
     """Refuse a gear (``name`` is its section of the scene) that no rack can cut; raises GeometryError."""
     _check_numbers(gear, name)
     _check_circles(gear, name)
+    _check_web(gear, name)
     _check_rack(gear, name)
     _check_undercut(gear, name)
     _check_tip(gear, name)
@@ -86,6 +87,20 @@ def _check_circles(gear: Gear, name: str) -> None:
             f"no rim: bore diameter {bore:.6g} mm, root diameter {root:.6g} mm; with a rim of {LEAST_RIM} modules the bore "
             f"may be {largest_bore:.6g} mm: lower gears.{name}.bore_diameter",
         )
+
+
+def _check_web(gear: Gear, name: str) -> None:
+    if gear.web is None:
+        return
+    bore, hub, rim, largest = (2.0 * radius for radius in (gear.bore_radius, gear.web.hub_radius, gear.web.rim_radius, gear.root_radius - LEAST_RIM * gear.normal_module))
+    if not bore <= hub < rim <= largest:
+        refuse(
+            name,
+            f"no web: gears.{name}.web.hub_diameter = {hub:.6g} mm, rim_inner_diameter = {rim:.6g} mm; from the bore on, {bore:.6g} mm, they must rise, and with a rim of "
+            f"{LEAST_RIM} modules the rim may begin at {largest:.6g} mm: change hub_diameter or rim_inner_diameter",
+        )
+    if not 0.0 < gear.web.share <= 1.0:
+        refuse(name, f"gears.{name}.web.width is {gear.web.share:.4g} of the face width; it must be more than none and no more than all of it: lower it")
 
 
 def _check_rack(gear: Gear, name: str) -> None:

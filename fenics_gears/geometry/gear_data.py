@@ -17,6 +17,15 @@ class Material:
 
 
 @dataclass(frozen=True)
+class Web:
+    """A part of the gear's body that is thinner than the face, from the hub's radius to the rim's inner radius (mm); `share`: its width over the face width."""
+
+    hub_radius: float
+    rim_radius: float
+    share: float
+
+
+@dataclass(frozen=True)
 class GearData:
     """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's.
 
@@ -34,6 +43,7 @@ class GearData:
     tip_chamfer: float = 0.0
     protuberance: float = 0.0
     protuberance_angle: float = 0.0
+    web: Web | None = None
 
 
 @dataclass(frozen=True)

@@ -30,12 +30,14 @@ class CrossSection:
 
 
 def gear_section(gear: Gear) -> CrossSection:
-    """The cross-section of a gear from bore to tip."""
+    """The cross-section of a gear from bore to tip; a web counts by its share of the face width."""
     tip, form = gear.tip_roll_angle, gear.form_roll_angle
     half_tip = 0.5 * gear.tip_thickness / gear.tip_radius if gear.tip_chamfer else gear.tooth_half_angle_at_base - float(involute_function(tip))
     chamfer = _straight(tip_corner(gear), canonical_point(gear.base_radius, tip)) if gear.tip_chamfer else 0.0
     half_tooth = _arc(gear.tip_radius, half_tip) + chamfer + _involute(gear.base_radius, tip) - _involute(gear.base_radius, form) + _fillet(gear)
     area, moment = 2 * gear.teeth * half_tooth - _arc(gear.bore_radius, 2.0 * pi)
+    if (web := gear.web) is not None:
+        area, moment = np.array([area, moment]) - (1.0 - web.share) * (_arc(web.rim_radius, 2.0 * pi) - _arc(web.hub_radius, 2.0 * pi))
     return CrossSection(float(area), float(moment))
 
 

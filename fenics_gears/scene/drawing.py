@@ -17,7 +17,7 @@ from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry import tooth_thickness
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear, transverse_gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData
+from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
@@ -52,12 +52,20 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
     alike = widths[0] == widths[1] == common
     pinion, wheel = (
-        replace(gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material))
+        replace(
+            gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material), web=_web(own, width)
+        )
         for gear, own, width in zip(drawn, both, widths)
     )
     others = {"face_width": common, "pinion": pinion, "wheel": wheel, "material": material_of(gears.material), "axial_offsets": offsets}
     data = same_names(GearPairData, gears, ("backlash", "tip_shortening", "rack"), centre_distance=distance, **others)
     return data, derived + _named_materials(gears)
+
+
+def _web(own: GearText, face_width: float) -> Web | None:
+    if own.web is None:
+        return None
+    return Web(0.5 * (own.web.hub_diameter or own.bore_diameter), 0.5 * own.web.rim_inner_diameter, own.web.width / face_width)
 
 
 def _named_materials(gears: Gears) -> list[Derived]:

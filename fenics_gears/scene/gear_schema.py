@@ -49,6 +49,14 @@ class RackText(Section):
     )
 
 
+class WebText(Section):
+    """``[gears.pinion.web]`` and ``[gears.wheel.web]``: a web between hub and rim that is less wide than the face. It counts in plane strain, stiff and heavy by its share of the face width."""
+
+    rim_inner_diameter: float = _diameter("100 mm", "inner diameter of the rim, where the web ends")
+    width: float = _length("8 mm", "width of the web, at most the gear's face width", "")
+    hub_diameter: Optional[float] = _diameter("50 mm", "outer diameter of the hub, where the web begins", "the bore diameter")
+
+
 class Gear(Section):
     """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives, the wheel is driven; both are external gears. The tooth thickness is given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or `dimension_over_balls`). With both, the measured thickness holds, and root circle with it, since one rack cuts both; tip circle and centre distance go by `profile_shift`."""
 
@@ -77,6 +85,7 @@ class Gear(Section):
         "-100 m", "100 m", "2 mm", meaning="mid-width of this gear along the axis, from a place common to both gears, positive to the right, the end from which the pinion is seen to turn counter-clockwise", otherwise="0 mm"
     )
     rack: Optional[RackText] = None
+    web: Optional[WebText] = None
     material: Optional[OwnMaterialText] = None
 
 
