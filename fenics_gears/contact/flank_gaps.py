@@ -7,6 +7,7 @@ a node's function, so are deviations.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -33,11 +34,12 @@ FEWEST_STEPS_A_WAVE = 2
 @dataclass(frozen=True)
 class _Nodes:
     """The contact nodes of one pair at a position: where they stand among all; for either gear the index of its tooth and the gap (n, m)
-    per unit of each deviation."""
+    per unit of each deviation; of either gear the functions that give the measured excess (n,) of a tooth."""
 
     nodes: slice
     teeth: tuple[int, int]
     shapes: tuple[np.ndarray, np.ndarray]
+    measured: tuple[list[Callable[[int], np.ndarray]], list[Callable[[int], np.ndarray]]]
 
 
 class FlankGaps:
@@ -61,6 +63,9 @@ class FlankGaps:
             one, two = (int(cycle - tooth) % teeth for tooth, teeth in zip(each.teeth, self._teeth))
             shapes_1, shapes_2 = each.shapes
             gap[each.nodes] = shapes_1 @ first[one, : shapes_1.shape[1]] + shapes_2 @ second[two, : shapes_2.shape[1]]
+            for tooth, measured in zip((one, two), each.measured):
+                for excess in measured:
+                    gap[each.nodes] -= excess(tooth)
         return gap
 
     def _nodes(self, index: float, position: Position) -> list[_Nodes]:
@@ -68,7 +73,8 @@ class FlankGaps:
             return self._kept[index]
         pairs = position.operator.pairs
         found = [
-            _Nodes(nodes, pair.place.teeth, (self._shapes(0, pair), self._shapes(1, pair))) for nodes, pair in zip(node_slices(pairs), pairs)
+            _Nodes(nodes, pair.place.teeth, (self._shapes(0, pair), self._shapes(1, pair)), (self._measured(0, pair), self._measured(1, pair)))
+            for nodes, pair in zip(node_slices(pairs), pairs)
         ]
         if index == int(index):
             self._kept[index] = found
@@ -84,25 +90,46 @@ class FlankGaps:
         displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
         if pair.place.flank != DRIVE:
             return displaced[:, None]
-
-        def at(offsets):
-            return roll_angle_at_height(body.base_radius, pair.place.contact_rolls[gear], arm - SENSES[gear] * offsets)
-
         # Waves run along the lines of contact, as the periodic error of a generating machine leaves them.
         turned = SENSES[gear] * self._slope * pair.place.height / body.base_radius
-        excess = profile_shapes(own, at, pair, turned)
+        excess = profile_shapes(own, self._rolls(gear, pair), pair, turned)
         return np.stack([displaced, *(-each for each in excess)], axis=1)
 
+    def _rolls(self, gear: int, pair: PairNodes) -> np.ndarray:
+        """Roll angles (rad) of a gear's flank at a pair's nodes, or where these average."""
+        body, arm = (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).lever_arms[gear]
+        # Nodes that average displacements average the flank as well.
+        offsets = quadrature_offsets(pair.offsets) if isinstance(pair, ToothPair) else pair.offsets
+        return roll_angle_at_height(body.base_radius, pair.place.contact_rolls[gear], arm - SENSES[gear] * offsets)
 
-def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes, turned: float = 0.0) -> list[np.ndarray]:
+    def _measured(self, gear: int, pair: PairNodes) -> list[Callable[[int], np.ndarray]]:
+        """Functions of the tooth that give the excess of material (n,), mm, by its measured profile and helix; none without curves and on coast flanks."""
+        own, functions = self._deviations[gear], []
+        if pair.place.flank != DRIVE:
+            return functions
+        if own.curves is not None:
+            start, end = own.active_profile
+            functions.append(_excess(own.curves, (self._rolls(gear, pair) - start) / (end - start), pair))
+        if own.helix is not None and own.helix.curves is not None:
+            along = 0.5 + (pair.place.height - own.helix.middle) / own.helix.width
+            functions.append(_excess(own.helix.curves, np.full(len(pair.offsets), along), pair, averaged=False))
+        return functions
+
+
+def _excess(curves: np.ndarray, along: np.ndarray, pair: PairNodes, averaged: bool = True) -> Callable[[int], np.ndarray]:
+    """The excess (n,), mm, of a tooth at places from 0 to 1 `along` its curve; beyond the ends the curve is level."""
+    points = np.linspace(0.0, 1.0, curves.shape[1])
+    if averaged and isinstance(pair, ToothPair):
+        return lambda tooth: node_average(pair.offsets, np.interp(along, points, curves[tooth]))
+    return lambda tooth: np.interp(along, points, curves[tooth])
+
+
+def profile_shapes(deviations: FlankDeviations, roll: np.ndarray, pair: PairNodes, turned: float = 0.0) -> list[np.ndarray]:
     """Excess of material (n,) at a pair's nodes for a unit of slope, form, of slope and form of the helix, and of the cosine and the sine of the waviness.
 
-    `roll_at`: roll angle (rad) at offsets (mm, any shape); `turned`: by which the helix turns the gear's section at the pair's height, in the sense of rotation.
+    `roll`: roll angles (rad) at the nodes, or where these average; `turned`: by which the helix turns the gear's section at the pair's height, in the sense of rotation.
     """
     start, end = deviations.active_profile
-    # Nodes that average displacements average the flank as well.
-    averaged = isinstance(pair, ToothPair)
-    roll = roll_at(quadrature_offsets(pair.offsets) if averaged else pair.offsets)
     along = (roll - start) / (end - start)
     shapes = [along - 0.5, -0.5 * np.cos(2.0 * np.pi * along)]
     if deviations.helix is not None:
@@ -111,7 +138,7 @@ def profile_shapes(deviations: FlankDeviations, roll_at, pair: PairNodes, turned
     if deviations.waviness is not None:
         waves = deviations.waviness.waves * (roll - turned)
         shapes += [np.cos(waves), -np.sin(waves)]
-    return [node_average(pair.offsets, each) for each in shapes] if averaged else shapes
+    return [node_average(pair.offsets, each) for each in shapes] if isinstance(pair, ToothPair) else shapes
 
 
 def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) -> np.ndarray:

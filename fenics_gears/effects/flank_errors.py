@@ -35,6 +35,12 @@ from fenics_gears.inputs.written import as_written
 
 HELIX = ("helix_slope", "helix_form")
 LISTS = ("pitch", "profile_slope", "profile_form", *HELIX)
+# Tables of curves: the field of their data, and the name of the columns that say where a point lies.
+CURVES = {"profile_curves": ("measured_profile", "ALONG_PROFILE"), "helix_curves": ("measured_helix", "ALONG_FACE")}
+REPLACED = {"profile_curves": ("profile_slope", "profile_form"), "helix_curves": HELIX}
+TABLES = ("file", *CURVES)
+# Share of the active profile, or of the face, that a curve must cover.
+LEAST_MEASURED = 0.8
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3
 # Reference diameters, modules and face widths (mm) that the tolerances of ISO 1328-1:2013 are for.
@@ -82,6 +88,19 @@ class GearErrorsText(Section):
     helix_form: Optional[tuple[float, ...]] = quantities(
         "-100 mm", "100 mm", "3 um", meaning="helix form deviations, positive with material in excess in the middle of the face", otherwise=DRAWN_OVER_FACE
     )
+    profile_curves: Optional[str] = file_name(
+        ".csv",
+        "pinion_profile.csv",
+        meaning="measured profiles: a table with a line for each point, the columns `tooth`, `deviation (um)`, positive with material in excess, and `roll_length (mm)`, "
+        "`roll_angle (deg)` or `diameter (mm)`; a tooth without a curve has the mean of the curves; in place of `profile_slope` and `profile_form`",
+        otherwise="no curves",
+    )
+    helix_curves: Optional[str] = file_name(
+        ".csv",
+        "pinion_helix.csv",
+        meaning="measured helices: the same with `face_position (mm)` from mid-width to the right; in place of `helix_slope` and `helix_form`",
+        otherwise="no curves; not allowed in a plane scene",
+    )
     waviness: Optional[WavinessText] = None
 
 
@@ -102,31 +121,68 @@ def located(errors: FlankErrors, directory: Path) -> FlankErrors:
 
 
 def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
-    if errors.file is None:
+    if not any(getattr(errors, name) for name in TABLES):
         return errors
-    from fenics_gears.effects.flank_errors_file import FileProblem, deviations_in
+    from fenics_gears.effects import flank_errors_file as files
 
     # `check` reports what is wrong; a scene that is only looked at needs no table.
+    name = "file"
     try:
-        found = deviations_in((directory / errors.file).resolve(), LISTS)
-    except FileProblem as problem:
-        return replace(errors, problem=str(problem))
-    twice = [name for name in LISTS if name in found and getattr(errors, name) is not None]
-    if twice:
-        return replace(errors, problem=f"the table has {twice[0]}, which the scene has, too. Leave one of the two out.")
-    return replace(errors, **found)
+        if errors.file is not None:
+            found = files.deviations_in((directory / errors.file).resolve(), LISTS)
+            twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
+            if twice is not None:
+                raise files.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
+            errors = replace(errors, **found)
+        for name, (measured, along) in CURVES.items():
+            if getattr(errors, name) is not None:
+                curves = files.curves_in((directory / getattr(errors, name)).resolve(), getattr(files, along))
+                errors = replace(errors, **{measured: curves})
+    except files.FileProblem as problem:
+        return replace(errors, problem=(name, str(problem)))
+    return errors
 
 
 def check(errors: FlankErrors, scene, pair) -> None:
     """Raise SceneError for a table that is wrong or not of its gear."""
     for gear in GEARS:
         own = getattr(errors, gear)
-        problem = own.problem if own.file is None or own.problem else _problem_of_table(own, getattr(pair, gear).teeth, scene.gears.module, gear)
+        name, problem = own.problem or _problem_of_tables(own, scene, pair, gear)
         if problem:
-            raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: {problem}\nNothing was computed or written.")
+            raise SceneError(f"flank_errors.{gear}.{name} = {as_written(getattr(own, name))}: {problem}\nNothing was computed or written.")
         in_table = [name for name in HELIX if own.file is not None and getattr(own, name) is not None]
         if in_table and not scene.three_dimensional:
             raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]} {NOT_IN_THE_PLANE}\nNothing was computed or written.")
+
+
+def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str, str]:
+    """The field that names a table which does not fit the gear, and why; empty where all fit."""
+    teeth, module = getattr(pair, gear).teeth, scene.gears.module
+    problem = "" if errors.file is None else _problem_of_table(errors, teeth, module, gear)
+    if problem:
+        return "file", problem
+    from fenics_gears.geometry.flank_deviations import measured_share
+
+    for name, (measured, _) in CURVES.items():
+        curves = getattr(errors, measured)
+        if curves is None:
+            continue
+        for replaced in REPLACED[name]:
+            if getattr(errors, replaced) is not None:
+                return name, f"stands beside {replaced}, which the curves replace. Leave one of the two out."
+        for curve in curves.curves:
+            if curve.tooth > teeth:
+                return name, f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1 to {teeth}, counted as they mesh."
+            worst = max(abs(each) for each in curve.deviations)
+            if worst > LARGEST_ERROR * module:
+                return name, f"has a deviation of {worst:.4g} mm on tooth {curve.tooth}, too large for a module of {module:g} mm. Allowed: up to {LARGEST_ERROR * module:g} mm."
+            share = measured_share(curve, curves.along, pair, gear)
+            if share < LEAST_MEASURED:
+                whole = "active profile" if measured == "measured_profile" else "face"
+                return name, (
+                    f"measures {100.0 * share:.0f} % of the {whole} of tooth {curve.tooth}. Allowed: at least {100.0 * LEAST_MEASURED:.0f} %; beyond its ends a curve is continued level."
+                )
+    return "", ""
 
 
 def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) -> str:
@@ -166,7 +222,8 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
         yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
         yield from _errors_are_small(tree, own, gear)
         if not over_the_face(tree):
-            yield from (Problem(("flank_errors", gear, name), as_written(own[name]), NOT_IN_THE_PLANE) for name in HELIX if name in own)
+            in_space = (*HELIX, "helix_curves")
+            yield from (Problem(("flank_errors", gear, name), as_written(own[name]), NOT_IN_THE_PLANE) for name in in_space if name in own)
 
 
 def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
@@ -231,18 +288,20 @@ def gaps(errors: FlankErrors, model):
 
 
 def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
-    """The deviations of every tooth, given and drawn."""
-    from fenics_gears.geometry.flank_deviations import flank_deviations
+    """The deviations of every tooth, given and drawn; slope and form of measured curves are evaluated by ISO 1328-1."""
+    from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
 
     values = {}
     for gear, found in zip(GEARS, flank_deviations(errors, cycle.pair, None if cycle.face is None else cycle.face.middles)):
         dimension = (f"{gear}_tooth",)
         values[f"{gear}_index_deviation"] = dimension, found.index
-        values[f"{gear}_profile_slope"] = dimension, found.slope
-        values[f"{gear}_profile_form"] = dimension, found.form
+        slope, form = slope_and_form(found)
+        values[f"{gear}_profile_slope"] = dimension, slope
+        values[f"{gear}_profile_form"] = dimension, form
         if found.helix is not None:
-            values[f"{gear}_helix_slope"] = dimension, found.helix.slope
-            values[f"{gear}_helix_form"] = dimension, found.helix.form
+            slope, form = slope_and_form(found.helix)
+            values[f"{gear}_helix_slope"] = dimension, slope
+            values[f"{gear}_helix_form"] = dimension, form
     return values
 
 
@@ -255,7 +314,8 @@ def period(errors: FlankErrors, scene) -> int:
 def _differ(own: GearErrors, names: Sequence[str], drawn: bool) -> bool:
     """Whether a gear's teeth are not all alike in deviations of some names; what is not given is `drawn`, or there is none of it."""
     given = [getattr(own, name) for name in names]
-    return own.waviness is not None or any(drawn if values is None else len(set(values)) > 1 for values in given)
+    measured = own.profile_curves is not None or own.helix_curves is not None
+    return own.waviness is not None or measured or any(drawn if values is None else len(set(values)) > 1 for values in given)
 
 
 EFFECT = Effect(

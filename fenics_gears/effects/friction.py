@@ -1,28 +1,85 @@
-"""``[friction]``: Coulomb friction between the flanks (``contact``)."""
+"""``[friction]``: Coulomb friction between the flanks (``contact``), with a coefficient that is given or follows from a formula."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal, Optional
 
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
-from fenics_gears.inputs.fields import Section, number
+from fenics_gears.inputs.fields import Section, allowed_in, choice, number, quantity
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import Tree, quantity_at, table
+from fenics_gears.inputs.written import as_written
+
+OF_A_FORMULA = ("viscosity", "roughness")
 
 
 @dataclass(frozen=True)
 class Friction:
-    """Coulomb friction on the flanks."""
+    """Coulomb friction on the flanks: its coefficient, or the formula of ``geometry.friction_formulas`` with viscosity (N s/mm^2) and roughness Ra (mm)."""
 
-    coefficient: float
+    coefficient: float | None = None
+    formula: str | None = None
+    viscosity: float | None = None
+    roughness: float | None = None
 
 
 class FrictionText(Section):
-    """``[friction]``."""
+    """``[friction]``: one coefficient on all flanks, given, or computed once from the mean load and the speed of the scene."""
 
-    coefficient: float = number(
+    coefficient: Optional[float] = number(
         0.1,
         meaning="coefficient of friction on all flanks",
         above=0,
         highest=5,
+        otherwise="from `formula`; one of the two is required",
         too_low="For a pair without friction, leave the section [friction] out.",
     )
+    formula: Optional[Literal["Schlenk", "Benedict and Kelley"]] = choice(
+        "Schlenk",
+        "Benedict and Kelley",
+        meaning="formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2, mineral oil), or that of Benedict and Kelley (1961), averaged over the path of contact",
+        otherwise="`coefficient`",
+    )
+    viscosity: Optional[float] = quantity("0.1 mPa s", "100 Pa s", "13 mPa s", meaning="dynamic viscosity of the oil at its temperature in the mesh, for `formula`", otherwise="required with `formula`")
+    roughness: Optional[float] = quantity("0.01 um", "20 um", "0.4 um", meaning="arithmetic mean roughness Ra of both flanks, for `formula`", otherwise="required with `formula`")
+
+
+def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
+    """One of the two; a formula has what it needs, a speed among it."""
+    friction = table(tree, "friction")
+    if friction is None:
+        return
+    formula = friction.get("formula")
+    if "coefficient" in friction and formula is not None:
+        yield Problem(("friction", "formula"), as_written(formula), "stands beside coefficient. Allowed is one of the two. Leave one out.")
+    if "coefficient" not in friction and formula is None:
+        allowed = allowed_in(FrictionText, "coefficient").description
+        yield Problem(("friction", "coefficient"), None, f'is missing. Allowed: {allowed}; or formula = "Schlenk" with viscosity and roughness.')
+    for name in OF_A_FORMULA:
+        if formula is None and name in friction:
+            yield Problem(("friction", name), as_written(friction[name]), "is for a formula. Add formula, or leave it out.")
+        if formula is not None and name not in friction:
+            yield Problem(("friction", name), None, "is missing; friction.formula needs it.")
+    if formula is not None and 0.0 in (quantity_at(tree, "load", name) for name in ("wheel_torque", "pinion_torque")):
+        yield Problem(("friction", "formula"), as_written(formula), "has no meaning without a load. Give a torque, or a coefficient.")
+    motion = table(tree, "motion") or {}
+    if formula is not None and not {"mesh_frequency", "pinion_speed"} & set(motion):
+        yield Problem(("friction", "formula"), as_written(formula), 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency.')
+
+
+def coefficient_of(friction: Friction | None, scene, pair) -> float:
+    """The coefficient of a scene's friction; 0 without friction."""
+    if friction is None:
+        return 0.0
+    if friction.formula is None:
+        return friction.coefficient
+    from fenics_gears.geometry.friction_formulas import FORMULAS
+
+    force = abs(scene.load.wheel_torque) / pair.wheel.base_radius
+    speed = 60.0 * scene.motion.mesh_frequency / pair.pinion.teeth
+    return FORMULAS[friction.formula](pair, force, speed, friction.viscosity * 1e9, friction.roughness * 1e3)
 
 
 EFFECT = Effect(
@@ -39,6 +96,7 @@ EFFECT = Effect(
         ResultVariable("contact_traction", "MPa", "friction traction on the flank", dims=OF_NODES),
         ResultVariable("work_friction", "N mm", "energy lost to friction between the flanks"),
     ),
+    rules=coefficient_or_formula,
     # Between rigid flanks the pairs' shares of the force, and with them the friction, are not determined.
     needs=("tooth_elasticity",),
 )

@@ -3,7 +3,7 @@
 A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part, from the start of
 active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value from one end to the
 other, form is one wave over that length, as wide as its value. Slope and form of the helix are the like along the face of the gear, and are only there
-where flanks have one.
+where flanks have one. A measured curve stands in place of both; its mean over the used part is taken off.
 """
 
 from __future__ import annotations
@@ -12,12 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
+from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, MeasuredCurve, MeasuredCurves, Waviness
 from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 
 PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(5)  # each has random numbers of its own, so that giving one leaves the others as they are
+
+# Evenly spaced points of a measured curve, from one end of the used part to the other.
+CURVE_POINTS = 201
 
 
 @dataclass(frozen=True)
@@ -25,12 +28,14 @@ class HelixDeviations:
     """Deviations along the face (z,), mm, over its ``width`` (mm) with mid-width at the height ``middle`` (mm).
 
     ``slope``: excess of material at the right end over that at the left one. ``form``: excess in the middle over that at both ends.
+    ``curves`` (z, CURVE_POINTS): measured excess from the left end to the right one, in place of both; None without measured helices.
     """
 
     slope: np.ndarray
     form: np.ndarray
     width: float
     middle: float
+    curves: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -38,7 +43,8 @@ class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in the middle over that at
-    both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None in the plane.
+    both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None in the plane. ``curves`` (z, CURVE_POINTS): measured excess over
+    the active profile, in place of slope and form; None without measured profiles.
     """
 
     index: np.ndarray
@@ -47,6 +53,7 @@ class FlankDeviations:
     waviness: Waviness | None
     active_profile: tuple[float, float]
     helix: HelixDeviations | None = None
+    curves: np.ndarray | None = None
 
     @property
     def single_pitch(self) -> np.ndarray:
@@ -77,6 +84,9 @@ def _of_gear(
         return np.zeros(gear.teeth) if tolerance is None else drawn(tolerance)
 
     def along_face(width: float, middle: float) -> HelixDeviations:
+        if own.measured_helix is not None:
+            level = np.zeros(gear.teeth)
+            return HelixDeviations(level, level, width, middle, _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width)))
         allowed = None if tolerance is None else helix_tolerance(2.0 * gear.reference_radius, width, errors.tolerance_class)
         slope = values(own.helix_slope, lambda limits: allowed.slope * draws(HELIX_SLOPE))
         return HelixDeviations(slope, values(own.helix_form, lambda limits: allowed.form * draws(HELIX_FORM)), width, middle)
@@ -84,14 +94,54 @@ def _of_gear(
     pitch = values(own.pitch, lambda limits: drawn_pitch(limits, draws(PITCH)))
     # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
     index = np.cumsum(pitch - pitch.mean())
+    measured, active_profile, level = own.measured_profile is not None, (start, gear.tip_roll_angle), np.zeros(gear.teeth)
     return FlankDeviations(
         index=index - index[-1],
-        slope=values(own.profile_slope, lambda limits: limits.profile_slope * draws(SLOPE)),
-        form=values(own.profile_form, lambda limits: limits.profile_form * draws(FORM)),
+        slope=level if measured else values(own.profile_slope, lambda limits: limits.profile_slope * draws(SLOPE)),
+        form=level if measured else values(own.profile_form, lambda limits: limits.profile_form * draws(FORM)),
         waviness=own.waviness,
-        active_profile=(start, gear.tip_roll_angle),
+        active_profile=active_profile,
         helix=None if face is None else along_face(*face),
+        curves=_curves(own.measured_profile, gear, active_profile) if measured else None,
     )
+
+
+def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float]) -> np.ndarray:
+    """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm), less their mean; a tooth that was not measured has the mean curve."""
+    at = np.linspace(*ends, CURVE_POINTS)
+    found = {each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves}
+    mean = np.mean(list(found.values()), axis=0)
+    curves = np.array([found.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
+    return curves - (curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1]))[:, None] / (CURVE_POINTS - 1)
+
+
+def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
+    """Where the points of a curve lie: roll angles (rad) of a profile, positions on the face (mm) of a helix. A point below the base circle is at roll angle 0."""
+    places = np.array(curve.places)
+    if along == "roll_length":
+        return places / gear.base_radius
+    if along == "diameter":
+        return np.sqrt(np.maximum((0.5 * places / gear.base_radius) ** 2 - 1.0, 0.0))
+    return places
+
+
+def measured_share(curve: MeasuredCurve, along: str, pair: GearPair, name: str) -> float:
+    """Share of the active profile, or of the face, of the gear `name` that a curve covers, from 0 to 1."""
+    number = ("pinion", "wheel").index(name)
+    gear, width = (pair.pinion, pair.wheel)[number], pair.face_widths[number]
+    start, end = (-0.5 * width, 0.5 * width) if along == "face_position" else (pair.sap_roll_angles[number], gear.tip_roll_angle)
+    places = _places(curve, along, gear)
+    return max(min(places[-1], end) - max(places[0], start), 0.0) / (end - start)
+
+
+def slope_and_form(deviations: FlankDeviations | HelixDeviations) -> tuple[np.ndarray, np.ndarray]:
+    """Slope and form deviations (z,), mm: as given, or those of measured curves by ISO 1328-1, the rise of the line of least squares and the range of
+    what is left of it."""
+    if deviations.curves is None:
+        return deviations.slope, deviations.form
+    along = np.linspace(-0.5, 0.5, CURVE_POINTS)
+    slope = deviations.curves @ along / (along @ along)
+    return slope, np.ptp(deviations.curves - np.outer(slope, along), axis=1)
 
 
 def drawn_pitch(limits: FlankTolerance, draws: np.ndarray) -> np.ndarray:

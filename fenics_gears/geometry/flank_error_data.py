@@ -15,10 +15,32 @@ class Waviness:
 
 
 @dataclass(frozen=True)
+class MeasuredCurve:
+    """Deviations (mm, material in excess positive) of one tooth, counted from 1, at rising places; ``places`` as ``MeasuredCurves.along`` says."""
+
+    tooth: int
+    places: tuple[float, ...]
+    deviations: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class MeasuredCurves:
+    """Measured profiles or helices of some teeth of a gear.
+
+    ``along``: what places are, "roll_length" (mm), "roll_angle" (rad) or "diameter" (mm) of a profile, "face_position" (mm, from mid-width to the
+    right) of a helix.
+    """
+
+    along: str
+    curves: tuple[MeasuredCurve, ...]
+
+
+@dataclass(frozen=True)
 class GearErrors:
     """Errors of one gear, mm, a value for each tooth; None for what the scene does not give. Those of the helix are over the gear's face width.
 
-    ``file``: the table that the values are from; ``problem``: what is wrong with it, in words, empty where nothing is.
+    ``file``: the table that the values are from; ``profile_curves``, ``helix_curves``: the tables of measured curves, which are in ``measured_profile``
+    and ``measured_helix``; ``problem``: the field that names a wrong table and what is wrong, in words, empty where nothing is.
     """
 
     pitch: tuple[float, ...] | None = None
@@ -28,7 +50,11 @@ class GearErrors:
     helix_form: tuple[float, ...] | None = None
     waviness: Waviness | None = None
     file: str | None = None
-    problem: str = ""
+    profile_curves: str | None = None
+    helix_curves: str | None = None
+    measured_profile: MeasuredCurves | None = None
+    measured_helix: MeasuredCurves | None = None
+    problem: tuple[str, str] | tuple[()] = ()
 
 
 @dataclass(frozen=True)

@@ -50,6 +50,7 @@ _UNITS = {
     "kW": (1000.0, "W"),
     "MW": (1000.0, "kW"),
     "Pa": (1e-6, "N/mm^2"),
+    "mPa": (1e-9, "N/mm^2"),
     "kPa": (1e-3, "N/mm^2"),
     "MPa": (1.0, "N/mm^2"),
     "GPa": (1000.0, "N/mm^2"),
@@ -83,6 +84,7 @@ _KINDS = {
     "1/s": A_FREQUENCY,
     "rad/s": AN_ANGULAR_SPEED,
     "mm/s": "a speed",
+    "N s/mm^2": "a dynamic viscosity",
     "mm^2": "an area",
     "percent": "a percentage",
 }

@@ -74,6 +74,7 @@ def _model_rows(model: Model) -> Rows:
         ("equations in time", _method(model), ""),
         *([] if model.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
         ("nominal force along the line of action", model.scene.load.wheel_torque / model.pair.wheel.base_radius, "N"),
+        *([] if model.scene.friction is None else [("coefficient of friction", model.friction_coefficient, model.scene.friction.formula and f"after {model.scene.friction.formula}" or "")]),
         *(_speed_rows(model) if model.scene.motion.speed_given else []),
     ]
 

@@ -16,6 +16,7 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
 from fenics_gears.effects import check_files, common_period, from_effects
+from fenics_gears.effects.friction import coefficient_of
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
@@ -60,11 +61,15 @@ class Model:
         """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
         return tuple(from_effects(self.scene, "load", self))
 
+    @cached_property
+    def friction_coefficient(self) -> float:
+        """Coefficient of friction, given or by a formula; 0 without friction."""
+        return coefficient_of(self.scene.friction, self.scene, self.pair)
+
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
         """What a march of the scene solves for."""
-        friction = self.scene.friction.coefficient if self.scene.friction else 0.0
-        return EquationsOfMotion(self.drivetrain, self.time_step, friction, self.time_scales, self.clock, self.loads)
+        return EquationsOfMotion(self.drivetrain, self.time_step, self.friction_coefficient, self.time_scales, self.clock, self.loads)
 
     @property
     def steps(self) -> int:

@@ -50,6 +50,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("warnings", "", "warnings, one on each line"),
     ResultAttribute("settled_from", "s", "time from which on steps are settled: the vibration excited by the start has decreased to 0.1 %, in short runs to 1 %", WITH_STEPS),
     ResultAttribute("settled_cycles", "1", "number of mesh cycles from `settled_from` to the end", WITH_STEPS),
+    ResultAttribute("friction_coefficient", "1", "coefficient of friction of the run", "`[friction]`"),
     ResultAttribute("shown_cycles", "1", "number of mesh cycles at the end of the run that pictures show; for a speed ramp all"),
     ResultAttribute("mean_transmission_error", "rad", "mean over the settled steps, without the last step, which belongs to the next mesh cycle"),
     ResultAttribute("peak_to_peak_transmission_error", "rad", "peak-to-peak value over the settled steps; its extremes may lie between steps"),

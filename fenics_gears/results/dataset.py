@@ -134,6 +134,8 @@ def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int
         "newton_iterations_total": march.newton_iterations,
         "time_march": march.seconds,
     }
+    if scene.friction is not None:
+        attributes["friction_coefficient"] = recorder.model.friction_coefficient
     attributes |= {f"{RUNG}{rung}": count for rung, count in march.steps_by_method.items() if count}
     if recorder.steps:
         attributes["settled_from"] = float(result["time"].values[first])

@@ -121,6 +121,10 @@ class Journal(InMemory):
         files = {name: open(self.directory / str(number), "w+b", buffering=0) for number, name in enumerate(kinds)}
         values = {name: super(Journal, self).get(name, steps) for name in self.kinds}
         try:
+            for name, kind in self.kinds.items():
+                if kind.last:
+                    # A journal that begins late does not write all places, and readers map them all.
+                    files[name].truncate(min(self.steps, kind.last + SPARE) * kind.type.itemsize * prod(kind.shape))
             self._files = files
             self._write(0, steps, values)
         except BaseException:

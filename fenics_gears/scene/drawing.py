@@ -69,11 +69,11 @@ def _web(own: GearText, face_width: float) -> Web | None:
 
 
 def _named_materials(gears: Gears) -> list[Derived]:
-    texts = {"": gears.material, **{f"{name} ": getattr(gears, name).material for name in GEARS}}
-    named = {words: (text.name, *MATERIALS[text.name]) for words, text in texts.items() if text is not None and text.name is not None}
+    texts = {"": (gears.material,), **{f"{name} ": (getattr(gears, name).material, gears.material) for name in GEARS}}
+    named = {words: (each[0].name, material_of(*each)) for words, each in texts.items() if each[0] is not None and each[0].name is not None}
     return [
-        Derived(f"{words}Young's modulus", 1e-3 * material.youngs_modulus, "GPa", f"Poisson's ratio {material.poissons_ratio:g}, of {name}, unless given ({source})")
-        for words, (name, material, source) in named.items()
+        Derived(f"{words}Young's modulus", 1e-3 * material.youngs_modulus, "GPa", f"Poisson's ratio {material.poissons_ratio:g}, {name} ({MATERIALS[name][1]})")
+        for words, (name, material) in named.items()
     ]
 
 
@@ -155,8 +155,11 @@ def _centre_distance(pair: Gears, shifts: list[float], cut: list[float], found: 
         # Imported here: hardly a scene needs it.
         from scipy.optimize import brentq
 
+        def missing(at: float) -> float:
+            return pair.backlash - replace(rack_pair, centre_distance=at).circumferential_backlash
+
         words = "both tooth thicknesses and the backlash"
-        distance = brentq(lambda at: replace(rack_pair, centre_distance=at).circumferential_backlash - pair.backlash, distance, distance + 10.0 * pair.backlash + pair.module)
+        distance = brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module) if missing(distance) > 0.0 else distance
     found.append(Derived("centre distance", distance, "mm", words))
     return distance
 

@@ -12,6 +12,8 @@ from fenics_gears.inputs.written import as_written
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
 # Layers of elements thinner than this, in modules, are needles.
 THINNEST_LAYER = 0.02
+# A number with hundreds of digits is more than a float holds.
+MOST_LAYERS = 10**9
 PLANE_ONLY = {
     "element": ("Q1 incompatible",),
     "condensation": ("every step",),
@@ -68,6 +70,6 @@ def _layers_are_no_needles(tree: Tree) -> Iterator[Problem]:
     if width < thinnest:
         message = f"is less than a layer of elements. Allowed in three-dimensional scenes of this module: from {thinnest:g} mm."
         yield Problem(path, as_written(value_at(tree, *path)), message)
-    elif type(layers) is int and layers * thinnest > width:
-        message = f"is too many for a face of {width:g} mm: layers would be {width / layers:.3g} mm thin. Allowed: up to {int(width / thinnest)}."
+    elif type(layers) is int and (count := min(layers, MOST_LAYERS)) * thinnest > width:
+        message = f"is too many for a face of {width:g} mm: layers would be {width / count:.3g} mm thin. Allowed: up to {int(width / thinnest)}."
         yield Problem(("accuracy", "layers"), as_written(layers), message)

@@ -201,7 +201,7 @@ def conditions(scene: Scene) -> str:
     torque = scene.load.wheel_torque * factor("N mm", "N m")
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
-    friction = "no friction" if scene.friction is None else f"friction coefficient {scene.friction.coefficient:g}"
+    friction = "no friction" if scene.friction is None else "friction " + (scene.friction.formula and f"after {scene.friction.formula}" or f"coefficient {scene.friction.coefficient:g}")
     helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
     shaping = (each for each in effects_on(scene) if each.removal or each.gaps or each.section in ALONG_THE_FACE)
     shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)

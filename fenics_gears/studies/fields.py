@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.tree import LOADS
 from fenics_gears.scene.schema import known_paths
 
 Path = tuple[str, ...]
@@ -32,7 +33,10 @@ def why_unknown(path: Path) -> str | None:
 
 
 def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
-    """A copy of a parsed scene with the value at ``path``; ABSENT removes what is there, PRESENT leaves it as it is."""
+    """A copy of a parsed scene with the value at ``path``; ABSENT removes what is there, PRESENT leaves it as it is.
+
+    A load that is given in one way takes the place of one given in another.
+    """
     if value == PRESENT:
         return dict(tree)
     tree = copy.deepcopy(dict(tree))
@@ -45,8 +49,10 @@ def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
         home = home[name]
     if value == ABSENT:
         home.pop(path[-1], None)
-    else:
-        home[path[-1]] = copy.deepcopy(value)
+        return tree
+    for other in LOADS if path[0] == "load" and path[-1] in LOADS else ():
+        home.pop(other, None)
+    home[path[-1]] = copy.deepcopy(value)
     return tree
 
 

@@ -89,7 +89,7 @@ WRONG = {
     "a comma in a number": (table().replace("-3.0", "-3,0"), ["pinion.csv:3: has 3 columns, the first line 2", "decimal sign is a point"]),
     "another comma": (table("tooth;pitch (um)", joint=";").replace("-3.0", "-3,0"), ["pinion.csv:3: pitch", "the decimal sign is a point"]),
     "a word": (table().replace("-3.0", "bad"), ['pinion.csv:3: pitch = "bad"', "does not begin with a number"]),
-    "not a number": (table().replace("-3.0", "nan"), ["pinion.csv:3:", "no deviation of a tooth"]),
+    "not a number": (table().replace("-3.0", "nan"), ["pinion.csv:3:", "is no number"]),
     "a tooth twice": (table().replace("\n2,", "\n1,"), ["pinion.csv:3: has tooth 1 again"]),
     "a tooth of zero": (table(first=0), ['pinion.csv:2: has the tooth "0"', "from 1 on"]),
     "a tooth left out": (table().replace("\n5,", "\n17,"), ["has 16 teeth, but none of number 5"]),
@@ -128,4 +128,4 @@ def test_a_run_is_refused_before_it_begins(scene_with, tmp_path, monkeypatch, ca
 def test_a_scene_whose_table_is_gone_can_be_looked_at():
     """The interface: a result is drawn from the scene that it carries, wherever its table is by then."""
     found = scene_from_text(f'{PAPER}\n[flank_errors.wheel]\nfile = "gone.csv"\n').flank_errors
-    assert found.wheel.pitch is None and "there is no such file" in found.wheel.problem and found.pinion == GearErrors()
+    assert found.wheel.pitch is None and "there is no such file" in found.wheel.problem[1] and found.pinion == GearErrors()

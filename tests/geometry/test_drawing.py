@@ -13,7 +13,8 @@ from fenics_gears.geometry.gear_data import RACKS
 from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
-from fenics_gears.scene.read import build_scene
+from fenics_gears.scene.read import build_scene, load_scene
+from fenics_gears.studies.fields import changed
 
 ROOT = Path(__file__).parents[2]
 BORE = {"bore_diameter": "15 mm"}
@@ -47,6 +48,15 @@ def test_the_page_shows_these_figures(title):
     """Authority: identity, of the page with what ``python -m tests.drawn_pairs`` prints."""
     page = (ROOT / "docs" / "drawing.md").read_text(encoding="utf-8")
     assert "\n".join(table(PAIRS[title])) in page
+
+
+def test_the_page_s_scene_is_the_demo():
+    """Authority: identity; and P = T omega: 15 kW at 1500 rpm of the pinion are 95.49 N m on it and twice as much on the wheel."""
+    demo = load_scene(ROOT / "demos" / "from_a_drawing.toml")
+    page = (ROOT / "docs" / "drawing.md").read_text(encoding="utf-8").partition("```toml\n")[2].partition("```")[0]
+    of_page = build_scene(tomllib.loads(page))
+    assert (of_page.gears, of_page.load, of_page.derived) == (demo.gears, demo.load, demo.derived)
+    assert demo.load.wheel_torque == pytest.approx(2.0 * 95.493e3, rel=1e-5)
 
 
 def test_what_a_scene_gives_stays_as_it_is():
@@ -144,6 +154,12 @@ def test_power_and_pinion_torque_are_a_torque_on_the_wheel():
     power = scene_of(load={"power": "20 kW"}, motion={"pinion_speed": "1500 rpm"})
     assert power.load.wheel_torque == pytest.approx(20e6 / (2.0 * pi * 25.0) * 31 / 19, rel=1e-12)
     assert scene_of(load={"pinion_torque": "19 N m"}).load.wheel_torque == pytest.approx(31e3, rel=1e-14)
+
+
+def test_a_study_over_torques_takes_the_place_of_a_power():
+    """Authority: the rule that a load is given once, which a study's change of it keeps."""
+    assert changed({"load": {"power": "20 kW"}}, ("load", "wheel_torque"), "7 N m") == {"load": {"wheel_torque": "7 N m"}}
+    assert changed({"load": {"power": "20 kW"}}, ("load", "power"), "absent") == {"load": {}}
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,7 @@ def numbers(section):
         ("bearings", [0.155e6, None, None, None, None, None, None]),
         ("inertia", [4.9e-3, 24.5, None, None, None, None, None]),
         ("damping", [0.4e-3, 0.5e-3, None, None, ()]),
-        ("friction", [0.1]),
+        ("friction", [0.1, None, None, None]),
         ("accuracy", ["P2", 0.08, 1.5, 20, 100, "once", None, None, None, None, None, None, None]),
     ],
 )

@@ -4,6 +4,7 @@ import pytest
 from tests.studies.conftest import write_study
 
 from fenics_gears.commands.cli import main
+from fenics_gears.scene.data import Derived
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.kept_sizes import kept_sizes
 
@@ -30,6 +31,14 @@ def test_what_is_kept_is_named(swept, kept):
     said = kept_sizes([axis(each) for each in swept])
     assert len(said) == len(kept)
     assert all(words in sentence for words, sentence in zip(kept, said))
+
+
+def test_what_the_scenes_derive_is_not_kept():
+    """Authority: as above; a scene without diameters has those that follow from the swept size."""
+    left_out = [Derived(name, 1.0, "mm", "") for name in ("pinion tip diameter", "centre distance")]
+    (said,) = kept_sizes([axis("gears.pinion.profile_shift")], left_out)
+    assert "gears.pinion.root_diameter is kept" in said
+    assert kept_sizes([axis("gears.pinion.profile_shift")], [*left_out, Derived("pinion root diameter", 1.0, "mm", "")]) == []
 
 
 def test_a_study_says_it_in_summary_and_dataset_and_gives_transmission_errors_as_lengths_first(folder, undrawn, capsys):

@@ -1,0 +1,48 @@
+"""Coefficient of friction of lubricated flanks by published formulas, from load, speed, radii, oil and roughness at the pitch point or along the path."""
+
+from __future__ import annotations
+
+from math import cos, log10, pi, sin
+
+import numpy as np
+
+from fenics_gears.geometry.pair import GearPair
+
+# ISO/TR 14179-2: below this line load (N/mm) the coefficient rises no more.
+LEAST_LINE_LOAD = 150.0
+# Points along the path of contact, at which none is the pitch point, where Benedict and Kelley's formula has no value.
+POINTS = 400
+_MICROINCH = 0.0254
+
+
+def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity: float, roughness: float) -> float:
+    """Mean coefficient of friction after Schlenk (ISO/TR 14179-2): 0.048 (F_bt/b / (v_sum rho))^0.2 eta^-0.05 Ra^0.25, of mineral oil (X_L = 1).
+
+    `normal_force`: N along the line of action; `pinion_speed`: 1/min; `viscosity`: dynamic, mPa s, at the oil's temperature; `roughness`: mean Ra of both flanks, um.
+    """
+    line_load = max(normal_force / pair.face_width, LEAST_LINE_LOAD)
+    first, second = pair.pitch_point, pair.pitch_point_to_wheel_tangent
+    radius = first * second / (first + second)
+    return 0.048 * (line_load / (_sum_of_speeds(pair, pinion_speed) * radius)) ** 0.2 * viscosity**-0.05 * roughness**0.25
+
+
+def _sum_of_speeds(pair: GearPair, pinion_speed: float) -> float:
+    """v_sum (m/s) at the pitch point: both flanks' speeds along themselves, 2 v_t sin(alpha_wt)."""
+    pitch_radius = pair.pinion.base_radius / cos(pair.operating_pressure_angle)
+    return 2.0 * 1e-3 * 2.0 * pi * pinion_speed / 60.0 * pitch_radius * sin(pair.operating_pressure_angle)
+
+
+def benedict_kelley(pair: GearPair, normal_force: float, pinion_speed: float, viscosity: float, roughness: float) -> float:
+    """Mean over the path of contact of the coefficient after Benedict and Kelley (1961): 0.0127 (50 / (50 - S)) log10(29.66e3 w / (eta v_s v_r^2)).
+
+    Arguments as of `schlenk`; w in N/mm, sliding and rolling speed in m/s, S the roughness in microinches, of at most 30.
+    """
+    path = pair.path_start + (np.arange(POINTS) + 0.5) / POINTS * (pair.path_end - pair.path_start)
+    turning = 1e-3 * 2.0 * pi * pinion_speed / 60.0
+    first, second = turning * path, turning * pair.pinion.teeth / pair.wheel.teeth * (pair.line_of_action_length - path)
+    rough = min(roughness / _MICROINCH, 30.0)
+    values = 29.66e3 * normal_force / pair.face_width / (viscosity * np.abs(first - second) * (first + second) ** 2)
+    return 0.0127 * 50.0 / (50.0 - rough) * float(np.mean([log10(each) for each in values]))
+
+
+FORMULAS = {"Schlenk": schlenk, "Benedict and Kelley": benedict_kelley}

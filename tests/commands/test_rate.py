@@ -1,0 +1,60 @@
+"""gears rate: the standard's numbers beside the run's."""
+
+import csv
+
+import pytest
+from tests.coarse import COARSE, coarse_scene
+
+from fenics_gears import results
+from fenics_gears.commands.cli import main
+from fenics_gears.simulation.simulate import simulate
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory, paper_scene):
+    """A coarse run of the paper's scene."""
+    directory = tmp_path_factory.mktemp("run")
+    results.save(simulate(coarse_scene(paper_scene, cycles=2)), directory / "run.nc")
+    return directory
+
+
+def test_rows_have_both_columns(run, capsys):
+    """Contact stress by formula and by the run's pressure agree within a tenth on the paper's pair, whose teeth are as the standard has them; safety is limit over stress in both columns."""
+    assert COARSE and main(["rate", str(run), "--flank-limit", "1300 MPa"]) == 0
+    assert "sigma_H, contact stress of the pinion, MPa" in capsys.readouterr().out
+    with open(run / "rating.csv", encoding="utf-8") as file:
+        rows = {row["quantity"]: row for row in csv.DictReader(file)}
+    stress, safety = rows["sigma_H, contact stress of the pinion"], rows["S_H, safety against pitting of the pinion"]
+    assert float(stress["this run"]) == pytest.approx(float(stress["ISO 6336"]), rel=0.15)
+    limits = [float(stress[column]) * float(safety[column]) for column in ("ISO 6336", "this run")]
+    assert limits[0] == pytest.approx(limits[1], rel=1e-6) and limits[0] == pytest.approx(1300.0, rel=0.15)
+    assert rows["K_Hbeta, face load factor"]["this run"] == "" and float(rows["flash temperature"]["this run"]) > 0.0
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--flank-limit", "3 mm"], '--flank-limit "3 mm": allowed is a stress from 100 MPa to 3000 MPa'),
+        (["--root-limit", "1 MPa"], "allowed is a stress from 20 MPa"),
+        (["--tolerance-class", "5.5"], "allowed is a whole number from 1 to 11"),
+        (["--viscosity-grade", "1"], "allowed is from 10 to 1500"),
+        (["-o", "table.xlsx"], "a .csv file"),
+    ],
+)
+def test_wrong_calls_are_refused(run, capsys, options, said):
+    """The interface: exit code 2, what is allowed."""
+    assert main(["rate", str(run), *options]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_run_without_speed_is_refused(tmp_path, capsys, paper_scene):
+    """The interface: K_v needs a speed."""
+    from tests.coarse import teeth_alone
+
+    scene = teeth_alone(coarse_scene(paper_scene, cycles=1))
+    text = "\n".join(line for line in scene.text.splitlines() if "mesh_frequency" not in line)
+    result = simulate(scene)
+    result.attrs["scene"] = text.split("[shafts]")[0]
+    results.save(result, tmp_path / "run.nc")
+    assert main(["rate", str(tmp_path)]) == 2
+    assert "a rating needs a speed" in capsys.readouterr().err

@@ -1,0 +1,48 @@
+"""Friction whose coefficient follows from a formula."""
+
+import pytest
+from tests.effects.examples import text_of
+
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.friction_formulas import schlenk
+from fenics_gears.model.model import model_of
+from fenics_gears.scene.read import scene_from_text
+
+ELASTIC = text_of("tooth_elasticity")
+SPEED = '[motion]\nmesh_frequency = "400 Hz"\n'
+OIL = 'viscosity = "13 mPa s"\nroughness = "0.4 um"\n'
+
+
+def with_friction(lines, motion=SPEED):
+    """The paper's elastic teeth with a friction section; without a speed unless it is given."""
+    head, _, rest = ELASTIC.partition("[motion]")
+    rest = rest[rest.index("\n[") :] if "\n[" in rest else ""
+    return scene_from_text(f"{head}{motion}{rest}\n[friction]\n{lines}")
+
+
+def test_the_model_has_the_formula_s_coefficient():
+    """Identity: of the nominal force and the speed of the scene."""
+    model = model_of(with_friction(f'formula = "Schlenk"\n{OIL}'))
+    force = model.scene.load.wheel_torque / model.pair.wheel.base_radius
+    assert model.friction_coefficient == pytest.approx(schlenk(model.pair, force, 400.0 * 60.0 / 16, 13.0, 0.4), rel=1e-12)
+    assert model.equations_of_motion.friction == model.friction_coefficient
+    assert model_of(with_friction("coefficient = 0.07\n")).friction_coefficient == 0.07
+
+
+@pytest.mark.parametrize(
+    ("lines", "motion", "said"),
+    [
+        ("", SPEED, "friction.coefficient\n    is missing"),
+        (f'coefficient = 0.1\nformula = "Schlenk"\n{OIL}', SPEED, "stands beside coefficient"),
+        ('formula = "Schlenk"\nviscosity = "13 mPa s"\n', SPEED, "friction.roughness\n    is missing"),
+        ('coefficient = 0.1\nroughness = "1 um"\n', SPEED, "is for a formula"),
+        (f'formula = "Benedict and Kelley"\n{OIL}', "", "needs a speed"),
+        (f'formula = "Coulomb"\n{OIL}', SPEED, '"Schlenk", "Benedict and Kelley"'),
+        ('formula = "Schlenk"\nviscosity = "13 MPa"\nroughness = "1 um"\n', SPEED, "friction.viscosity"),
+    ],
+)
+def test_what_is_missing_or_too_much_is_refused(lines, motion, said):
+    """House rule on errors: what, where, what is allowed."""
+    with pytest.raises(SceneError) as refused:
+        with_friction(lines, motion)
+    assert said in str(refused.value)
