@@ -4,7 +4,7 @@ There the tip touches off the line of action, along the mate's own normal. That 
 and passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the theoretical
 one, at the base radius from the mate's centre and at another distance from the tip's. Along it a pair has contact nodes, gaps
 and compliance as any other pair, with the tip at the end of its window. Where the edge leaves the path of contact the two lines
-coincide: nothing jumps, and no contact is counted twice.
+coincide: nothing jumps, and no contact is counted twice. The edge between the involute and the fillet of an undercut gear is one more such edge.
 """
 
 from __future__ import annotations
@@ -19,20 +19,24 @@ from fenics_gears.contact.tooth_pair import SENSES, Flanks, Line, Place, ToothPa
 from fenics_gears.contact.window import ContactGrid, Ends, node_offsets, window
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.tip_edge import TipEdge, tip_edge
+from fenics_gears.geometry.tip_edge import TipEdge, form_edge, tip_edge
 
 
 @dataclass(frozen=True, eq=False)
 class CornerContact:
-    """The tip edges of pinion and wheel; equal to itself alone, so that what depends on it can be kept by it."""
+    """The tip edges of pinion and wheel, and those at their form circles where they are undercut; equal to itself alone, so that what depends on it can be kept by it."""
 
     edges: tuple[TipEdge, TipEdge]
+    form_edges: tuple[TipEdge | None, TipEdge | None] = (None, None)
 
-    def edge_beyond(self, place: Place) -> int | None:
-        """The gear, 0 or 1, whose tip edge has left the path of contact at a place; None where its flanks touch."""
+    def edge_beyond(self, place: Place) -> tuple[int, TipEdge] | None:
+        """The gear, 0 or 1, of which an edge has left the path of contact at a place, and the edge; None where its flanks touch."""
+        for gear, edge in enumerate(self.form_edges):
+            if edge is not None and place.contact_rolls[gear] < edge.flank_roll:
+                return gear, edge
         for gear, edge in enumerate(self.edges):
             if place.contact_rolls[gear] > edge.flank_roll:
-                return gear
+                return gear, edge
         return None
 
 
@@ -42,14 +46,17 @@ def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.
     Raises GeometryError for a radius that does not fit the tip.
     """
     radii = edge_radius if isinstance(edge_radius, tuple) else (edge_radius, edge_radius)
-    return CornerContact((tip_edge(pair.pinion, radii[0]), tip_edge(pair.wheel, radii[1])))
+    gears = pair.pinion, pair.wheel
+    first, second = (tip_edge(gear, radius) for gear, radius in zip(gears, radii))
+    form_1, form_2 = (form_edge(gear) if gear.undercut else None for gear in gears)
+    return CornerContact((first, second), (form_1, form_2))
 
 
 def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
     """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times only edges carry."""
     pinion, wheel = corner.edges
-    start = pair.line_of_action_length - pair.wheel.base_radius * wheel.flank_roll
-    ratio = (pair.pinion.base_radius * pinion.flank_roll - start) / pair.base_pitch
+    start = max(pair.line_of_action_length - pair.wheel.base_radius * wheel.flank_roll, pair.path_start)
+    ratio = (min(pair.pinion.base_radius * pinion.flank_roll, pair.path_end) - start) / pair.base_pitch
     if ratio >= 1.0:
         return []
     return [
@@ -60,12 +67,12 @@ def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
 
 def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
     """The place of a pair along the mate's normal where a tip edge is beyond the path of contact; else unchanged."""
-    tip = corner.edge_beyond(place)
-    if tip is None:
+    beyond = corner.edge_beyond(place)
+    if beyond is None:
         return place
-    radii = (pair.pinion.base_radius, pair.wheel.base_radius)
+    (tip, edge), radii = beyond, (pair.pinion.base_radius, pair.wheel.base_radius)
     mate = 1 - tip
-    x, height = edge_position(corner.edges[tip], place.contact_rolls[tip])
+    x, height = edge_position(edge, place.contact_rolls[tip])
     # The same point from the mate's tangent point and centre.
     x, height = pair.line_of_action_length - x, sum(radii) - height
     tangent = np.sqrt(x**2 + height**2 - radii[mate] ** 2)
@@ -137,9 +144,9 @@ def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theor
     A tip's gap grows with the distance squared, as the gap between flanks does across the window, but slower: half a window's
     length is not always enough.
     """
-    tip = corner.edge_beyond(theoretical)
-    if tip is not None:
-        beyond = theoretical.contact_rolls[tip] - corner.edges[tip].flank_roll
-        if beyond * (pair.pinion, pair.wheel)[tip].base_radius > grid.length:
+    beyond = corner.edge_beyond(theoretical)
+    if beyond is not None:
+        gear, edge = beyond
+        if abs(theoretical.contact_rolls[gear] - edge.flank_roll) * (pair.pinion, pair.wheel)[gear].base_radius > grid.length:
             return False
     return window(edge_ends(pair, corner, corner_place(pair, corner, theoretical)), grid) is not None

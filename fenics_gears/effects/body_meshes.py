@@ -72,6 +72,9 @@ def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
         return
     if not section:
         yield Problem(("body_meshes",), "", 'names no file. Add pinion = "gear.msh" or wheel = "gear.msh", or leave the section out.')
+    for gear in GEARS:
+        if gear in section and value_at(tree, "gears", gear, "web") is not None:
+            yield Problem(("gears", gear, "web"), "", f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out.")
     accuracy = table(tree, "accuracy") or {}
     for name, allowed in (("model", "elastic"), ("condensation", "once")):
         written = accuracy.get(name, allowed)

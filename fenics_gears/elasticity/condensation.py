@@ -52,7 +52,7 @@ def condense(
     compile_ahead(element)
     compiled = perf_counter()
     space = displacement_space(mesh, element)
-    matrix = stiffness_matrix(space, element, poissons_ratio)
+    matrix = stiffness_matrix(space, element, poissons_ratio, mesh.web)
     assembled = perf_counter()
     stiffness = schur_complement(matrix, dofs_of(_nodes(space, points, cells_of or {})))
     unknowns = matrix.getSize()[0]

@@ -49,7 +49,7 @@ def with_image(half: BodyMesh) -> BodyMesh:
     edges = {name: half.edges[name] for name in IMAGES}
     mirrored = {other: index[half.edges[name]] for name, other in IMAGES.items()}
     edges = {name: np.vstack([part[name] for part in (edges, mirrored) if name in part]) for name in {**edges, **mirrored}}
-    return BodyMesh(points, oriented(points, np.vstack([half.cells, index[half.cells]])), edges)
+    return BodyMesh(points, oriented(points, np.vstack([half.cells, index[half.cells]])), edges, half.web)
 
 
 def _half(boundary: SectorBoundary, field: SizeField) -> SectorBoundary:

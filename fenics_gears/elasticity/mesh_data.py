@@ -9,6 +9,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear_data import Web
 
 
 @dataclass(frozen=True)
@@ -21,11 +22,13 @@ class BodyMesh:
     edges: named parts of the boundary, each (k, 2) point indices. A sector has "flank", "hub",
         "lower cut" and "upper cut" (clockwise and counter-clockwise side); a whole gear has "hub"
         and "flank 0", "flank 1", ... counted counter-clockwise.
+    web: part of the body that is less wide than the rest, lengths as of the points.
     """
 
     points: np.ndarray
     cells: np.ndarray
     edges: dict[str, np.ndarray]
+    web: Web | None = None
 
     def edge_points(self, name: str) -> np.ndarray:
         """Sorted point indices of a named part of the boundary."""

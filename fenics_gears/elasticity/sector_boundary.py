@@ -87,7 +87,8 @@ def sector_boundary(
     outline = tooth_outline(gear, FILLET_SAMPLES)
     flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank, sizes.mate_tip))
     root = root_curve(outline)
-    tip = _arc(gear.tip_radius, flank[-1], outline.coast(flank[-1]))
+    corner = outline.tip_corner if gear.tip_chamfer else flank[-1]
+    tip = _arc(gear.tip_radius, corner, outline.coast(corner))
     coast = outline.coast(flank[::-1])
     hub_angles = outline.centreline_angle + 0.5 * gear.angular_pitch * np.array([-1.0, 1.0])
     hub = gear.bore_radius * _directions(np.linspace(*hub_angles, CURVE_SAMPLES))
@@ -101,11 +102,15 @@ def sector_boundary(
 
     radii = _cut_radii(gear, field, hub_angles)
     root_nodes = _on_circle(gear.root_radius, nodes(root, 12), root)
+    tip_nodes = _on_circle(gear.tip_radius, nodes(tip, multiple=halved), tip)
+    if gear.tip_chamfer:
+        chamfer = nodes(np.linspace(flank[-1], corner, CURVE_SAMPLES))
+        tip_nodes = np.vstack([chamfer[:-1], tip_nodes, outline.coast(chamfer)[-2::-1]])
     pieces = {
         "upper cut": radii[:, None] * _directions(hub_angles[1:]),
         "root": root_nodes,
         "flank": flank,
-        "tip": _on_circle(gear.tip_radius, nodes(tip, multiple=halved), tip),
+        "tip": tip_nodes,
         "coast": coast if sizes.both_flanks else nodes(coast, 4),
         "coast root": outline.coast(root_nodes)[::-1],
         "lower cut": radii[::-1, None] * _directions(hub_angles[:1]),

@@ -67,7 +67,7 @@ class SectorInterior:
     def _assembled(self) -> sparse.csr_matrix:
         compile_ahead(self.element)
         space = displacement_space(self.mesh, self.element)
-        matrix = stiffness_matrix(space, self.element, self.poissons_ratio)
+        matrix = stiffness_matrix(space, self.element, self.poissons_ratio, self.mesh.web)
         starts, columns, values = matrix.getValuesCSR()
         assembled = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
         matrix.destroy()

@@ -51,7 +51,7 @@ def _filling(quadrilaterals: bool):
 
 def _scaled(mesh: BodyMesh, gear: Gear) -> BodyMesh:
     """A mesh in modules, in mm."""
-    return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges)
+    return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges, gear.web)
 
 
 def _filled_with_triangles(boundary: SectorBoundary, field: SizeField, parts: tuple[str, ...]) -> BodyMesh:

@@ -12,6 +12,9 @@ from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear_data import Web
+
+WEB_QUADRATURE = 8
 
 
 def stress(displacement, poissons_ratio):
@@ -26,25 +29,39 @@ def stress_of_strain(strain, poissons_ratio):
     return first_lame * ufl.tr(strain) * ufl.Identity(strain.ufl_shape[0]) + 2.0 * shear_modulus * strain
 
 
-def stiffness_matrix(space, element: Element, poissons_ratio: float):
-    """Assembled PETSc matrix of the strain energy on a displacement space, no boundary conditions."""
+def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | None = None):
+    """Assembled PETSc matrix of the strain energy on a displacement space, no boundary conditions.
+
+    A web that is less wide than the face is in plane strain as the rest is, and stiff by its share of the face width.
+    """
     if element.incompatible_modes:
         from fenics_gears.elasticity.incompatible_modes import condensed_stiffness
 
         poisson = adapter.constant(space.mesh, poissons_ratio)
-        return condensed_stiffness(space, lambda strain: stress_of_strain(strain, poisson), _cells(element))
-    return adapter.assemble_matrix(stiffness_form(space, element, poissons_ratio))
+        return condensed_stiffness(space, lambda strain: _of_width(web, space.mesh, stress_of_strain(strain, poisson)), _cells(element, web))
+    return adapter.assemble_matrix(stiffness_form(space, element, poissons_ratio, web))
 
 
-def stiffness_form(space, element: Element, poissons_ratio: float):
+def stiffness_form(space, element: Element, poissons_ratio: float, web: Web | None = None):
     """Compiled bilinear form of the strain energy of a displacement alone, without modes within the cells."""
     trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
     poisson = adapter.constant(space.mesh, poissons_ratio)
-    return adapter.compile_form(ufl.inner(stress(trial, poisson), ufl.sym(ufl.grad(test))) * _cells(element))
+    return adapter.compile_form(ufl.inner(_of_width(web, space.mesh, stress(trial, poisson)), ufl.sym(ufl.grad(test))) * _cells(element, web))
 
 
-def _cells(element: Element):
-    return ufl.dx(metadata={"quadrature_degree": element.quadrature_degree})
+def _of_width(web: Web | None, mesh, stress):
+    """UFL stress times the body's width over the face width; a body without web has no such term in its form."""
+    if web is None:
+        return stress
+    place = ufl.SpatialCoordinate(mesh)
+    inner, outer, share = (adapter.constant(mesh, value) for value in (web.hub_radius**2, web.rim_radius**2, web.share))
+    square = ufl.inner(place, place)
+    return ufl.conditional(ufl.And(ufl.gt(square, inner), ufl.lt(square, outer)), share, 1.0) * stress
+
+
+def _cells(element: Element, web: Web | None = None):
+    # The web's ends lie within cells.
+    return ufl.dx(metadata={"quadrature_degree": element.quadrature_degree if web is None else WEB_QUADRATURE})
 
 
 def displacement_space(mesh: BodyMesh, element: Element):

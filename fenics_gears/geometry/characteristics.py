@@ -59,6 +59,8 @@ def _gear_rows(pair: GearPair, name: str) -> list[tuple[str, float, str]]:
         ("reference diameter", 2.0 * gear.reference_radius, "mm"),
         ("base diameter", 2.0 * gear.base_radius, "mm"),
         ("form diameter", 2.0 * gear.form_radius, "mm"),
+        *([("tip form diameter", 2.0 * gear.tip_form_radius, "mm")] if gear.tip_chamfer else []),
+        *([("width of the web over the face width", gear.web.share, "")] if gear.web is not None else []),
         ("dedendum", gear.dedendum / gear.normal_module, "modules"),
         ("normal tooth thickness at the reference circle", normal_thickness(gear), "mm"),
         (f"base tangent length over {teeth} teeth (W_k)", base_tangent_length(gear, teeth), "mm"),

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan, cos, pi, sin, tan
+from math import atan, cos, hypot, pi, sin, tan
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear_data import GearData
+from fenics_gears.geometry.fillet import crossing, fillet_point, touching_end
+from fenics_gears.geometry.gear_data import GearData, Web
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
 # Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits of a double.
@@ -23,6 +24,8 @@ class Gear:
     Module, pressure angle and profile shift are those of the transverse section; `helix_angle` at the reference cylinder, without sign. The rack's
     rounding has `rack_tip_radius` in its normal section; the transverse section sees it stretched along the pitch line by 1/cos(helix angle), as an
     ellipse. The rack's addendum, which cuts the gear's dedendum, follows from root radius and profile shift.
+    `tip_chamfer`: radial height of the chamfer between flank and tip circle. `protuberance`: by which the rack's rounding stands out beyond
+    the flank that cuts the finished involute, normal to it, going back at `protuberance_angle`; both in its normal section.
     """
 
     teeth: int
@@ -34,6 +37,10 @@ class Gear:
     bore_radius: float
     rack_tip_radius: float
     helix_angle: float = 0.0
+    tip_chamfer: float = 0.0
+    protuberance: float = 0.0
+    protuberance_angle: float = 0.0
+    web: Web | None = None
 
     @property
     def normal_module(self) -> float:
@@ -67,8 +74,12 @@ class Gear:
     @property
     def of_module_one(self) -> Gear:
         """The similar gear whose module is the unit of length."""
-        tip, root, bore, rack_tip = self.in_modules(self.tip_radius, self.root_radius, self.bore_radius, self.rack_tip_radius)
-        return replace(self, module=1.0, tip_radius=tip, root_radius=root, bore_radius=bore, rack_tip_radius=rack_tip)
+        lengths = ("tip_radius", "root_radius", "bore_radius", "rack_tip_radius", "tip_chamfer", "protuberance")
+        web = self.web
+        if web is not None:
+            hub, rim = self.in_modules(web.hub_radius, web.rim_radius)
+            web = Web(hub, rim, web.share)
+        return replace(self, module=1.0, web=web, **dict(zip(lengths, self.in_modules(*(getattr(self, length) for length in lengths)))))
 
     @property
     def angular_pitch(self) -> float:
@@ -96,6 +107,21 @@ class Gear:
         """Depth (mm) of the rack's tip below the rolling pitch line, profile shift included."""
         return self.reference_radius - self.root_radius
 
+    def rack_half_thickness(self, depth: float) -> float:
+        """Half the thickness (mm) of the rack's tooth between its straight flanks at a depth (mm) below the rolling pitch line."""
+        half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
+        return half_tip_land + (self.rack_depth - depth) * tan(self.pressure_angle)
+
+    @property
+    def _rack_half_tip_land(self) -> float:
+        """Half the thickness (mm) of the rack's tip where the flanks, moved out by the protuberance, meet it."""
+        return self.rack_half_thickness(self.rack_depth) + self.rack_stretch * self.protuberance / cos(self.normal_pressure_angle)
+
+    @property
+    def transverse_protuberance_angle(self) -> float:
+        """Protuberance angle (rad) in the transverse section."""
+        return atan(tan(self.protuberance_angle) * self.rack_stretch)
+
     @property
     def rack_tip_centre(self) -> tuple[float, float]:
         """Centre of the rack's tip rounding, mm: distance from the rack tooth's centreline, depth below the pitch line.
@@ -103,50 +129,68 @@ class Gear:
         A negative distance means that the rounding does not fit on the rack's tip.
         """
         alpha, radius = self.normal_pressure_angle, self.rack_tip_radius
-        half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
+        half_tip_land = self._rack_half_tip_land
         return half_tip_land - self.rack_stretch * radius * (1.0 - sin(alpha)) / cos(alpha), self.rack_depth - radius
 
     @property
     def largest_rack_tip_radius(self) -> float:
         """Tip radius (mm) at which the rack's two roundings meet; negative when the rack ends in a point before."""
         alpha = self.normal_pressure_angle
-        half_tip_land = (0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)) / self.rack_stretch
+        half_tip_land = self._rack_half_tip_land / self.rack_stretch
         return half_tip_land * cos(alpha) / (1.0 - sin(alpha))
 
     @cached_property
-    def form_roll_angle(self) -> float:
-        """Roll angle (rad) where the fillet ends and the involute begins; negative means undercut.
+    def rack_form_roll_angle(self) -> float:
+        """Roll angle (rad) that the end of the rack's straight flank cuts; negative means undercut.
 
-        The end of the rack's straight flank, at depth c below the pitch line, cuts this point while it crosses the line
-        of action, ``c/sin(alpha)`` before the pitch point.
+        This point, at depth c below the pitch line, cuts while it crosses the line of action, ``c/sin(alpha)`` before the pitch point.
         """
         alpha = self.pressure_angle
         flank_end = self.rack_depth - self.rack_tip_radius * (1.0 - sin(self.normal_pressure_angle))
         return tan(alpha) - flank_end / (self.reference_radius * sin(alpha) * cos(alpha))
 
     @property
-    def form_radius(self) -> float:
-        """Radius (mm) where the fillet meets the involute.
+    def undercut(self) -> bool:
+        """Whether the fillet crosses the involute instead of touching it, so that an edge is where they meet."""
+        return self.rack_form_roll_angle < 0.0 or self.protuberance > 0.0
 
-        Raises GeometryError for an undercut gear, whose fillet cuts the involute instead of touching it.
-        """
-        roll = self.form_roll_angle
-        if roll < 0.0:
-            raise GeometryError(
-                f"undercut: the gear with {self.teeth} teeth has no involute down to its fillet "
-                f"(form roll angle {roll:.4f} rad, must not be negative)"
-            )
-        return self.radius(roll)
+    @cached_property
+    def fillet_end(self) -> float:
+        """Fillet parameter (rad, see fillet.py) at the form circle; 0 is the root circle."""
+        return crossing(self) if self.undercut else touching_end(self)
+
+    @cached_property
+    def form_roll_angle(self) -> float:
+        """Roll angle (rad) at the form circle, where the fillet ends and the involute begins."""
+        if not self.undercut:
+            return self.rack_form_roll_angle
+        x, y = fillet_point(self, self.fillet_end)
+        return float(self.roll_angle(hypot(x, y)))
+
+    @property
+    def form_radius(self) -> float:
+        """Radius (mm) of the form circle, where the fillet meets the involute."""
+        return self.radius(self.form_roll_angle)
+
+    @property
+    def tip_form_radius(self) -> float:
+        """Radius (mm) where the involute ends: of the tip circle, or at the foot of the tip's chamfer (d_Fa = d_a - 2 h_K of ISO 21771)."""
+        return self.tip_radius - self.tip_chamfer
 
     @cached_property
     def tip_roll_angle(self) -> float:
-        """Roll angle (rad) at the tip circle."""
-        return float(self.roll_angle(self.tip_radius))
+        """Roll angle (rad) where the involute ends at the tip."""
+        return float(self.roll_angle(self.tip_form_radius))
+
+    @cached_property
+    def chamfered_arc(self) -> float:
+        """Arc (mm) of the tip circle that the chamfer takes off either side: as long as what it takes off the flank."""
+        return 0.5 * self.base_radius * float(self.roll_angle(self.tip_radius) ** 2 - self.tip_roll_angle**2) if self.tip_chamfer else 0.0
 
     @property
     def tip_thickness(self) -> float:
-        """Arc (mm) of the tooth at the tip circle; not positive when the flanks meet below it."""
-        return float(self.tooth_thickness(self.tip_radius))
+        """Arc (mm) of the tip circle on the tooth; not positive when flanks or chamfers meet below it."""
+        return float(self.tooth_thickness(self.tip_radius)) - 2.0 * self.chamfered_arc
 
     @property
     def pointed_radius(self) -> float:
@@ -186,4 +230,8 @@ def transverse_gear(gear: GearData, module: float, pressure_angle: float, helix_
         bore_radius=0.5 * gear.bore_diameter,
         rack_tip_radius=gear.rack_tip_radius * module,
         helix_angle=helix_angle,
+        tip_chamfer=gear.tip_chamfer,
+        protuberance=gear.protuberance,
+        protuberance_angle=gear.protuberance_angle,
+        web=gear.web,
     )

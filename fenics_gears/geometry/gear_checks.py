@@ -8,13 +8,18 @@ from __future__ import annotations
 from math import cos, floor, isfinite, pi, sin
 from typing import NoReturn
 
+import numpy as np
+
 from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.fillet import fillet_point
 from fenics_gears.geometry.gear import Gear
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
 # Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
 LEAST_RIM = 0.2
+# Thinnest neck of an undercut tooth, in modules.
+LEAST_NECK, NECK_SAMPLES = 0.1, 401
 # Parts of a module to which a tip radius is rounded down.
 STEPS_OF_TIP_RADIUS = 10_000
 
@@ -23,6 +28,7 @@ def check_gear(gear: Gear, name: str) -> None:
     """Refuse a gear (``name`` is its section of the scene) that no rack can cut; raises GeometryError."""
     _check_numbers(gear, name)
     _check_circles(gear, name)
+    _check_web(gear, name)
     _check_rack(gear, name)
     _check_undercut(gear, name)
     _check_tip(gear, name)
@@ -83,6 +89,20 @@ def _check_circles(gear: Gear, name: str) -> None:
         )
 
 
+def _check_web(gear: Gear, name: str) -> None:
+    if gear.web is None:
+        return
+    bore, hub, rim, largest = (2.0 * radius for radius in (gear.bore_radius, gear.web.hub_radius, gear.web.rim_radius, gear.root_radius - LEAST_RIM * gear.normal_module))
+    if not bore <= hub < rim <= largest:
+        refuse(
+            name,
+            f"no web: gears.{name}.web.hub_diameter = {hub:.6g} mm, rim_inner_diameter = {rim:.6g} mm; from the bore on, {bore:.6g} mm, they must rise, and with a rim of "
+            f"{LEAST_RIM} modules the rim may begin at {largest:.6g} mm: change hub_diameter or rim_inner_diameter",
+        )
+    if not 0.0 < gear.web.share <= 1.0:
+        refuse(name, f"gears.{name}.web.width is {gear.web.share:.4g} of the face width; it must be more than none and no more than all of it: lower it")
+
+
 def _check_rack(gear: Gear, name: str) -> None:
     shifted_pitch = 2.0 * (gear.root_radius + gear.dedendum)
     if gear.dedendum <= 0.0 or gear.rack_depth <= 0.0:
@@ -109,24 +129,38 @@ def _check_rack(gear: Gear, name: str) -> None:
 
 
 def _check_undercut(gear: Gear, name: str) -> None:
-    if gear.form_roll_angle < 0.0:
-        sine = sin(gear.normal_pressure_angle)
-        lowest_root = 2.0 * (gear.reference_radius * cos(gear.pressure_angle) ** 2 - gear.rack_tip_radius * (1.0 - sine))
+    if gear.undercut and (neck := neck_thickness(gear)) < LEAST_NECK * gear.normal_module:
         refuse(
             name,
-            f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm the rack removes involute near the base "
-            f"circle; {gear.teeth} teeth with a rack tip radius of {gear.rack_tip_radius / gear.normal_module:.4g} modules are free of "
-            f"undercut from root diameter {lowest_root:.6g} mm up: raise gears.{name}.root_diameter together with "
-            f"gears.{name}.profile_shift, or gears.{name}.teeth",
+            f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm, the fillets leave a tooth {max(neck, 0.0):.4g} mm thick at its neck; "
+            f"it must have {LEAST_NECK} modules: raise gears.{name}.root_diameter together with gears.{name}.profile_shift, or gears.{name}.teeth",
         )
 
 
+def neck_thickness(gear: Gear) -> float:
+    """Thickness (mm) of a tooth where its two fillets are nearest; negative where they overlap."""
+    x, y = fillet_point(gear, np.linspace(0.0, gear.fillet_end, NECK_SAMPLES)).T
+    return float(2.0 * np.min(np.hypot(x, y) * np.sin(gear.tooth_half_angle_at_base + np.arctan2(x, -y))))
+
+
 def _check_tip(gear: Gear, name: str) -> None:
+    if not 0.0 <= gear.tip_chamfer < gear.tip_radius - gear.form_radius and gear.tip_radius > gear.form_radius:
+        refuse(
+            name,
+            f"gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm; between the form circle and the tip circle are {gear.tip_radius - gear.form_radius:.4g} mm, and "
+            f"involute must be left: lower it to 0 mm or more, but less than that",
+        )
     if gear.tip_radius <= gear.form_radius:
         refuse(
             name,
-            f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the fillet reaches up to "
-            f"{2.0 * gear.form_radius:.6g} mm: raise gears.{name}.tip_diameter or lower gears.{name}.root_diameter",
+            f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the fillet{' cuts off the involute' if gear.undercut else ' reaches'} up to "
+            f"{2.0 * gear.form_radius:.6g} mm: raise gears.{name}.tip_diameter or {'raise' if gear.undercut else 'lower'} gears.{name}.root_diameter",
+        )
+    if gear.tip_chamfer and gear.tip_thickness <= ROUNDING:
+        refuse(
+            name,
+            f"pointed tip: the chamfers of gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm take {gear.chamfered_arc:.4g} mm off either side of the tip circle, "
+            f"where the tooth is {gear.tip_thickness + 2.0 * gear.chamfered_arc:.4g} mm thick: lower gears.{name}.tip_chamfer or gears.{name}.tip_diameter",
         )
     if gear.tip_thickness <= ROUNDING:
         refuse(

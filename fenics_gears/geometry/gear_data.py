@@ -17,8 +17,20 @@ class Material:
 
 
 @dataclass(frozen=True)
+class Web:
+    """A part of the gear's body that is thinner than the face, from the hub's radius to the rim's inner radius (mm); `share`: its width over the face width."""
+
+    hub_radius: float
+    rim_radius: float
+    share: float
+
+
+@dataclass(frozen=True)
 class GearData:
-    """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's."""
+    """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's.
+
+    `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
+    """
 
     teeth: int
     profile_shift: float
@@ -28,6 +40,10 @@ class GearData:
     rack_tip_radius: float
     face_width: float | None = None
     material: Material | None = None
+    tip_chamfer: float = 0.0
+    protuberance: float = 0.0
+    protuberance_angle: float = 0.0
+    web: Web | None = None
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """A pinion and a wheel on their centres: the line of action and the points on it.
 
 Positions on the line of action are distances ``xi`` (mm) from T1, where it leaves the pinion's base circle. The pinion
-drives, so that contact runs from the wheel's tip (path_start) to the pinion's tip (path_end).
+drives, so that contact runs from the wheel's tip (path_start) to the pinion's tip (path_end), unless the mate is cut away there.
 """
 
 from __future__ import annotations
@@ -109,15 +109,23 @@ class GearPair:
         """Distance (mm) from T2 to the pitch point, ``e`` of the paper."""
         return self.line_of_action_length - self.pitch_point
 
+    @property
+    def tip_positions(self) -> tuple[float, float]:
+        """Positions (mm) where the wheel's tip and the pinion's tip cross the line of action."""
+        wheel, pinion = self.wheel, self.pinion
+        return self.line_of_action_length - wheel.base_radius * wheel.tip_roll_angle, pinion.base_radius * pinion.tip_roll_angle
+
     @cached_property
     def path_start(self) -> float:
-        """Position (mm) where contact begins, at the wheel's tip."""
-        return self.line_of_action_length - self.wheel.base_radius * self.wheel.tip_roll_angle
+        """Position (mm) where contact begins: at the wheel's tip, or later, at the form circle of an undercut pinion."""
+        tip, pinion = self.tip_positions[0], self.pinion
+        return max(tip, pinion.base_radius * pinion.form_roll_angle) if pinion.undercut else tip
 
     @cached_property
     def path_end(self) -> float:
-        """Position (mm) where contact ends, at the pinion's tip."""
-        return self.pinion.base_radius * self.pinion.tip_roll_angle
+        """Position (mm) where contact ends: at the pinion's tip, or earlier, at the form circle of an undercut wheel."""
+        tip, wheel = self.tip_positions[1], self.wheel
+        return min(tip, self.line_of_action_length - wheel.base_radius * wheel.form_roll_angle) if wheel.undercut else tip
 
     @cached_property
     def contact_ratio(self) -> float:

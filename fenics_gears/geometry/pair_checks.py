@@ -5,6 +5,7 @@ Every message says what is wrong, on which gear, the value, the limit, and the f
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -44,6 +45,13 @@ def design_warnings(pair: GearPair) -> list[str]:
                 f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
                 f"= {THIN_TIP * gear.normal_module:.4g} mm; lower gears.{name}.tip_diameter or profile_shift"
             )
+    whole = (pair.tip_positions[1] - pair.tip_positions[0]) / pair.base_pitch
+    for name, other, lowest in _shortened(pair):
+        found.append(
+            f"{name}: undercut: the {other}'s tip would be in contact down to roll angle {in_degrees(lowest)}, but the involute is cut away below "
+            f"{in_degrees(getattr(pair, name).form_roll_angle)} (form circle): contact ratio {pair.contact_ratio:.4g} instead of {whole:.4g}; "
+            f"{_less_undercut(pair, name)}"
+        )
     return found
 
 
@@ -89,18 +97,35 @@ def _check_tip_clearance(pair: GearPair) -> None:
 
 def _check_contact_ratio(pair: GearPair) -> None:
     if pair.contact_ratio < 1.0:
+        short = [name for name, *_ in _shortened(pair) if getattr(pair, name).undercut]
+        cut = "".join(f", shortened by the undercut {name}" for name in short)
+        undercut = "".join(f", or {_less_undercut(pair, name)}" for name in short)
         refuse(
             "pair",
-            f"{'transverse ' if pair.helix else ''}contact ratio {pair.contact_ratio:.4g}, must be at least 1, otherwise a tooth pair leaves before the next one "
-            f"enters: raise gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance "
-            f"({pair.centre_distance:.6g} mm)",
+            f"{'transverse ' if pair.helix else ''}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, otherwise a tooth pair leaves before the "
+            f"next one enters: raise gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance "
+            f"({pair.centre_distance:.6g} mm){undercut}",
         )
 
 
-def _check_interference(pair: GearPair) -> None:
-    for (name, other), lowest in zip(NAMES, pair.sap_roll_angles):
+def _less_undercut(pair: GearPair, name: str) -> str:
+    protuberance = "lower protuberance of its rack, or " if getattr(pair, name).protuberance else ""
+    return f"{protuberance}raise gears.{name}.profile_shift together with its diameters, or gears.{name}.teeth"
+
+
+def _shortened(pair: GearPair) -> Iterator[tuple[str, str, float]]:
+    """Gears whose involute ends above the mate's tip: their name, the mate's and the roll angle (rad) that the mate's tip would reach."""
+    start, end = pair.tip_positions
+    for (name, other), lowest in zip(NAMES, (pair.pinion_roll_angle(start), pair.wheel_roll_angle(end))):
         gear = getattr(pair, name)
-        if lowest * gear.base_radius < gear.form_roll_angle * gear.base_radius - ROUNDING:
+        if (lowest - gear.form_roll_angle) * gear.base_radius < -ROUNDING:
+            yield name, other, lowest
+
+
+def _check_interference(pair: GearPair) -> None:
+    for name, other, lowest in _shortened(pair):
+        gear = getattr(pair, name)
+        if not gear.undercut:
             largest_tip = 2.0 * _largest_mating_tip_radius(pair, other, gear)
             refuse(
                 name,

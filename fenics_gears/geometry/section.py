@@ -12,9 +12,10 @@ from math import atan2, pi
 
 import numpy as np
 
+from fenics_gears.geometry.fillet import fillet_point, fillet_tangent
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.outline import centreline_angle, fillet_end, fillet_point, fillet_tangent
+from fenics_gears.geometry.involute import canonical_point, involute_function
+from fenics_gears.geometry.outline import centreline_angle, tip_corner
 
 # The fillet is smooth: from 20 points on nothing but round-off changes.
 QUADRATURE_POINTS = 40
@@ -29,11 +30,14 @@ class CrossSection:
 
 
 def gear_section(gear: Gear) -> CrossSection:
-    """The cross-section of a gear from bore to tip. Raises GeometryError for an undercut gear."""
+    """The cross-section of a gear from bore to tip; a web counts by its share of the face width."""
     tip, form = gear.tip_roll_angle, gear.form_roll_angle
-    half_tip = gear.tooth_half_angle_at_base - float(involute_function(tip))
-    half_tooth = _arc(gear.tip_radius, half_tip) + _involute(gear.base_radius, tip) - _involute(gear.base_radius, form) + _fillet(gear)
+    half_tip = 0.5 * gear.tip_thickness / gear.tip_radius if gear.tip_chamfer else gear.tooth_half_angle_at_base - float(involute_function(tip))
+    chamfer = _straight(tip_corner(gear), canonical_point(gear.base_radius, tip)) if gear.tip_chamfer else 0.0
+    half_tooth = _arc(gear.tip_radius, half_tip) + chamfer + _involute(gear.base_radius, tip) - _involute(gear.base_radius, form) + _fillet(gear)
     area, moment = 2 * gear.teeth * half_tooth - _arc(gear.bore_radius, 2.0 * pi)
+    if (web := gear.web) is not None:
+        area, moment = np.array([area, moment]) - (1.0 - web.share) * (_arc(web.rim_radius, 2.0 * pi) - _arc(web.hub_radius, 2.0 * pi))
     return CrossSection(float(area), float(moment))
 
 
@@ -51,6 +55,12 @@ def _arc(radius: float, angle: float) -> np.ndarray:
     return np.array([0.5 * radius**2, 0.25 * radius**4]) * angle
 
 
+def _straight(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Both integrals along a straight line: of the triangle with the centre."""
+    area = 0.5 * (start[0] * end[1] - start[1] * end[0])
+    return area * np.array([1.0, (start @ start + start @ end + end @ end) / 6.0])
+
+
 def _involute(base_radius: float, roll_angle: float) -> np.ndarray:
     """Both integrals along the involute from the base circle to a roll angle."""
     return np.array([0.5 * base_radius**2 * roll_angle**3 / 3.0, 0.25 * base_radius**4 * (roll_angle**3 / 3.0 + roll_angle**5 / 5.0)])
@@ -59,7 +69,7 @@ def _involute(base_radius: float, roll_angle: float) -> np.ndarray:
 def _fillet(gear: Gear) -> np.ndarray:
     """Both integrals from the form circle down the fillet and along the root circle to the middle of the tooth space."""
     nodes, weights = np.polynomial.legendre.leggauss(QUADRATURE_POINTS)
-    half = 0.5 * fillet_end(gear)
+    half = 0.5 * gear.fillet_end
     points, tangents = fillet_point(gear, half * (1.0 + nodes)), fillet_tangent(gear, half * (1.0 + nodes))
     turning = half * weights * (points[:, 1] * tangents[:, 0] - points[:, 0] * tangents[:, 1])
     along = np.array([0.5 * turning.sum(), 0.25 * turning @ np.einsum("nd,nd->n", points, points)])

@@ -7,16 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.fillet import halved
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import canonical_normal, canonical_point
+from fenics_gears.geometry.outline import tip_corner
 
 
 @dataclass(frozen=True)
 class TipEdge:
-    """An arc of `radius` (mm) tangent to the involute and to the tip circle; radius 0 is the sharp edge where the two meet.
+    """An arc of `radius` (mm) tangent to the involute and to the tip circle, or its chamfer; radius 0 is the sharp edge where the two meet.
 
     `centre` (2,), mm, of the arc; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and `tip_normal`
-    (2,): outward unit normals at its two ends, on the flank and on the tip circle.
+    (2,): outward unit normals at its two ends, on the flank and on the tip circle or chamfer.
     """
 
     radius: float
@@ -39,6 +41,8 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
     The curve parallel to an involute is an involute of the same base circle: the arc's centre, `radius` inside the flank and inside
     the tip circle, is at rb^2 + (rb v - radius)^2 = (ra - radius)^2. Raises GeometryError for a radius that leaves no tip or flank.
     """
+    if gear.tip_chamfer and radius >= 0.0:
+        return _chamfered(gear, radius)
     largest = 0.5 * gear.tip_thickness
     if not 0.0 <= radius <= largest:
         raise GeometryError(
@@ -55,3 +59,28 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
     normal = canonical_normal(roll)
     centre = canonical_point(base, roll) - radius * normal
     return TipEdge(radius, centre, float(roll), normal, centre / np.linalg.norm(centre))
+
+
+def _chamfered(gear: Gear, radius: float) -> TipEdge:
+    """The edge between flank and chamfer: the arc's centre is `radius` inside the flank and inside the chamfer."""
+    base, foot, end = gear.base_radius, canonical_point(gear.base_radius, gear.tip_roll_angle), tip_corner(gear)
+    along = (end - foot) / np.linalg.norm(end - foot)
+    outward = np.array([-along[1], along[0]])
+
+    def centre(roll: float) -> np.ndarray:
+        return canonical_point(base, roll) - radius * canonical_normal(roll)
+
+    roll = halved(lambda at: (centre(at) - foot) @ outward >= -radius, gear.form_roll_angle, gear.tip_roll_angle) if radius else gear.tip_roll_angle
+    if roll <= gear.form_roll_angle * (1.0 + 1e-9) or (centre(roll) - end) @ along > 0.0:
+        raise GeometryError(
+            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth does not fit between its involute and its chamfer, which is "
+            f"{np.linalg.norm(end - foot):.4g} mm long; lower corner_contact.edge_radius"
+        )
+    return TipEdge(radius, centre(roll), float(roll), canonical_normal(roll), outward)
+
+
+def form_edge(gear: Gear) -> TipEdge:
+    """The sharp edge where the fillet of an undercut gear cuts off its drive flank."""
+    roll = gear.form_roll_angle
+    normal = canonical_normal(roll)
+    return TipEdge(0.0, canonical_point(gear.base_radius, roll), roll, normal, normal)

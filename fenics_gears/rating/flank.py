@@ -45,12 +45,15 @@ def single_pair_factors(operation: Operation) -> tuple[float, float]:
     pair = operation.pair
     working, overlap = pair.operating_pressure_angle, min(pair.overlap_ratio, 1.0)
 
-    def factor(own, other) -> float:
-        before = sqrt((own.tip_radius / own.base_radius) ** 2 - 1.0) - own.angular_pitch
-        behind = sqrt((other.tip_radius / other.base_radius) ** 2 - 1.0) - (pair.contact_ratio - 1.0) * other.angular_pitch
+    # Where contact ends on either gear: at the tip, at its chamfer, or where the mate is cut away.
+    ends = pair.pinion_roll_angle(pair.path_end), pair.wheel_roll_angle(pair.path_start)
+    pitches = pair.pinion.angular_pitch, pair.wheel.angular_pitch
+
+    def factor(own: int, other: int) -> float:
+        before, behind = ends[own] - pitches[own], ends[other] - (pair.contact_ratio - 1.0) * pitches[other]
         return tan(working) / sqrt(before * behind)
 
-    factors = factor(pair.pinion, pair.wheel), factor(pair.wheel, pair.pinion)
+    factors = factor(0, 1), factor(1, 0)
     return tuple(max(each - overlap * (each - 1.0), 1.0) for each in factors)
 
 

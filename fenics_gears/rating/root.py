@@ -54,7 +54,7 @@ def helix_angle_factor(operation: Operation) -> float:
 
 
 def tooth_form(gear: Gear, contact_ratio: float) -> ToothForm:
-    """The tooth of the virtual spur gear, cut by a rack without protuberance; lengths in normal modules (ISO 6336-3:2006 sections 6 and 7).
+    """The tooth of the virtual spur gear, cut by a rack whose rounding may stand out by s_pr; lengths in normal modules (ISO 6336-3:2006 sections 6 and 7).
 
     Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha_n)), s the chord and h the lever arm at the 30 degree tangents;
     Y_S = (1.2 + 0.13 s/h) q^(1 / (1.21 + 2.3 h/s)) with q = s/(2 rho).
@@ -64,7 +64,7 @@ def tooth_form(gear: Gear, contact_ratio: float) -> ToothForm:
     base_cosine = cos(_base_helix(gear))
     z = gear.teeth / (base_cosine**2 * cos(beta))
     depth_of_rack, tip = gear.dedendum / module, gear.rack_tip_radius / module
-    land = 0.25 * pi - depth_of_rack * tan(alpha) - (1.0 - sin(alpha)) * tip / cos(alpha)
+    land = 0.25 * pi - depth_of_rack * tan(alpha) - (1.0 - sin(alpha)) * tip / cos(alpha) + gear.protuberance / (module * cos(alpha))
     depth = tip - depth_of_rack + shift
     theta = pi / 6.0
     for _ in range(50):
@@ -73,7 +73,7 @@ def tooth_form(gear: Gear, contact_ratio: float) -> ToothForm:
     chord = z * sin(pi / 3.0 - theta) + sqrt(3.0) * beyond
     radius = tip + 2.0 * depth**2 / (cos(theta) * (z * cos(theta) ** 2 - 2.0 * depth))
     base = 0.5 * z * cos(alpha)
-    addendum_circle = 0.5 * z + (gear.tip_radius - gear.reference_radius) / module
+    addendum_circle = 0.5 * z + (gear.tip_form_radius - gear.reference_radius) / module
     load = sqrt((sqrt(addendum_circle**2 - base**2) - pi * cos(alpha) * (contact_ratio / base_cosine**2 - 1.0)) ** 2 + base**2)
     at_load = acos(base / load)
     half_tooth = (0.5 * pi + 2.0 * shift * tan(alpha)) / z + involute_function(tan(alpha)) - involute_function(tan(at_load))

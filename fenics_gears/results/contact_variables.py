@@ -129,5 +129,6 @@ def watched_contact(nodes: SideBySide) -> Values:
     }
     if nodes.cycle.traits.has_pressure:
         pressed = nodes.normal > NO_FORCE
-        found |= {f"on the {gear}'s tip": nodes.any(tip & pressed) for gear, tip in zip(("pinion", "wheel"), nodes.of("on_tip"))}
+        edges = [f"on the {gear}'s {edge}" for edge in ("tip", "form circle") for gear in ("pinion", "wheel")]
+        found |= {name: nodes.any(on & pressed) for name, on in zip(edges, nodes.of("on_edge"))}
     return found

@@ -44,10 +44,10 @@ def _together(parts: np.ndarray) -> np.ndarray:
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curves:
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
-    Pairs that press with a tip's sharp edge are left out and have a largest pressure of their own: linear elasticity has infinite pressure
+    Pairs that press with the sharp edge of a tip, or of an undercut involute, are left out and have a largest pressure of their own: linear elasticity has infinite pressure
     there, and the number grows as contact nodes come closer.
     """
-    pressed_edge = nodes.of("on_tip").any(axis=0) & (nodes.normal > NO_FORCE)
+    pressed_edge = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE)
     highest, rolls, at_edge = [], [], []
     for side, drive in (("", True), ("coast_", False)):
         if f"{side}contact_pressure" not in fields:

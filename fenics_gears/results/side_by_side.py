@@ -20,7 +20,8 @@ class Layout:
     """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive flank; `at_end`:
-    whether it stands on an end of the window; `on_tip`: on the edge of the pinion's and of the wheel's tip; `rows_of_normals` (6, n) and
+    whether it stands on an end of the window; `on_edge` (4, n): on the edge of the pinion's and of the wheel's tip, and on the edge at the form circle
+    of either where it is undercut; `rows_of_normals` (6, n) and
     `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm; over a face (12, n), with
     the axial force, N, and the moments about x and y, N mm, of both gears after these.
     """
@@ -41,7 +42,7 @@ class Layout:
 
             self.area, self.slice = areas(pairs, operator.face), node_slices_of_face(pairs)
             self.at_end |= _at_inner_end(cycle, pairs, self.offsets)
-        self.on_tip = _on_tips(cycle, pairs, counts) if cycle.traits.has_pressure else None
+        self.on_edge = _on_edges(cycle, pairs, counts) if cycle.traits.has_pressure else None
         rows, nodes = _reaction_rows(operator, tangential), operator.nodes
         self.rows_of_normals, self.rows_of_tangents = rows[:, :nodes], rows[:, nodes:]
 
@@ -56,15 +57,24 @@ def _at_inner_end(cycle: Cycle, pairs, offsets: np.ndarray) -> np.ndarray:
     return found & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
 
 
-def _on_tips(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
-    """Nodes (2, n) that stand on the edge that ends a flank: the pinion's tip below the line of action, the wheel's above it."""
-    found, half = np.zeros((2, sum(counts)), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
+def _on_edges(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
+    """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the line of action, the others above."""
+    found, half = np.zeros((4, sum(counts)), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
+    cut = cycle.pair.pinion.undercut, cycle.pair.wheel.undercut
     for pair, nodes in zip(pairs, node_slices(pairs)):
-        if pair.place.line is not None:
+        first, last = nodes.start, nodes.stop - 1
+        if pair.place.line is None:
+            below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
+            found[0, first] = below[0] >= below[1] and below[0] > -half
+            found[1, last] = above[1] <= above[0] and above[1] < half
+        elif any(cut):
+            from fenics_gears.contact.corner import edge_ends
+
+            below, above = edge_ends(cycle.pair, cycle.corner, pair.place)
+        else:
             continue
-        below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
-        found[0, nodes.start] = below[0] >= below[1] and below[0] > -half
-        found[1, nodes.stop - 1] = above[1] <= above[0] and above[1] < half
+        found[2, last] = cut[0] and above[0] <= above[1] and above[0] < half
+        found[3, first] = cut[1] and below[1] >= below[0] and below[1] > -half
     return found
 
 

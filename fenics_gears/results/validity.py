@@ -64,7 +64,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
-        of_flanks += _sharp_edge(recorder.model.scene, watched)
+        of_flanks += [*_sharp_edge(recorder.model.scene, watched), *_undercut_edge(watched)]
     if cycle.face is not None:
         # Imported here: plane scenes have none.
         from fenics_gears.results.face_variables import warnings_of_face
@@ -158,6 +158,19 @@ def _sharp_edge(scene: Scene, watched: Watched) -> list[str]:
         f"contact reaches the sharp edge of {named} tip in {steps} of {len(touched['pinion'])} steps: the pressure there does not converge with "
         f"the mesh, forces and transmission error do; {_off_the_edge(scene, gears)}"
     ]
+
+
+def _undercut_edge(watched: Watched) -> list[str]:
+    """Contact on the edge between an undercut gear's involute and its fillet, at its form circle."""
+    found = []
+    for gear in ("pinion", "wheel"):
+        at = watched[f"on the {gear}'s form circle"]
+        if at.any():
+            found.append(
+                f"contact reaches the edge at the form circle of the undercut {gear} in {int(at.sum())} of {len(at)} steps: the pressure there does not converge "
+                f"with the mesh, forces and transmission error do; [root_relief.{gear}] takes the load off the edge"
+            )
+    return found
 
 
 def _off_the_edge(scene: Scene, gears: list[str]) -> str:

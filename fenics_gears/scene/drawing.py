@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from math import cos, tan
+from math import cos, degrees, tan
 from typing import Any
 
 from fenics_gears.effects.effect import same_names
@@ -17,7 +17,7 @@ from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry import tooth_thickness
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear, transverse_gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData
+from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
@@ -52,12 +52,20 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
     alike = widths[0] == widths[1] == common
     pinion, wheel = (
-        replace(gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material))
+        replace(
+            gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material), web=_web(own, width)
+        )
         for gear, own, width in zip(drawn, both, widths)
     )
     others = {"face_width": common, "pinion": pinion, "wheel": wheel, "material": material_of(gears.material), "axial_offsets": offsets}
     data = same_names(GearPairData, gears, ("backlash", "tip_shortening", "rack"), centre_distance=distance, **others)
     return data, derived + _named_materials(gears)
+
+
+def _web(own: GearText, face_width: float) -> Web | None:
+    if own.web is None:
+        return None
+    return Web(0.5 * (own.web.hub_diameter or own.bore_diameter), 0.5 * own.web.rim_inner_diameter, own.web.width / face_width)
 
 
 def _named_materials(gears: Gears) -> list[Derived]:
@@ -199,12 +207,15 @@ def _gear_data(pair: Gears, drawn: GearText, name: str, shift: float, cut: float
     if root is None:
         root = reference + 2.0 * pair.module * (cut - (standard[1] if dedendum is None else dedendum))
         found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
+    beyond, angle = _protuberance(pair, drawn, name)
     if radius is None:
-        radius = min(standard[2], tip_radius_with_room(_rack_gear(pair, drawn.teeth, cut, root)))
+        radius = min(standard[2], tip_radius_with_room(replace(_rack_gear(pair, drawn.teeth, cut, root), protuberance=beyond)))
         why = f"what has room on the rack's tip, less than the usual {standard[2]:g}" if radius < standard[2] else "that of the rack"
         found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
     # Bare numbers leave their spelling behind.
-    data = GearData(drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius))
+    data = GearData(
+        drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius), tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle
+    )
     _check_measure(drawn, name, _gear(pair, data))
     return data
 
@@ -217,9 +228,30 @@ def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
     return None
 
 
+def _protuberance(pair: Gears, own: GearText, name: str) -> tuple[float, float]:
+    """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both. Raises GeometryError."""
+    sections = [each for each in (own.rack, pair.rack) if each is not None]
+    amount, angle, stock = (
+        next((float(getattr(each, field)) for each in sections if getattr(each, field) is not None), None) for field in ("protuberance", "protuberance_angle", "finishing_stock")
+    )
+    home = f"gears.{name}.rack" if own.rack is not None and own.rack.protuberance is not None else "gears.rack"
+    if (stock or 0.0) > (amount or 0.0):
+        refuse(
+            name,
+            f"{home}.finishing_stock = {stock:.4g} mm is more than {home}.protuberance = {amount or 0.0:.4g} mm: finishing would leave a step in the root; "
+            "allowed is as much as the protuberance: raise protuberance or lower finishing_stock",
+        )
+    if angle is not None and not amount:
+        refuse(name, f"{home}.protuberance_angle = {degrees(angle):.4g} deg has no meaning without {home}.protuberance: give it, or leave both out")
+    if angle is not None and angle >= pair.pressure_angle:
+        refuse(name, f"{home}.protuberance_angle = {degrees(angle):.4g} deg must be less than gears.pressure_angle = {degrees(pair.pressure_angle):.4g} deg: lower it")
+    beyond = (amount or 0.0) - (stock or 0.0)
+    return beyond, (0.5 * float(pair.pressure_angle) if angle is None else angle) if beyond else 0.0
+
+
 def _check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
-    lowest, measure = gear.base_radius if gear.form_roll_angle < 0.0 else gear.form_radius, _measure(drawn)
+    lowest, measure = gear.form_radius, _measure(drawn)
     if measure == "base_tangent_length":
         touched, better = tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length), tooth_thickness.spanned_teeth(gear)
     elif measure == "dimension_over_balls":
@@ -229,11 +261,11 @@ def _check_measure(drawn: GearText, name: str, gear: Gear) -> None:
             refuse(name, f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie within the tip circle of {2.0 * gear.tip_radius:.6g} mm: take {better}")
     else:
         return
-    if not lowest - ROUNDING <= touched <= gear.tip_radius + ROUNDING:
+    if not lowest - ROUNDING <= touched <= gear.tip_form_radius + ROUNDING:
         refuse(
             name,
             f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm would be measured at diameter {2.0 * touched:.6g} mm, off the involute, which goes from {2.0 * lowest:.6g} to "
-            f"{2.0 * gear.tip_radius:.6g} mm: measure with gears.{name}.{MEASURES[measure]} {better}",
+            f"{2.0 * gear.tip_form_radius:.6g} mm: measure with gears.{name}.{MEASURES[measure]} {better}",
         )
 
 

@@ -32,6 +32,9 @@ def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
     for name, refused in PLANE_ONLY.items():
         if accuracy.get(name) in refused:
             yield Problem(("accuracy", name), as_written(accuracy[name]), f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.')
+    for gear in GEARS:
+        if value_at(tree, "gears", gear, "web") is not None:
+            yield Problem(("gears", gear, "web"), "", f"{why}, and webs are of plane sections only. Leave one of the two out.")
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return

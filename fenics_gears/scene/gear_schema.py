@@ -34,6 +34,27 @@ class RackText(Section):
     tip_radius: Optional[float] = number(
         0.38, meaning="tip radius of the rack's tooth, in modules; it shapes the fillet", lowest=0, highest=2, otherwise="that of the profile, or what has room on the rack's tip"
     )
+    protuberance: Optional[float] = quantity(
+        "0 mm",
+        "1 m",
+        "0.15 mm",
+        meaning="amount pr_P0 by which the rounding of the rack's tip stands out beyond its flank, normal to it, so that the root is cut free of the finished flank",
+        otherwise="0 mm, a rack without protuberance",
+    )
+    protuberance_angle: Optional[float] = quantity(
+        "1 deg", "34 deg", "10 deg", meaning="pressure angle alpha_prP0 of the short flank between protuberance and flank", otherwise="half the pressure angle; has no meaning without `protuberance`"
+    )
+    finishing_stock: Optional[float] = quantity(
+        "0 mm", "1 m", "0.1 mm", meaning="stock q on the flanks that finishing takes off, normal to them and not in the root; no more than `protuberance`", otherwise="0 mm"
+    )
+
+
+class WebText(Section):
+    """``[gears.pinion.web]`` and ``[gears.wheel.web]``: a web between hub and rim that is less wide than the face. It counts in plane strain, stiff and heavy by its share of the face width."""
+
+    rim_inner_diameter: float = _diameter("100 mm", "inner diameter of the rim, where the web ends")
+    width: float = _length("8 mm", "width of the web, at most the gear's face width", "")
+    hub_diameter: Optional[float] = _diameter("50 mm", "outer diameter of the hub, where the web begins", "the bore diameter")
 
 
 class Gear(Section):
@@ -45,6 +66,9 @@ class Gear(Section):
     )
     tip_diameter: Optional[float] = _diameter("82.64 mm", "tip diameter", "d_a = d + 2 m_n (x + h_aP + k), with k of `tip_shortening`")
     root_diameter: Optional[float] = _diameter("62.50 mm", "root diameter, from which the dedendum of the generating rack follows", "d_f = d + 2 m_n (x - h_fP), with x of the tooth thickness")
+    tip_chamfer: Optional[float] = quantity(
+        "0 mm", "1 m", "0.3 mm", meaning="radial height h_K of the chamfer between flank and tip circle, as long on the one as on the other; the involute ends at d_Fa = d_a - 2 h_K", otherwise="0 mm"
+    )
     bore_diameter: float = _diameter("30 mm", "bore diameter; the bore is a rigid ring on the shaft")
     rack_tip_radius: Optional[float] = number(
         0.38, meaning="tip radius of the generating rack, in modules; the same as `tip_radius` of `[gears.pinion.rack]`", lowest=0, highest=2, otherwise="`tip_radius` of the rack; 0.38, or what has room on the rack's tip"
@@ -61,6 +85,7 @@ class Gear(Section):
         "-100 m", "100 m", "2 mm", meaning="mid-width of this gear along the axis, from a place common to both gears, positive to the right, the end from which the pinion is seen to turn counter-clockwise", otherwise="0 mm"
     )
     rack: Optional[RackText] = None
+    web: Optional[WebText] = None
     material: Optional[OwnMaterialText] = None
 
 

@@ -39,6 +39,19 @@ def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_fl
     assert nodes.gap.min() == pytest.approx((paper_pair.pinion, paper_pair.wheel)[mate].base_radius * turn, rel=2e-4, abs=1e-7)
 
 
+@pytest.mark.parametrize("by", [0.1, 0.5, 1.0])
+def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, stand_in_flanks, paper_pair):
+    """Brute force, as for tips: before the path of contact the edge at the form circle of an undercut pinion meets the wheel's flank."""
+    pinion = replace(paper_pair.pinion, teeth=12, profile_shift=0.0, tip_radius=31.5, root_radius=21.375, bore_radius=10.0)
+    pair = replace(paper_pair, pinion=pinion, centre_distance=82.0)
+    assert pinion.undercut and pair.path_start > pair.tip_positions[0] + 1.0
+    corner, place = corner_contact(pair), drive_place(pair, 0, pair.path_start - by)
+    nodes = corner_pair(replace(stand_in_flanks, pair=pair), FINE, corner, place)
+    curves = placed(pair, corner.edges, place)
+    turn = rotation_to_touch(curves[1], curves[0], centres(pair)[1])
+    assert nodes.gap.min() == pytest.approx(pair.wheel.base_radius * turn, rel=2e-4, abs=1e-7)
+
+
 @pytest.mark.parametrize("radius", RADII)
 @pytest.mark.parametrize("error", [0.01, 0.04])
 @pytest.mark.parametrize("tip", TIPS)

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.random_pairs import valid_pairs
 
+from fenics_gears.geometry.fillet import fillet_speed
 from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.outline import fillet_end, fillet_speed, tooth_outline
+from fenics_gears.geometry.outline import tooth_outline
 
 PAIRS = st.one_of(valid_pairs(), valid_pairs(helix_angles=(1.0, 40.0)))
 
@@ -23,14 +24,18 @@ def test_points_of_the_path_of_contact_are_in_order(pair):
     assert pair.lpstc <= pair.hpstc + 1e-8 * pair.base_pitch
     assert pair.fewest_pairs <= pair.contact_ratio + 1e-8 < pair.fewest_pairs + 1.0 + 1e-7
     along = [pair.path_start, pair.lpstc, pair.hpstc, pair.path_end]
+    ends = pair.pinion_roll_angle(pair.path_end), pair.wheel_roll_angle(pair.path_start)
     named = (
-        [pair.sap_roll_angles[0], pair.lpstc_roll_angles[0], pair.hpstc_roll_angles[0], pair.pinion.tip_roll_angle],
-        [pair.wheel.tip_roll_angle, pair.hpstc_roll_angles[1], pair.lpstc_roll_angles[1], pair.sap_roll_angles[1]],
+        [pair.sap_roll_angles[0], pair.lpstc_roll_angles[0], pair.hpstc_roll_angles[0], ends[0]],
+        [ends[1], pair.hpstc_roll_angles[1], pair.lpstc_roll_angles[1], pair.sap_roll_angles[1]],
     )
     assert named[0] == pytest.approx(pair.pinion_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
     assert named[1] == pytest.approx(pair.wheel_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
-    for gear, (start, low, high, end) in ((pair.pinion, named[0]), (pair.wheel, named[1][::-1])):
+    for gear, mate, (start, low, high, end) in ((pair.pinion, pair.wheel, named[0]), (pair.wheel, pair.pinion, named[1][::-1])):
         assert gear.form_roll_angle - rounding / gear.base_radius <= start <= low <= high + 1e-7 <= end + 2e-7
+        # Contact goes to the tip, unless the mate is cut away there.
+        assert end <= gear.tip_roll_angle + 1e-12
+        assert mate.undercut or end == pytest.approx(gear.tip_roll_angle, abs=1e-12)
 
 
 @settings(max_examples=60, deadline=None)
@@ -68,17 +73,18 @@ def test_angles_and_ratios_do_not_know_the_module(pair, scale):
 @settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
-    """Authority: a tooth: from root to tip the radius grows and the tooth gets thinner, the fillet never stands still or
+    """Authority: a tooth: from root to tip the radius grows and the tooth gets thinner, unless it is undercut, the fillet never stands still or
     turns back, and the root circle between two teeth has a length that is not negative."""
     for gear in (pair.pinion, pair.wheel):
         outline = tooth_outline(gear)
-        assert np.all(fillet_speed(gear, np.linspace(0.0, fillet_end(gear), 101)[1:]) > 0.0)
+        assert np.all(fillet_speed(gear, np.linspace(0.0, gear.fillet_end, 101)[1:]) > 0.0)
         rolls = np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 30)[1:]
         points = np.concatenate([outline.fillet, outline.involute(rolls)])
         angle = np.arctan2(*points.T[::-1]) - outline.centreline_angle
         angle = (angle + np.pi) % (2.0 * np.pi) - np.pi
         assert np.all(np.diff(np.hypot(*points.T)) > -1e-12 * gear.tip_radius)
-        assert np.all(np.diff(angle) < 1e-12)
+        thinner = np.diff(angle) < 1e-12
+        assert np.all(thinner[len(outline.fillet) - 1 if gear.undercut else 0 :])
         assert angle[0] <= 0.5 * gear.angular_pitch + 1e-6 / gear.root_radius
         assert 2.0 * gear.tip_radius * angle[-1] == pytest.approx(gear.tip_thickness, abs=1e-11 * gear.tip_radius)
 

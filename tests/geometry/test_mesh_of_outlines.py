@@ -5,16 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fenics_gears.geometry.fillet import fillet_point
 from fenics_gears.geometry.interference import fillet_clearance
 from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.outline import fillet_end, fillet_point, tooth_outline
+from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.pair import GearPair
 
 
 def tooth_points(gear):
     """Points (n, 2) of the fillet and involute of the drive side, densely."""
     outline = tooth_outline(gear)
-    fillet = fillet_point(gear, np.linspace(0.0, fillet_end(gear), 3001))
+    fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, 3001))
     flank = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 3001)[1:])
     return np.concatenate([fillet, flank])
 
@@ -22,7 +23,7 @@ def tooth_points(gear):
 def half_angle(gear, radius):
     """Half of the tooth's angle (rad) at radii between root and tip circle."""
     outline = tooth_outline(gear)
-    fillet = fillet_point(gear, np.linspace(0.0, fillet_end(gear), 3001))
+    fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, 3001))
     fillet_angle = np.arctan2(fillet[:, 1], fillet[:, 0]) - outline.centreline_angle
     on_fillet = np.interp(radius, np.hypot(*fillet.T), fillet_angle)
     flank = gear.tooth_half_angle_at_base - involute_function(gear.roll_angle(np.maximum(radius, gear.form_radius)))

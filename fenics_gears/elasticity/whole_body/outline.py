@@ -127,7 +127,7 @@ def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
     """Angle (rad) by which the mesh stands turned: boundary points (k, 2) of all drive flanks agree on it, up to whole pitches."""
     radius = np.linalg.norm(points, axis=1)
     tolerance = OUTLINE_TOLERANCE * gear.module
-    between = (radius > gear.form_radius) & (radius < gear.tip_radius - tolerance)
+    between = (radius > gear.form_radius) & (radius < gear.tip_form_radius - tolerance)
     if not between.any():
         raise SceneError(f"{name}: the boundary of the mesh has no points on the flanks, between form circle and tip circle")
     pitch, window = gear.angular_pitch, 2.0 * tolerance / gear.base_radius
@@ -151,7 +151,7 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float,
         own = on_drive_side & (tooth == each)
         chain, problem = _chain(points, known, boundary[own & (off <= tolerance)], gear, tolerance)
         if problem:
-            on_flank = own & (radius > gear.form_radius + tolerance) & (radius < gear.tip_radius - tolerance)
+            on_flank = own & (radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)
             worst = float(np.max(off[on_flank & (off <= NEARLY * gear.module)], initial=0.0))
             raise SceneError(f"{name}: the drive flank of tooth {each}, counted counter-clockwise, {problem}{_deviation(worst, tolerance)}")
         found.append(chain)
@@ -173,7 +173,7 @@ def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarra
 def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str) -> None:
     """Raise SceneError where the coast flanks are out of place: the drive flanks alone do not give the thickness of the teeth."""
     radius = np.linalg.norm(points, axis=1)
-    between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_radius - tolerance)]
+    between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)]
     axis = 2.0 * centreline_angle(gear)
     mirrored = between @ np.array([[np.cos(axis), np.sin(axis)], [np.sin(axis), -np.cos(axis)]])
     _, on_drive_side, off = _off_involute(mirrored, gear)
@@ -190,7 +190,7 @@ def _deviation(worst: float, tolerance: float) -> str:
         return ""
     return (
         f". Points of the boundary there lie up to {1e3 * worst:.4g} um off the gear's involute; allowed are {1e3 * tolerance:.3g} um. Contact goes "
-        "by the gear data: wear and other deviations of a flank belong into [flank_errors], chamfers of tips are not known"
+        "by the gear data: wear and other deviations of a flank belong into [flank_errors], chamfers of tips into tip_chamfer of the gear"
     )
 
 

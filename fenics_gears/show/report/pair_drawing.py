@@ -57,7 +57,8 @@ def _tooth(gear: Gear) -> np.ndarray:
     foot = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
     space = outline.centreline_angle + np.remainder(outline.space_angle - outline.centreline_angle + np.pi, 2 * np.pi) - np.pi
     land = _arc(gear.root_radius, space, space + np.remainder(foot - space + np.pi, 2 * np.pi) - np.pi)
-    half = np.vstack([land[:-1], outline.fillet, involute])
+    chamfer = [outline.tip_corner] if gear.tip_chamfer else []
+    half = np.vstack([land[:-1], outline.fillet, involute, *chamfer])
     return np.vstack([half, outline.coast(half)[::-1]])
 
 

@@ -1,0 +1,130 @@
+"""Gears whose web is less wide than the face: exact rings of three widths, the ring of sectors, mass and limits."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from tests.annulus import BORE, OUTER, annulus, forces
+from tests.coarse_sector import COARSE, PINION, STEEL
+from tests.scene.test_cut_away import SCENE
+from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
+
+from fenics_gears.elasticity.condensation import condense
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear_data import Web
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.geometry.section import gear_section
+from fenics_gears.scene.read import scene_from_text
+
+POISSON = 0.3
+SHEAR, LAME = 0.5 / (1.0 + POISSON), POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON))
+# Its ends are circles of the annulus' mesh, or lie within cells.
+WEBS = {"between cells": Web(BORE * 2.0**0.25, BORE * 2.0**0.75, 0.3), "within cells": Web(18.3, 26.1, 0.3)}
+# h/r = 0.065; a jump of the width within cells is seen to first order.
+TOLERANCE = {"between cells": 0.065**2, "within cells": 0.02}
+PINION_WEB = Web(18.0, 26.0, 0.4)
+
+
+def ring_under(web, element, motion):
+    """Forces (n, 2) on the outer circle, and its points, when its nodes move by a function of their points and the bore's do not."""
+    chosen = ELEMENTS[element]
+    mesh = replace(annulus(chosen.corners), web=web)
+    body = condense(mesh, chosen, POISSON, {part: mesh.edge_nodes(part, chosen.order) for part in ("rim", "hub")})
+    outer = 0.5 * (BORE + OUTER)
+    return forces(body, lambda points: np.where(np.linalg.norm(points, axis=1)[:, None] > outer, motion(points), 0.0)), body.points["rim"]
+
+
+@pytest.mark.parametrize("element", ["P2", "Q2", "Q1 incompatible"])
+@pytest.mark.parametrize("name", WEBS)
+def test_a_ring_of_three_widths_under_torque(name, element):
+    """Exact: the shear stress is T/(2 pi r^2 w), so that the rim turns by T/(4 pi G) of the sum of (1/r_i^2 - 1/r_o^2)/w over the rings."""
+    web = WEBS[name]
+    at = np.array([BORE, web.hub_radius, web.rim_radius, OUTER]) ** -2.0
+    exact = 4.0 * pi * SHEAR / ((at[:-1] - at[1:]) / [1.0, web.share, 1.0]).sum()
+    found, points = ring_under(web, element, lambda points: np.column_stack([-points[:, 1], points[:, 0]]))
+    torque = (points[:, 0] * found[:, 1] - points[:, 1] * found[:, 0]).sum()
+    assert torque == pytest.approx(exact, rel=TOLERANCE[name])
+
+
+@pytest.mark.parametrize("element", ["P2", "Q2", "Q1 incompatible"])
+@pytest.mark.parametrize("name", WEBS)
+def test_a_ring_of_three_widths_that_grows(name, element):
+    """Exact: Lame's solution u = A r + B/r in each ring, the displacement and the width times the radial stress continuous."""
+    web = WEBS[name]
+    radii, widths = (BORE, web.hub_radius, web.rim_radius, OUTER), (1.0, web.share, 1.0)
+
+    def moved(r):
+        return np.array([r, 1.0 / r])
+
+    def stress(r):
+        return np.array([2.0 * (LAME + SHEAR), -2.0 * SHEAR / r**2])
+
+    equations, right = np.zeros((6, 6)), np.zeros(6)
+    equations[0, :2], equations[5, 4:], right[5] = moved(BORE), moved(OUTER), 1.0
+    for inner in (0, 1):
+        r, own, next_ = radii[inner + 1], slice(2 * inner, 2 * inner + 2), slice(2 * inner + 2, 2 * inner + 4)
+        equations[1 + 2 * inner, own], equations[1 + 2 * inner, next_] = moved(r), -moved(r)
+        equations[2 + 2 * inner, own], equations[2 + 2 * inner, next_] = widths[inner] * stress(r), -widths[inner + 1] * stress(r)
+    exact = 2.0 * pi * OUTER * (stress(OUTER) @ np.linalg.solve(equations, right)[4:])
+    found, points = ring_under(web, element, lambda points: points / np.linalg.norm(points, axis=1)[:, None])
+    assert (found * points / np.linalg.norm(points, axis=1)[:, None]).sum() == pytest.approx(exact, rel=TOLERANCE[name])
+
+
+def test_the_ring_of_sectors_is_the_whole_gear():
+    """Brute force: the same elements joined to a whole gear and condensed at once."""
+    gear = replace(PINION, web=PINION_WEB)
+    mesh = sector_mesh(gear, COARSE)
+    assert mesh.web == PINION_WEB
+    whole = replace(whole_gear_mesh(mesh, gear.teeth), web=PINION_WEB)
+    expected = whole_gear_compliance(whole, gear, STEEL, tooth_offsets=1).blocks
+    found = ring_compliance(condensed_sector(mesh, ELEMENTS["P2"], STEEL.poissons_ratio), gear.teeth, 1) / STEEL.youngs_modulus
+    assert found == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
+
+
+def test_a_web_as_wide_as_the_face_changes_nothing_and_a_thin_one_gives_way():
+    """Limit, and order: compliances under even loads grow as the web gets thinner."""
+    loads, found = None, []
+    for web in (None, *(replace(PINION_WEB, share=share) for share in (1.0, 0.5, 0.1))):
+        blocks = ring_compliance(condensed_sector(sector_mesh(replace(PINION, web=web), COARSE), ELEMENTS["P2"], STEEL.poissons_ratio), PINION.teeth, 0)
+        loads = np.ones(len(blocks[0])) if loads is None else loads
+        found.append(loads @ blocks[0] @ loads)
+    assert found[1] == pytest.approx(found[0], rel=1e-10)
+    assert found[1] < found[2] < found[3]
+
+
+def test_mass_and_moment_of_inertia_leave_out_what_the_web_has_not():
+    """Exact: a ring of (1 - share) of the width is taken out."""
+    plain, with_web = gear_section(PINION), gear_section(replace(PINION, web=PINION_WEB))
+    ring = [pi * (PINION_WEB.rim_radius**n - PINION_WEB.hub_radius**n) * 2.0 / n for n in (2, 4)]
+    assert plain.area - with_web.area == pytest.approx(0.6 * ring[0], rel=1e-12)
+    assert plain.polar_moment - with_web.polar_moment == pytest.approx(0.6 * ring[1], rel=1e-12)
+
+
+WEB = '[gears.pinion.web]\nrim_inner_diameter = "45 mm"\nwidth = "{}"\n'
+
+
+def test_the_scene_says_the_web_in_lengths():
+    """Meaning of the fields: the web begins at the bore unless there is a hub; its share is that of the gear's own face width."""
+    assert scene_from_text(SCENE.format(gears="", pinion=WEB.format("5 mm"))).gears.pinion.web == Web(10.0, 22.5, 0.25)
+    with_hub = scene_from_text(SCENE.format(gears="", pinion='face_width = "25 mm"\n' + WEB.format("5 mm") + 'hub_diameter = "30 mm"')).gears
+    assert with_hub.pinion.web == Web(15.0, 22.5, 0.2) and with_hub.wheel.web is None
+
+
+@pytest.mark.parametrize(
+    ("scene", "said"),
+    [
+        (SCENE.format(gears="", pinion=WEB.format("21 mm")), "gears.pinion.web.width is 1.05 of the face width"),
+        (SCENE.format(gears="", pinion=WEB.format("5 mm") + 'hub_diameter = "45 mm"'), "no web: gears.pinion.web.hub_diameter = 45 mm, rim_inner_diameter = 45 mm"),
+        (SCENE.format(gears="", pinion=WEB.format("5 mm").replace("45 mm", "52 mm")), "the rim may begin at 51.3 mm"),
+        (SCENE.format(gears="", pinion=WEB.format("5 mm")) + '[misalignment]\nin_plane = "5 um"\n', "webs are of plane sections only"),
+    ],
+)
+def test_a_web_that_cannot_be_is_refused(scene, said):
+    """House rule on errors: the field, its value and what is allowed, before anything is computed."""
+    with pytest.raises(SceneError) as refused:
+        gear_pair(scene_from_text(scene).gears)
+    assert said in str(refused.value)

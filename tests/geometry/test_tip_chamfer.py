@@ -1,0 +1,119 @@
+"""Gears with a chamfer between flank and tip circle, and what the mesh makes of it and of flanks that are cut away."""
+
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+import pytest
+from tests.geometry.test_impossible_gears import changed
+
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.errors import GeometryError
+from fenics_gears.geometry.fillet import fillet_point, fillet_tangent
+from fenics_gears.geometry.interference import fillet_clearance
+from fenics_gears.geometry.involute import canonical_normal, canonical_point
+from fenics_gears.geometry.outline import tip_corner, tooth_outline
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.geometry.section import cells_section, gear_section
+from fenics_gears.geometry.tip_edge import tip_edge
+
+CHAMFER = 0.4
+FINE = ElementSizes(flank=0.15, fillet=0.15, coast=0.15, body=0.6)
+
+
+@pytest.fixture
+def chamfered(paper_data):
+    """The paper's pair with both tips chamfered."""
+    return gear_pair(changed(paper_data, {"pinion.tip_chamfer": CHAMFER, "wheel.tip_chamfer": CHAMFER}))
+
+
+def test_contact_ends_at_the_tip_form_circle(paper_data, chamfered):
+    """ISO 21771: d_Fa = d_a - 2 h_K ends the usable flank, so that the path of contact is that of tips turned down to it; tip clearances are those of the tips."""
+    turned_down = gear_pair(changed(paper_data, {"pinion.tip_diameter": 82.64 - 2 * CHAMFER, "wheel.tip_diameter": 118.64 - 2 * CHAMFER}))
+    for name in ("path_start", "path_end", "contact_ratio", "hpstc", "lpstc"):
+        assert getattr(chamfered, name) == pytest.approx(getattr(turned_down, name), rel=1e-12)
+    assert chamfered.tip_clearances == gear_pair(paper_data).tip_clearances
+
+
+def test_the_chamfer_is_as_long_on_the_tip_circle_as_on_the_flank(chamfered):
+    """Definition; lengths of the sharp tip's two sides by fine polygons."""
+    for gear in (chamfered.pinion, chamfered.wheel):
+        sharp = replace(gear, tip_chamfer=0.0)
+        flank = canonical_point(gear.base_radius, np.linspace(gear.tip_roll_angle, sharp.tip_roll_angle, 2001))
+        start, end = (np.arctan2(point[1], point[0]) for point in (flank[-1], tip_corner(gear)))
+        on_flank = np.linalg.norm(np.diff(flank, axis=0), axis=1).sum()
+        assert gear.tip_radius * (start - end) == pytest.approx(on_flank, rel=1e-6)
+        assert np.linalg.norm(tip_corner(gear)) == pytest.approx(gear.tip_radius, rel=1e-14)
+        assert np.linalg.norm(flank[0]) == pytest.approx(gear.tip_radius - CHAMFER, rel=1e-14)
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.05, 0.3])
+def test_the_edge_of_corner_contact_is_between_flank_and_chamfer(radius, chamfered):
+    """Definition: the arc is tangent to the involute and to the chamfer."""
+    gear = chamfered.pinion
+    edge, foot, end = tip_edge(gear, radius), canonical_point(gear.base_radius, gear.tip_roll_angle), tip_corner(gear)
+    first, last = edge.points(np.array([0.0, 1.0]))
+    assert first == pytest.approx(canonical_point(gear.base_radius, edge.flank_roll), abs=1e-9)
+    assert edge.flank_normal == pytest.approx(canonical_normal(edge.flank_roll), abs=1e-12)
+    assert edge.tip_normal @ (end - foot) == pytest.approx(0.0, abs=1e-12)
+    assert edge.tip_normal @ (last - foot) == pytest.approx(0.0, abs=1e-9)
+    assert edge.tip_normal @ foot > 0.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"wheel.tip_chamfer": 9.0}, ["wheel: gears.wheel.tip_chamfer = 9 mm", "involute must be left"]),
+        ({"pinion.tip_chamfer": 1.5}, ["pinion: pointed tip", "gears.pinion.tip_chamfer = 1.5 mm", "off either side"]),
+    ],
+)
+def test_a_chamfer_that_does_not_fit_is_refused(paper_data, changes, said):
+    """House rule on errors: which gear, the value, the limit, the field."""
+    with pytest.raises(GeometryError) as refused:
+        gear_pair(changed(paper_data, changes))
+    for part in said:
+        assert part in str(refused.value)
+
+
+def test_an_edge_radius_longer_than_the_chamfer_is_refused(chamfered):
+    """The arc must end on the chamfer; the message says how long that is."""
+    with pytest.raises(GeometryError, match="does not fit between its involute and its chamfer"):
+        tip_edge(chamfered.pinion, 6.0)
+
+
+def test_a_chamfer_takes_the_tip_corner_out_of_a_fillet(paper_data, chamfered):
+    """Limit and order: a vanishing chamfer leaves the clearance of the sharp corner; a chamfer opens it."""
+    pair = gear_pair(paper_data)
+    hair = replace(pair.wheel, tip_chamfer=1e-9)
+    sharp, almost, open_ = (fillet_clearance(pair.pinion, wheel, pair.centre_distance) for wheel in (pair.wheel, hair, chamfered.wheel))
+    assert almost == pytest.approx(sharp, abs=1e-7)
+    assert open_ > sharp + 0.1 * CHAMFER
+
+
+GEARS = {
+    "chamfer": {"tip_chamfer": CHAMFER},
+    "protuberance": {"protuberance": 0.12, "protuberance_angle": radians(10.0)},
+    "undercut and chamfer": {"teeth": 12, "profile_shift": 0.0, "tip_radius": 31.5, "root_radius": 21.375, "bore_radius": 10.0, "tip_chamfer": CHAMFER},
+}
+
+
+@pytest.mark.parametrize("name", GEARS)
+def test_the_mesh_fills_the_section(name, paper_data):
+    """Identity: the elements' area and polar moment are those of the outline, by closed forms; chords along fillet and bore take off some 0.1 per mille."""
+    gear = replace(gear_pair(paper_data).pinion, **GEARS[name])
+    mesh, whole = sector_mesh(gear, FINE), gear_section(gear)
+    found = cells_section(mesh.points, mesh.cells)
+    assert gear.teeth * found.area == pytest.approx(whole.area, rel=3e-4)
+    assert gear.teeth * found.polar_moment == pytest.approx(whole.polar_moment, rel=3e-4)
+
+
+@pytest.mark.parametrize("name", ["protuberance", "undercut and chamfer"])
+def test_fillets_that_cross_the_involute_have_the_tangents_of_their_points(name, paper_data):
+    """Central differences, away from the end of the rounding, where the curvature jumps."""
+    gear = replace(gear_pair(paper_data).pinion, **GEARS[name])
+    parameter, step = np.linspace(0.03, 0.99, 24) * gear.fillet_end, 1e-5
+    difference = (fillet_point(gear, parameter + step) - fillet_point(gear, parameter - step)) / (2.0 * step)
+    assert fillet_tangent(gear, parameter) == pytest.approx(difference, abs=1e-7 * gear.module)
+    even = np.linalg.norm(np.diff(tooth_outline(gear, 60).fillet, axis=0), axis=1)
+    assert even == pytest.approx(even.mean(), rel=1e-2)

@@ -1,0 +1,80 @@
+"""Scenes of gears with protuberance, finishing stock and tip chamfer."""
+
+from math import radians
+
+import pytest
+
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.scene.read import scene_from_text
+
+SCENE = """
+[gears]
+module = "3 mm"
+pressure_angle = "20 deg"
+face_width = "20 mm"
+centre_distance = "90.1 mm"
+{gears}
+
+[gears.pinion]
+teeth = 20
+profile_shift = 0
+bore_diameter = "20 mm"
+{pinion}
+
+[gears.wheel]
+teeth = 40
+profile_shift = 0
+bore_diameter = "40 mm"
+
+[load]
+wheel_torque = "100 N m"
+"""
+RACK = '[gears.rack]\nprotuberance = "0.15 mm"\nfinishing_stock = "0.1 mm"\n'
+
+
+def gears(rack="", pinion=""):
+    """The data of the pair of a scene."""
+    return scene_from_text(SCENE.format(gears=rack, pinion=pinion)).gears
+
+
+def test_what_is_left_of_the_protuberance_is_it_less_the_stock():
+    """ISO 6336-3: s_pr = pr - q; both gears have the rack of `[gears.rack]`, with half the pressure angle as protuberance angle unless given."""
+    data = gears(RACK)
+    for gear in (data.pinion, data.wheel):
+        assert gear.protuberance == pytest.approx(0.05, rel=1e-12)
+        assert gear.protuberance_angle == pytest.approx(radians(10.0), rel=1e-12)
+    assert gears(RACK + 'protuberance_angle = "8 deg"').wheel.protuberance_angle == pytest.approx(radians(8.0), rel=1e-12)
+
+
+def test_a_gear_s_own_rack_goes_before_that_of_both():
+    """Meaning of the sections: the pinion's own protuberance, the stock of both."""
+    data = gears(RACK, '[gears.pinion.rack]\nprotuberance = "0.2 mm"\n')
+    assert (data.pinion.protuberance, data.wheel.protuberance) == pytest.approx((0.1, 0.05), rel=1e-12)
+
+
+def test_protuberance_as_large_as_the_stock_leaves_the_plain_rack():
+    """Exact: nothing stands out of the finished flank then, and the pair is that of a rack without both."""
+    assert gear_pair(gears(RACK.replace("0.15", "0.1"))) == gear_pair(gears())
+
+
+def test_the_chamfer_is_the_gear_s():
+    """Meaning of the field; the other gear has none."""
+    data = gears(pinion='tip_chamfer = "0.3 mm"')
+    assert (data.pinion.tip_chamfer, data.wheel.tip_chamfer) == pytest.approx((0.3, 0.0), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("rack", "said"),
+    [
+        ('[gears.rack]\nfinishing_stock = "0.1 mm"', "gears.rack.finishing_stock = 0.1 mm is more than gears.rack.protuberance = 0 mm"),
+        (RACK.replace("0.1 mm", "0.2 mm"), "finishing_stock = 0.2 mm is more than gears.rack.protuberance = 0.15 mm"),
+        ('[gears.rack]\nprotuberance_angle = "10 deg"', "has no meaning without gears.rack.protuberance"),
+        (RACK + 'protuberance_angle = "25 deg"', "protuberance_angle = 25 deg must be less than gears.pressure_angle = 20 deg"),
+    ],
+)
+def test_a_protuberance_that_cannot_be_is_refused(rack, said):
+    """House rule on errors: the field, its value and what is allowed, before anything is computed."""
+    with pytest.raises(SceneError) as refused:
+        gears(rack)
+    assert said in str(refused.value)
