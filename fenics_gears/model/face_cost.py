@@ -54,7 +54,7 @@ def face_cost(model: Model) -> FaceCost:
     coast = model.scene.coast_flanks is not None
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):
         division = face_discretisation(model, number)
-        unknowns, condensed = expected_size(gear, division, coast)
+        unknowns, condensed = expected_size(gear, division)
         bodies.append(unknowns)
         condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3
         memory = max(memory, expected_memory(unknowns, condensed))

@@ -12,13 +12,13 @@ NODES, POWER = 0.37, 1.7
 LIBRARIES, PER_UNKNOWN, PER_ENTRY = 0.1e9, 17e3, 33.0
 
 
-def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = False) -> tuple[int, int]:
-    """Unknowns of a gear's sector, and those that it is condensed onto: flank or flanks, and cuts."""
+def expected_size(gear: Gear, face: FaceDiscretisation) -> tuple[int, int]:
+    """Unknowns of a gear's sector, and those that each of its two halves is condensed onto: a flank and a cut."""
     boundary = sector_boundary(gear.of_module_one, face.in_modules_of(gear).sizes)[0]
     flank, cut, hub = (2 * len(boundary.part(name)) - 1 for name in ("flank", "lower cut", "hub"))
     of_height = 3 * (2 * face.layers + 1)
     nodes = NODES * len(boundary.points) ** POWER - hub
-    return round(of_height * nodes), of_height * ((2 if both_flanks else 1) * flank + 2 * (cut - 1))
+    return round(of_height * nodes), of_height * (flank + cut - 1)
 
 
 def expected_memory(unknowns: int, condensed_unknowns: int) -> float:

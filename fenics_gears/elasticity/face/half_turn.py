@@ -74,3 +74,19 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
     for response in responses:
         response[:] = vectors @ (vectors @ response.T).T
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
+
+
+def ring_blocks(held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offsets: int, comm=None) -> np.ndarray:
+    """Flank compliance blocks (offsets + 1, f, f) of a ring, as `ring.ring_compliance`, from a `condensed.SweptSector` and the response of its cuts.
+
+    comm: communicator over whose ranks the products are shared out; every rank calls this and gets the result.
+    """
+    lower, upper = np.hsplit(to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank], 2)
+    # Response of cuts to the flanks of a sector, on the cut m pitches ahead of its lower one.
+    moved = [lower @ joint(m) + upper @ joint(m + 1) for m in range(-1, offsets + 1)]
+    lower, upper = np.hsplit(to_cuts, 2)
+    own = np.stack([ahead @ lower.T + behind @ upper.T for behind, ahead in zip(moved, moved[1:])])
+    blocks = own if comm is None else np.concatenate(comm.allgather(own), axis=1)
+    blocks[0] += held
+    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
+    return blocks

@@ -14,7 +14,7 @@ from fenics_gears.simulation.face_route import gear_body
 
 
 class _Analysed(Exception):
-    """In place of a factor: operations of its elimination and bytes of its entries; the matrix's size, and that of the Schur complement."""
+    """In place of a factor: operations of its elimination and bytes of its entries; unknowns of both halves, and the size of one half's Schur complement."""
 
     def __init__(self, matrix, what: str, dofs: np.ndarray):
         super().__init__(what)
@@ -33,7 +33,7 @@ class _Analysed(Exception):
         entries = factor.getMumpsInfog(20)
         self.found = {
             "factor_operations": factor.getMumpsRinfog(1), "factor_array_bytes": 8.0 * (entries if entries > 0 else -1e6 * entries),
-            "unknowns": matrix.size[0], "condensed_unknowns": len(dofs),
+            "unknowns": 2 * matrix.size[0], "condensed_unknowns": len(dofs),
         }  # fmt: skip
         preconditioner.destroy()
         factor.destroy()
