@@ -10,6 +10,7 @@ import numpy as np
 
 from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
+from fenics_gears.elasticity.face.cost import expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS, check_inputs
@@ -91,15 +92,18 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     clock = perf_counter()
     mesh = sector_mesh(gear, face.sizes)
     meshed = perf_counter()
-    sides = ("flank", "coast") if both else ("flank",)
-    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm)
+    iterative = is_iterative(*expected_size(gear, face, both), 1 if comm is None else comm.size)
+    if comm is not None:
+        # Free memory differs from rank to rank.
+        iterative = comm.bcast(iterative)
+    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative)
     condensed = perf_counter()
     basis = half_turn_basis(sector.lower, len(face.sweep.heights))
     joint = half_turn_response(sector.link, gear.teeth, farthest + 1, basis, comm)
     blocks = ring_blocks(sector.held, sector.to_cuts, joint, farthest, comm)
     blocks = _in_mirrored_frame(blocks, gear, both)
     joined = perf_counter()
-    flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in sides])
+    flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in (("flank", "coast") if both else ("flank",))])
     section = condensed_sector(mesh, ELEMENT, poissons_ratio, flank)
     plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)

@@ -37,10 +37,10 @@ class SweptSector:
     timings: dict
 
 
-def condensed_swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, centreline: float, teeth: int, both: bool = False, comm=None) -> SweptSector:
+def condensed_swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, centreline: float, teeth: int, both: bool = False, comm=None, iterative: bool = False) -> SweptSector:
     """A sector of a gear of `teeth`, its section symmetric about a line at the polar angle `centreline` (rad); `both`: with its coast flank.
 
-    comm: communicator whose ranks share the work: one half of them has the even motions, the other the odd ones, and each half shares out the heights.
+    iterative: by conjugate gradients instead of MUMPS. comm: communicator whose ranks share the work: one half of them has the even motions, the other the odd ones, and each half shares out the heights.
     Every rank calls this and gets the result.
     """
     clock = perf_counter()
@@ -56,7 +56,7 @@ def condensed_swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, 
     assembled = perf_counter()
     parts: list[Parts | None] = []
     while halves:
-        parts.append(_condensed(halves.pop(0), fold, group))
+        parts.append(_by_gradients(halves.pop(0), fold, own, sweep, group) if iterative else _condensed(halves.pop(0), fold, group))
     if len(signs) == 1:
         parts = [_of_rank(parts[0], fold, comm, rank) for rank in (0, 1)]
     timings = {
@@ -64,7 +64,7 @@ def condensed_swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, 
         "time_assemble": assembled - compiled,
         "time_schur": perf_counter() - assembled,
         "unknowns": 2 * fold.unknowns,
-        "condensed_unknowns": len(fold.flank) + len(fold.cut),
+        "condensed_unknowns": (2 if both else 1) * len(fold.flank) + 2 * len(fold.cut),
     }
     cuts = [by_radius(without(mesh.edge_nodes(f"{name} cut", ELEMENT.order), mesh.edge_nodes("hub", ELEMENT.order))) for name in ("lower", "upper")]
     check_congruent(*cuts, teeth)
@@ -82,6 +82,14 @@ def _condensed(rows: sparse.csr_matrix, fold: Fold, group) -> Parts | None:
     finally:
         factor.close()
     return None if condensed is None else flank_free(condensed, len(fold.flank))
+
+
+def _by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, sweep: Sweep, group) -> Parts:
+    # Imported here: few bodies need it.
+    from fenics_gears.elasticity.face.conjugate_gradients import flank_free_by_gradients, rigid_motions
+
+    height, place = np.divmod(fold.kept, len(fold.nodes))
+    return flank_free_by_gradients(rows, fold, own, rigid_motions(np.column_stack([fold.nodes[place], sweep.heights[height]]), sweep.twist), group)
 
 
 def _of_rank(parts: Parts | None, fold: Fold, comm, rank: int) -> Parts:

@@ -8,15 +8,18 @@ import pytest
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 from tests.coarse_sector import PINION, STEEL
-from tests.elasticity.face.swept import GEAR, TWISTED, condense_swept, mesh
+from tests.elasticity.face.swept import GEAR, TWIST, TWISTED, condense_swept, mesh, swept_points
+from tests.elasticity.face.swept import rigid_motions as rigid_by_brute_force
 from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius, dofs_of
+from fenics_gears.elasticity.face import conjugate_gradients
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector
-from fenics_gears.elasticity.face.cost import expected_memory, expected_size
+from fenics_gears.elasticity.face.conjugate_gradients import rigid_motions
+from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response, ring_blocks
 from fenics_gears.elasticity.face.layers import swept_nodes
@@ -24,8 +27,10 @@ from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, 
 from fenics_gears.elasticity.ring import fourier_response, rotation
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.system.memory import MEMORY_VARIABLE
 
 BOTH = Reach(1, (-1, 1))
+COARSEST = FaceDiscretisation(9.0, 1, 3.0, 0.006)
 TWISTED_PINION = FaceDiscretisation(2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius)
 
 
@@ -75,6 +80,31 @@ def test_ring_of_sectors_is_the_whole_gear(sector):
     for offset, block in enumerate(ring_blocks(sector.held, sector.to_cuts, joint, offsets)[:, :size, :size]):
         frame = np.kron(np.eye(size // 3), rotation(offset * GEAR.angular_pitch, 3))
         assert difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]) < 1e-10
+
+
+def test_conjugate_gradients_are_the_factorisation(monkeypatch):
+    """Brute force: the same body by MUMPS's Schur complement; the memory that a run may take chooses, where it holds the one and not the other."""
+    size = expected_size(PINION, COARSEST)
+    between = 0.5 * sum(expected_memory(*size, iterative) for iterative in (False, True))
+    factorised = face_compliance(PINION, STEEL, COARSEST, Reach(1))
+    for allowed, chosen in ((1e-3 * between, False), (between, True)):
+        monkeypatch.setenv(MEMORY_VARIABLE, f"{allowed / 1e6:.6f} MB")
+        assert is_iterative(*size) == chosen
+    found = face_compliance(PINION, STEEL, COARSEST, Reach(1))
+    assert 0.0 < difference(found.blocks, factorised.blocks) < 1e-9
+
+
+def test_gradients_that_do_not_converge_are_said(monkeypatch):
+    """Theory: one iteration does not solve a system of hundreds of unknowns. The message says what to change."""
+    monkeypatch.setattr(conjugate_gradients, "MOST_ITERATIONS", 1)
+    with pytest.raises(ComputationError, match="did not converge.*FENICS_GEARS_MEMORY"):
+        swept_sector(mesh(both_flanks=True), iterative=True)
+
+
+def test_rigid_motions_that_multigrid_knows():
+    """Exact kernel of a swept body's stiffness, by the brute force of the tests."""
+    points = swept_points(mesh().points, TWISTED)
+    np.testing.assert_allclose(rigid_motions(points, TWIST), rigid_by_brute_force(points, TWIST), atol=1e-13)
 
 
 def test_hands_mirror_each_other():
@@ -185,7 +215,7 @@ def test_expected_size(reach):
     """The mesh itself: condensed unknowns exactly, all within 15 %."""
     gear, face = replace(PINION, teeth=24, tip_radius=59.0, root_radius=49.0), FaceDiscretisation(1.35, 1, 3.0)
     found = face_compliance(gear, STEEL, face, reach).timings
-    unknowns, condensed = expected_size(gear, face)
+    unknowns, condensed = expected_size(gear, face, reach.across is not None)
     assert condensed == found["condensed_unknowns"]
     assert unknowns == pytest.approx(found["unknowns"], rel=0.15)
     assert expected_memory(2 * unknowns, condensed) > expected_memory(unknowns, condensed) > 0.0
