@@ -13,7 +13,7 @@ from fenics_gears.model.storage import FILLET_POINTS_OVER_FACE
 from fenics_gears.system.memory import allowed_memory
 
 # Seconds of an unknown of a body, and of the cube of the unknowns that it is condensed onto.
-UNKNOWN, CONDENSED_CUBE = 6e-5, 2.5e-10
+UNKNOWN, CONDENSED_CUBE = 6e-5, 2e-10
 # Of conjugate gradients, for each of the condensed unknowns a second time.
 SOLVED_BY_GRADIENTS = 3e-5
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and their cube (elimination).

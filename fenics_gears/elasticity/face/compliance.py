@@ -68,14 +68,13 @@ def _kept(cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, d
     """As `cache.kept`: rank 0 looks into its cache and says whether all must compute."""
     if comm is None:
         return kept(cache, inputs, compute)
-    found = None
     if comm.rank == 0:
         found = kept(cache, inputs, lambda: comm.bcast(True) and compute())
         if found[1]["from_cache"]:
             comm.bcast(False)
-    elif comm.bcast(None):
-        compute()
-    return comm.bcast(found)
+            comm.bcast(found)
+        return found
+    return kept(None, inputs, compute) if comm.bcast(None) else comm.bcast(None)
 
 
 def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm) -> tuple[dict, dict]:

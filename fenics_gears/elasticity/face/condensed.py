@@ -67,7 +67,7 @@ def condensed_swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, 
         "condensed_unknowns": (2 if both else 1) * len(fold.flank) + 2 * len(fold.cut),
     }
     cuts = [by_radius(without(mesh.edge_nodes(f"{name} cut", ELEMENT.order), mesh.edge_nodes("hub", ELEMENT.order))) for name in ("lower", "upper")]
-    check_congruent(*cuts, teeth)
+    check_congruent(cuts[0], cuts[1], teeth)
     lower = np.column_stack([np.tile(cuts[0], (heights, 1)), np.repeat(sweep.heights, len(cuts[0]))])
     return SweptSector(*_unfolded(parts, fold, teeth, both), lower, timings)
 

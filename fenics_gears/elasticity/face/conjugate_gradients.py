@@ -38,7 +38,7 @@ def flank_free_by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, mot
     """
     inner = np.ones(fold.unknowns, dtype=bool)
     inner[fold.cut] = False
-    number, places = np.cumsum(inner) - 1, fold.places(own)
+    places = fold.places(own)
     here = slice(3 * places.start, 3 * places.stop)
     free = np.flatnonzero(inner[here])
     coupling = rows[free][:, fold.cut].tocsc()

@@ -9,8 +9,8 @@ from fenics_gears.system.memory import allowed_memory
 
 # Nodes of a section by those of its outline, within 15 % for 16 to 80 teeth and sections of 0.15 to 0.4 modules.
 NODES, POWER = 0.37, 1.7
-# Bytes, measured on pinion and wheel of the paper with 6 and 12 layers: libraries, for each unknown, for each entry of the condensed stiffness.
-LIBRARIES, PER_UNKNOWN, PER_UNKNOWN_ITERATIVE, PER_ENTRY = 0.1e9, 8e3, 3e3, 33.0
+# Bytes, measured on the paper's wheel with 6 and 12 layers: libraries, for each unknown by MUMPS and by conjugate gradients, for each entry of the condensed stiffness.
+LIBRARIES, PER_UNKNOWN, PER_UNKNOWN_ITERATIVE, PER_ENTRY = 0.2e9, 6.3e3, 4e3, 19.0
 
 
 def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = False) -> tuple[int, int]:

@@ -70,7 +70,10 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
             response[:even, even:] += sine * inverse[:even, even:]
             response[even:, :even] -= sine * inverse[even:, :even]
     if comm is not None:
-        responses = comm.allreduce(responses)
+        # Imported here: alone there is no need of it.
+        from mpi4py import MPI
+
+        comm.Allreduce(MPI.IN_PLACE, responses)
     for response in responses:
         response[:] = vectors @ (vectors @ response.T).T
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
