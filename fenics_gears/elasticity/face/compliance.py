@@ -99,7 +99,10 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     condensed = perf_counter()
     basis = half_turn_basis(sector.lower, len(face.sweep.heights))
     joint = half_turn_response(sector.link, gear.teeth, farthest + 1, basis, comm)
-    blocks = ring_blocks(sector.held, sector.to_cuts, joint, farthest, comm)
+    held, to_cuts, found = sector.held, sector.to_cuts, sector.timings
+    # Its link between the cuts takes as much memory as all blocks.
+    del sector
+    blocks = ring_blocks(held, to_cuts, joint, farthest, comm)
     blocks = _in_mirrored_frame(blocks, gear, both)
     joined = perf_counter()
     flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in (("flank", "coast") if both else ("flank",))])
@@ -107,14 +110,14 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
     timings = {
-        **sector.timings,
+        **found,
         "time_mesh": meshed - clock,
         "time_ring": joined - condensed,
         "time_plane": perf_counter() - joined,
-        "time_condense": perf_counter() - meshed - sector.timings["time_compile"],
+        "time_condense": perf_counter() - meshed - found["time_compile"],
     }
     arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
-    return {**arrays, **{name: np.array(sector.timings[name]) for name in COUNTS}}, timings
+    return {**arrays, **{name: np.array(found[name]) for name in COUNTS}}, timings
 
 
 def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: int = 3) -> np.ndarray:

@@ -84,11 +84,16 @@ def ring_blocks(held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offse
 
     comm: communicator over whose ranks the products are shared out; every rank calls this and gets the result.
     """
-    lower, upper = np.hsplit(to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank], 2)
-    # Response of cuts to the flanks of a sector, on the cut m pitches ahead of its lower one.
-    moved = [lower @ joint(m) + upper @ joint(m + 1) for m in range(-1, offsets + 1)]
-    lower, upper = np.hsplit(to_cuts, 2)
-    own = np.stack([ahead @ lower.T + behind @ upper.T for behind, ahead in zip(moved, moved[1:])])
+    rows = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
+    (own_lower, own_upper), (lower, upper) = np.hsplit(rows, 2), np.hsplit(to_cuts, 2)
+    own = np.empty((offsets + 1, len(rows), len(to_cuts)))
+    # Response of the flanks to forces on the cuts m and m - 1 pitches behind; the latter is the former of the pitch before.
+    behind = own_lower @ joint(-1) + own_upper @ joint(0)
+    for offset, block in enumerate(own):
+        ahead = own_lower @ joint(offset) + own_upper @ joint(offset + 1)
+        np.matmul(ahead, lower.T, out=block)
+        block += behind @ upper.T
+        behind = ahead
     blocks = own if comm is None else np.concatenate(comm.allgather(own), axis=1)
     blocks[0] += held
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
