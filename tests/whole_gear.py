@@ -59,7 +59,7 @@ def ring_stiffness(sector: CondensedBody, teeth: int, loaded: tuple[int, ...]) -
 
     Assembled from all sectors, dense. Flank dofs are in each tooth's own frame, the centre's in that of tooth 0.
     """
-    check_congruent(sector, teeth)
+    check_congruent(sector.points["lower"], sector.points["upper"], teeth)
     flank, cut = len(sector.dofs("flank")), len(sector.dofs("lower"))
     size = teeth * (flank + cut) + 3
     turn = turned_nodes(teeth, cut // 2)

@@ -35,7 +35,7 @@ def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, re
     axis: (2,), unit vector along the centreline. The formula is that of `ring.ring_compliance`.
     """
     along = np.asarray(axis)
-    parts = [_flank_free(_constrained(half, direction), len(half.dofs("flank"))) for direction in (along, np.array([-along[1], along[0]]))]
+    parts = [flank_free(_constrained(half, direction), len(half.dofs("flank"))) for direction in (along, np.array([-along[1], along[0]]))]
     (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = (
         tuple(0.5 * (same + sign * opposite) for same, opposite in zip(*parts)) for sign in (1.0, -1.0)
     )
@@ -69,7 +69,7 @@ def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
     return stiffness[kept, kept] - coupling.T @ np.linalg.solve(own, coupling)
 
 
-def _flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut: the flank free."""
     compliance, coupling = definite_inverse(stiffness[:flank, :flank], "a flank"), stiffness[:flank, flank:]
     response = compliance @ coupling

@@ -8,8 +8,6 @@ joined instead, which is quicker (`elasticity.cut_chain`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy.linalg import block_diag, get_lapack_funcs
 from scipy.sparse import csr_matrix
@@ -38,21 +36,17 @@ def condensed_sector(
     return condense(mesh, element, poissons_ratio, points)
 
 
-def check_congruent(sector: CondensedBody, teeth: int) -> None:
-    """Raise ComputationError unless the upper cut is the lower cut turned by one pitch, node for node."""
-    lower, upper = sector.points["lower"], sector.points["upper"]
+def check_congruent(lower: np.ndarray, upper: np.ndarray, teeth: int) -> None:
+    """Raise ComputationError unless the upper cut's nodes (k, 2) or (k, 3) are the lower cut's turned by one pitch, node for node."""
     scale = np.abs(lower).max()
     if lower.shape != upper.shape or np.abs(lower @ rotation(2.0 * np.pi / teeth, lower.shape[1]).T - upper).max() > 1e-9 * scale:
         raise ComputationError("ring of sectors: the two radial cuts of the sector do not match node for node")
 
 
-def ring_compliance(
-    sector: CondensedBody, teeth: int, offsets: int, respond: Callable[[np.ndarray, int, int], CutResponse] | None = None, comm=None
-) -> np.ndarray:
+def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
 
     Of sectors in three dimensions (offsets + 1, 3n, 3n): they may twist along z, as a pitch still turns one cut into the other.
-    respond: a quicker way of `cut_response` that this sector allows. comm: communicator over whose ranks the last products are shared out.
 
     With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]`` with
     ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its inverse's flank block is
@@ -65,11 +59,8 @@ def ring_compliance(
     to_cuts = flank_compliance @ coupling
     # One sector between its cuts, its flank free.
     link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts
-    joint = (respond or cut_response)(link, teeth, offsets + 1)
-    own = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
-    blocks = np.stack([own @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
-    if comm is not None:
-        blocks = np.concatenate(comm.allgather(blocks), axis=1)
+    joint = cut_response(link, teeth, offsets + 1)
+    blocks = np.stack([to_cuts @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
     blocks[0] += flank_compliance
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
@@ -82,7 +73,7 @@ def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarr
 
     Raises ComputationError for cuts that are not congruent.
     """
-    check_congruent(sector, teeth)
+    check_congruent(sector.points["lower"], sector.points["upper"], teeth)
     lower, upper = sector.dofs("lower"), sector.dofs("upper")
     components = sector.points["upper"].shape[1]
     turn = block_diag(np.eye(len(lower)), turned_nodes(teeth, len(upper) // components, components))

@@ -45,7 +45,8 @@ MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
 
 @dataclass(frozen=True)
 class ExpectedCost:
-    """Seconds of condensing (None where nothing is condensed) and of marching; unknowns (words, number) of the gears.
+    """Seconds of condensing (None where nothing is condensed) and of marching; unknowns (words, number) of the gears; how bodies over the face are
+    condensed (words, way).
 
     Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes round.
     """
@@ -55,6 +56,7 @@ class ExpectedCost:
     memory: float
     operators: float = 0.0
     unknowns: tuple[tuple[str, float], ...] = ()
+    ways: tuple[tuple[str, str], ...] = ()
 
 
 def loaded_pairs(model: Model) -> float:
@@ -85,14 +87,14 @@ def flank_bytes(unknowns: Number) -> Number:
     return BYTES_OF_A_NUMBER * MATRICES_OF_A_FLANK * unknowns**2
 
 
-def expected_cost(model: Model) -> ExpectedCost:
-    """What a run of a scene costs, gears not being in the cache."""
+def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
+    """What a run of a scene costs, gears not being in the cache; on each of some MPI ranks, where they share it."""
     resolution, scene = model.resolution, model.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
         return ExpectedCost(None, _marching(model, 0.0), PROGRAM + model.stored_bytes)
     gears = [_condensed(model, name) for name in ("pinion", "wheel")]
     if model.face is not None:
-        return _face_cost(model, gears)
+        return _face_cost(model, gears, ranks)
     cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
     condensing, marching, held, operators = cost(model, gears)
     unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
@@ -160,17 +162,18 @@ def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float
     return condensing, _marching(model, rows), held, operator_bytes(_positions(model), rows, model.scene.friction is not None)
 
 
-def _face_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
+def _face_cost(model: Model, gears: list[_Gear], ranks: int) -> ExpectedCost:
     """Of flanks resolved over the face, whose plane sections are as `gears`."""
     # Imported here: plane scenes have none.
     from fenics_gears.model.face_cost import face_cost
 
     condensing, _, held, _ = _condensed_once_cost(model, gears)
-    over_face = face_cost(model)
+    over_face = face_cost(model, ranks)
     sections = tuple((gear.words, gear.unknowns) for gear in gears)
-    bodies = tuple((f"the {name}'s body", unknowns) for name, unknowns in zip(("pinion", "wheel"), over_face.unknowns))
+    names = ("the pinion's body", "the wheel's body")
+    bodies = tuple(zip(names, over_face.unknowns))
     memory = CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.kept + over_face.operators, over_face.memory)
-    return ExpectedCost(condensing + over_face.condensing, over_face.marching, memory, over_face.operators, (*sections, *bodies))
+    return ExpectedCost(condensing + over_face.condensing, over_face.marching, memory, over_face.operators, (*sections, *bodies), tuple(zip(names, over_face.ways)))
 
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:

@@ -234,6 +234,7 @@ def _cost(model: Model) -> Rows:
     condensing = [] if cost.condensing is None else [("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s")]
     return [
         *((f"unknowns of {words}", f"{count:.0f}", "") for words, count in cost.unknowns),
+        *((f"condensing {words}", way, "") for words, way in cost.ways),
         *condensing,
         ("marching", f"{cost.marching:.1f}", "s"),
         ("memory", f"{cost.memory / 1e6:.0f}", "MB"),

@@ -6,14 +6,17 @@ from dataclasses import dataclass
 
 from fenics_gears.contact.face_cycle import face_places
 from fenics_gears.contact.window import flank_ends, node_offsets
-from fenics_gears.elasticity.face.cost import expected_memory, expected_size
+from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import FILLET_POINTS_OVER_FACE
+from fenics_gears.system.memory import allowed_memory
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a cut for each harmonic of the ring,
 # of which there are half as many as teeth.
 UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 2e-10, 1e-10
+# Of conjugate gradients, for each of the condensed unknowns a second time.
+SOLVED_BY_GRADIENTS = 3e-5
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and their cube (elimination).
 PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 7e-9, 1.5e-9, 5e-12
 # With friction: of a position, of a step.
@@ -31,7 +34,7 @@ ON_FLANKS = 200.0
 @dataclass(frozen=True)
 class FaceCost:
     """Seconds of condensing both bodies and of marching, unknowns of the bodies, bytes while condensing, of the bodies' compliances on slices (`kept`) and
-    of the contact operators."""
+    of the contact operators; how each body is condensed, in words."""
 
     condensing: float
     marching: float
@@ -39,6 +42,7 @@ class FaceCost:
     memory: float
     operators: float
     kept: float
+    ways: tuple[str, ...]
 
 
 def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
@@ -49,9 +53,9 @@ def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
     return len(places) / phases, nodes / phases
 
 
-def face_cost(model: Model) -> FaceCost:
-    """Cost of the three-dimensional bodies and of contact over the face, without that of the plane sections."""
-    bodies, condensing, memory, kept, stress_step = [], 0.0, 0.0, 0.0, 0.0
+def face_cost(model: Model, ranks: int = 1) -> FaceCost:
+    """Cost of the three-dimensional bodies and of contact over the face, without that of the plane sections; memory of each of some MPI ranks that share the bodies."""
+    bodies, ways, condensing, memory, kept, stress_step = [], [], 0.0, 0.0, 0.0, 0.0
     coast = model.scene.coast_flanks is not None
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):
         division = face_discretisation(model, number)
@@ -59,8 +63,11 @@ def face_cost(model: Model) -> FaceCost:
         bodies.append(unknowns)
         of_flank = expected_size(gear, division, True)[1] - expected_size(gear, division, False)[1]
         of_cut = 0.5 * (condensed - of_flank * (2 if coast else 1))
-        condensing += UNKNOWN * unknowns + CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
-        memory = max(memory, expected_memory(unknowns, condensed))
+        iterative = is_iterative(unknowns, condensed, ranks)
+        condensing += (UNKNOWN + (SOLVED_BY_GRADIENTS * condensed if iterative else 0.0)) * unknowns
+        condensing += CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
+        memory = max(memory, expected_memory(unknowns, condensed, iterative, ranks))
+        ways.append(_way(iterative, *(expected_memory(unknowns, condensed, each, ranks) for each in (iterative, False))))
         finer = 0.35 * gear.module / division.section_size
         on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if coast else 1)
         kept += 8.0 * (2 * model.touching.reach.farthest + 1) * on_slices**2
@@ -78,4 +85,11 @@ def face_cost(model: Model) -> FaceCost:
         kept += ON_FLANKS * positions * nodes * (2.0 if rubbing else 1.0)
     # Normals alone, or both kinds and by the forces of the step before.
     operators = WITH_COPIES * 8.0 * positions * nodes**2 * (6.0 if rubbing else 1.0)
-    return FaceCost(condensing, positions * position + model.steps * (step + stress_step), (bodies[0], bodies[1]), memory, operators, kept)
+    return FaceCost(condensing, positions * position + model.steps * (step + stress_step), (bodies[0], bodies[1]), memory, operators, kept, tuple(ways))
+
+
+def _way(iterative: bool, memory: float, by_factor: float) -> str:
+    """How a body is condensed, and why."""
+    if iterative:
+        return f"conjugate gradients, {memory / 1e9:.3g} GB: a factorisation takes {by_factor / 1e9:.3g} GB, and {allowed_memory() / 1e9:.3g} GB are allowed"
+    return f"factorisation by MUMPS, {memory / 1e9:.3g} GB"

@@ -46,7 +46,7 @@ def simulate(
     """
     progress, cache = progress or SilentProgress(), cache or user_cache()
     model = model_of(scene)
-    for_operators = memory_for_operators(model)
+    for_operators = memory_for_operators(model, 1 if comm is None else comm.size)
     gears, cycle = (preparation or functools.partial(prepared, comm=comm))(model, progress, cache)
     cycle.kept.most = for_operators
     progress.stage("compile")
@@ -57,9 +57,9 @@ def simulate(
     return _with_dynamic_factors(recorder, result, progress)
 
 
-def memory_for_operators(model: Model) -> float:
+def memory_for_operators(model: Model, ranks: int = 1) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without keeping any."""
-    allowed, cost = allowed_memory(), expected_cost(model)
+    allowed, cost = allowed_memory(), expected_cost(model, ranks)
     held = cost.memory - cost.operators
     if held > allowed:
         raise ComputationError(

@@ -28,7 +28,7 @@ def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, 
         return gears, cycle
 
     operators = expected_cost(model_of(scene)).operators
-    monkeypatch.setattr(simulation, "memory_for_operators", lambda model: share * operators)
+    monkeypatch.setattr(simulation, "memory_for_operators", lambda model, ranks: share * operators)
     again = simulate(scene, preparation=preparation, cache=user_cache())
     steps = scene.accuracy.steps_per_mesh_cycle
     assert len(made) > (3 if share == 0.0 else 1.5) * steps

@@ -10,6 +10,7 @@ import numpy as np
 
 from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
+from fenics_gears.elasticity.face.cost import expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS, check_inputs
@@ -18,7 +19,7 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
 
 # To be raised by one whenever the same inputs give other numbers.
-FACE_VERSION = 3
+FACE_VERSION = 4
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
 ORDER = 2
 
@@ -67,14 +68,13 @@ def _kept(cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, d
     """As `cache.kept`: rank 0 looks into its cache and says whether all must compute."""
     if comm is None:
         return kept(cache, inputs, compute)
-    found = None
     if comm.rank == 0:
         found = kept(cache, inputs, lambda: comm.bcast(True) and compute())
         if found[1]["from_cache"]:
             comm.bcast(False)
-    elif comm.bcast(None):
-        compute()
-    return comm.bcast(found)
+            comm.bcast(found)
+        return found
+    return kept(None, inputs, compute) if comm.bcast(None) else comm.bcast(None)
 
 
 def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm) -> tuple[dict, dict]:
@@ -83,7 +83,7 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     from fenics_gears.elasticity.condensation import by_radius
     from fenics_gears.elasticity.element_nodes import node_roll_angles
     from fenics_gears.elasticity.face.condensed import condensed_swept_sector
-    from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response
+    from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response, ring_blocks
     from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
     from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
     from fenics_gears.elasticity.sector_mesh import sector_mesh
@@ -91,26 +91,33 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     clock = perf_counter()
     mesh = sector_mesh(gear, face.sizes)
     meshed = perf_counter()
-    sides = ("flank", "coast") if both else ("flank",)
-    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, sides, comm)
+    iterative = is_iterative(*expected_size(gear, face, both), 1 if comm is None else comm.size)
+    if comm is not None:
+        # Free memory differs from rank to rank.
+        iterative = comm.bcast(iterative)
+    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative)
     condensed = perf_counter()
-    basis = half_turn_basis(sector.points["lower"], len(face.sweep.heights))
-    blocks = ring_compliance(sector, gear.teeth, farthest, lambda link, teeth, reach: half_turn_response(link, teeth, reach, basis, comm), comm)
+    basis = half_turn_basis(sector.lower, len(face.sweep.heights))
+    joint = half_turn_response(sector.link, gear.teeth, farthest + 1, basis, comm)
+    held, to_cuts, found = sector.held, sector.to_cuts, sector.timings
+    # Its link between the cuts takes as much memory as all blocks.
+    del sector
+    blocks = ring_blocks(held, to_cuts, joint, farthest, comm)
     blocks = _in_mirrored_frame(blocks, gear, both)
     joined = perf_counter()
-    flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in sides])
+    flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in (("flank", "coast") if both else ("flank",))])
     section = condensed_sector(mesh, ELEMENT, poissons_ratio, flank)
     plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
     timings = {
-        **sector.timings,
+        **found,
         "time_mesh": meshed - clock,
         "time_ring": joined - condensed,
         "time_plane": perf_counter() - joined,
-        "time_condense": perf_counter() - meshed - sector.timings["time_compile"],
+        "time_condense": perf_counter() - meshed - found["time_compile"],
     }
     arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
-    return {**arrays, **{name: np.array(sector.timings[name]) for name in COUNTS}}, timings
+    return {**arrays, **{name: np.array(found[name]) for name in COUNTS}}, timings
 
 
 def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: int = 3) -> np.ndarray:

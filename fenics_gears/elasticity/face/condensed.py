@@ -1,85 +1,119 @@
-"""A swept tooth sector condensed onto its flanks and cuts."""
+"""A swept tooth sector condensed onto its flanks and cuts: each of the two halves that it is folded into, then unfolded."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
 from scipy import sparse
-from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.condensation import CondensedBody, by_radius, dofs_of, without
+from fenics_gears.elasticity.condensation import by_radius, without
+from fenics_gears.elasticity.face.fold import EVEN, ODD, Fold
 from fenics_gears.elasticity.face.layers import Sweep
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mirrored_ring import flank_free
 from fenics_gears.elasticity.mumps import Factor, distributed
-from fenics_gears.errors import ComputationError
+from fenics_gears.elasticity.ring import check_congruent, turned_nodes
+
+# Compliance (f, f) of the flank with the cuts held, its response (f, c) to motions of the cut, stiffness (c, c) of the cut with the flank free.
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def condensed_swept_sector(
-    mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, sides: tuple[str, ...] = ("flank",), comm=None
-) -> CondensedBody:
-    """A swept sector condensed onto "flank" (of each of the `sides`), "lower" and "upper" (the cuts without their hub nodes), hub held."""
-    hub = mesh.edge_nodes("hub", ELEMENT.order)
-    lines = {
-        "flank": [by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in sides],
-        **{name: [by_radius(without(mesh.edge_nodes(f"{name} cut", ELEMENT.order), hub))] for name in ("lower", "upper")},
-    }
-    return condense_swept(mesh, sweep, poissons_ratio, lines, hub, comm)
+@dataclass(frozen=True)
+class SweptSector:
+    """A sector with its hub held, Young's modulus 1 MPa; dofs by height, radius, then x, y, z in the section's frame turned with it.
+
+    held: (f, f), compliance of the drive flank, or of drive and coast flank, with the cuts held. to_cuts: (f, 2 c), (minus) the flanks' motion per
+    motion of the lower and the upper cut. link: (2 c, 2 c), stiffness between the cuts, flanks free. The upper cut's dofs are in the next sector's frame.
+    lower: (c / 3, 3), X, Y, z of the lower cut's nodes.
+    """
+
+    held: np.ndarray
+    to_cuts: np.ndarray
+    link: np.ndarray
+    lower: np.ndarray
+    timings: dict
 
 
-def condense_swept(
-    mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, lines: dict[str, list[np.ndarray]], held: np.ndarray | None = None, comm=None
-) -> CondensedBody:
-    """Schur complement of a swept body onto groups of surfaces, each swept from nodes (k, 2) of the section.
+def condensed_swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, centreline: float, teeth: int, both: bool = False, comm=None, iterative: bool = False) -> SweptSector:
+    """A sector of a gear of `teeth`, its section symmetric about a line at the polar angle `centreline` (rad); `both`: with its coast flank.
 
-    A surface's nodes go by height, then as given; points are (X, Y, z), displacements (x, y, z) in the section's frame turned with it.
-    held: (j, 2), nodes of the section whose surface does not move. comm: communicator over whose ranks the heights are shared out, for assembly
-    and factorisation; every rank calls this and gets the result.
+    iterative: by conjugate gradients instead of MUMPS. comm: communicator whose ranks share the work: one half of them has the even motions, the other the odd ones, and each half shares out the heights.
+    Every rank calls this and gets the result.
     """
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio)
     compiled = perf_counter()
-    nodes, heights = section.nodes.points, sweep.heights
-    surfaces = {name: np.concatenate([swept_nodes(nodes, line, len(heights)) for line in group]) for name, group in lines.items()}
-    own = range(len(heights)) if comm is None else range(*np.linspace(0, len(heights), comm.size + 1).astype(int)[[comm.rank, comm.rank + 1]])
-    free = np.ones(3 * len(nodes), dtype=bool)
-    if held is not None:
-        free[dofs_of(swept_nodes(nodes, held, 1), 3)] = False
-    stiffness = swept_stiffness(section, sweep, own)[np.tile(free, len(own))][:, np.tile(free, len(heights))]
-    number = np.cumsum(np.tile(free, len(heights))) - 1
+    heights = len(sweep.heights)
+    fold = Fold(mesh, section.nodes.points, heights, centreline)
+    group, signs = (comm, (EVEN, ODD)) if comm is None or comm.size == 1 else (comm.Split(comm.rank % 2), (EVEN, ODD)[comm.rank % 2 :][:1])
+    own = range(heights) if group is None else range(*np.linspace(0, heights, group.size + 1).astype(int)[[group.rank, group.rank + 1]])
+    rows = swept_stiffness(section, sweep, own, fold.standing)
+    halves = [fold.folded(rows, own, sign) for sign in signs]
+    del rows
     assembled = perf_counter()
-    condensed = _condensed(stiffness, number[dofs_of(np.concatenate([*surfaces.values()]), 3)], comm)
+    parts: list[Parts | None] = []
+    while halves:
+        parts.append(_by_gradients(halves.pop(0), fold, own, sweep, group) if iterative else _condensed(halves.pop(0), fold, group))
+    if len(signs) == 1:
+        parts = [_of_rank(parts[0], fold, comm, rank) for rank in (0, 1)]
     timings = {
         "time_compile": compiled - clock,
         "time_assemble": assembled - compiled,
         "time_schur": perf_counter() - assembled,
-        "unknowns": stiffness.shape[1],
-        "condensed_unknowns": len(condensed),
+        "unknowns": 2 * fold.unknowns,
+        "condensed_unknowns": (2 if both else 1) * len(fold.flank) + 2 * len(fold.cut),
     }
-    points = {name: np.column_stack([nodes[at % len(nodes)], heights[at // len(nodes)]]) for name, at in surfaces.items()}
-    return CondensedBody(points, condensed, timings)
+    cuts = [by_radius(without(mesh.edge_nodes(f"{name} cut", ELEMENT.order), mesh.edge_nodes("hub", ELEMENT.order))) for name in ("lower", "upper")]
+    check_congruent(cuts[0], cuts[1], teeth)
+    lower = np.column_stack([np.tile(cuts[0], (heights, 1)), np.repeat(sweep.heights, len(cuts[0]))])
+    return SweptSector(*_unfolded(parts, fold, teeth, both), lower, timings)
 
 
-def _condensed(rows: sparse.csr_matrix, dofs: np.ndarray, comm) -> np.ndarray:
-    factor = Factor(rows if comm is None else distributed(rows, comm), "the body's stiffness", dofs)
+def _condensed(rows: sparse.csr_matrix, fold: Fold, group) -> Parts | None:
+    """One half; on the group's rank 0."""
+    alone = group is None or group.size == 1
+    factor = Factor(rows if alone else distributed(rows, group), "the body's stiffness", np.concatenate([fold.flank, fold.cut]))
+    del rows
     try:
         condensed = factor.schur()
     finally:
         factor.close()
-    if comm is None:
-        return condensed
-    # mpi4py does not know the type of an array made from C's memory.
-    everywhere = np.empty((len(dofs),) * 2)
-    if condensed is not None:
-        everywhere[:] = condensed
-    comm.Bcast(everywhere)
-    return everywhere
+    return None if condensed is None else flank_free(condensed, len(fold.flank))
 
 
-def swept_nodes(nodes: np.ndarray, line: np.ndarray, heights: int) -> np.ndarray:
-    """Numbers (heights k,) of the body's nodes swept from nodes (k, 2) of the section (n, 2), by height."""
-    distance, found = cKDTree(nodes).query(line)
-    if distance.max(initial=0.0) > 1e-9 * np.abs(nodes).max():
-        raise ComputationError("swept body: a node of the section's boundary is not among the nodes of its elements")
-    return (len(nodes) * np.arange(heights)[:, None] + found).ravel()
+def _by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, sweep: Sweep, group) -> Parts:
+    # Imported here: few bodies need it.
+    from fenics_gears.elasticity.face.conjugate_gradients import flank_free_by_gradients, rigid_motions
+
+    height, place = np.divmod(fold.kept, len(fold.nodes))
+    return flank_free_by_gradients(rows, fold, own, rigid_motions(np.column_stack([fold.nodes[place], sweep.heights[height]]), sweep.twist), group)
+
+
+def _of_rank(parts: Parts | None, fold: Fold, comm, rank: int) -> Parts:
+    """The parts that a rank has, on all ranks."""
+    flank, cut = len(fold.flank), len(fold.cut)
+    found = tuple(np.empty(shape) for shape in ((flank, flank), (flank, cut), (cut, cut)))
+    for number, each in enumerate(found):
+        # mpi4py does not know the type of an array made from C's memory.
+        each[:] = parts[number] if comm.rank == rank else 0.0
+        comm.Bcast(each, root=rank)
+    return found
+
+
+def _unfolded(parts: list[Parts], fold: Fold, teeth: int, both: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """`held`, `to_cuts` and `link` of a SweptSector."""
+    (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = (
+        tuple(0.5 * (even + sign * odd) for even, odd in zip(*parts)) for sign in (1.0, -1.0)
+    )
+    image, turn = fold.cut_turned, sparse.csr_matrix(turned_nodes(teeth, len(fold.cut) // 3, 3))
+    link = np.block([[image @ (image @ cut).T, image @ (cut_cross @ turn)], [(image @ (cut_cross @ turn)).T, turn.T @ (cut @ turn)]])
+    to_cuts = np.hstack([(image @ to_cut_cross.T).T, to_cut @ turn])
+    if both:
+        image_cut, image = image, fold.flank_turned
+        coast = np.hstack([(image_cut @ to_cut.T).T, to_cut_cross @ turn])
+        to_cuts = np.vstack([to_cuts, image @ coast])
+        held = np.block([[held, (image @ held_cross.T).T], [image @ held_cross, image @ (image @ held).T]])
+    return held, to_cuts, link

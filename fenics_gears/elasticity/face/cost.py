@@ -5,11 +5,12 @@ from __future__ import annotations
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.system.memory import allowed_memory
 
 # Nodes of a section by those of its outline, within 15 % for 16 to 80 teeth and sections of 0.15 to 0.4 modules.
 NODES, POWER = 0.37, 1.7
-# Bytes, measured on pinion and wheel of the paper with 6 and 12 layers: libraries, for each unknown, for each entry of the condensed stiffness.
-LIBRARIES, PER_UNKNOWN, PER_ENTRY = 0.1e9, 17e3, 33.0
+# Bytes, measured on the paper's wheel with 6 and 12 layers: libraries, for each unknown by MUMPS and by conjugate gradients, for each entry of the condensed stiffness.
+LIBRARIES, PER_UNKNOWN, PER_UNKNOWN_ITERATIVE, PER_ENTRY = 0.2e9, 6.3e3, 4e3, 19.0
 
 
 def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = False) -> tuple[int, int]:
@@ -21,6 +22,14 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     return round(of_height * nodes), of_height * ((2 if both_flanks else 1) * flank + 2 * (cut - 1))
 
 
-def expected_memory(unknowns: int, condensed_unknowns: int) -> float:
-    """Bytes that a process takes at most while it condenses a sector and joins the ring."""
-    return LIBRARIES + PER_UNKNOWN * unknowns + PER_ENTRY * condensed_unknowns**2
+def expected_memory(unknowns: int, condensed_unknowns: int, iterative: bool = False, ranks: int = 1) -> float:
+    """Bytes that a process takes at most while it condenses a sector, by MUMPS or by conjugate gradients, and joins the ring."""
+    # Two ranks have a half each, which is what one has at a time; more share out its heights.
+    sparse = (PER_UNKNOWN_ITERATIVE if iterative else PER_UNKNOWN) * unknowns / max(ranks / 2, 1.0)
+    return LIBRARIES + sparse + PER_ENTRY * condensed_unknowns**2
+
+
+def is_iterative(unknowns: int, condensed_unknowns: int, ranks: int = 1) -> bool:
+    """Whether conjugate gradients condense a sector: where the memory that a run may take holds them, and not MUMPS's factor."""
+    gradients, factor = (expected_memory(unknowns, condensed_unknowns, iterative, ranks) for iterative in (True, False))
+    return gradients <= allowed_memory() < factor

@@ -70,7 +70,31 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
             response[:even, even:] += sine * inverse[:even, even:]
             response[even:, :even] -= sine * inverse[even:, :even]
     if comm is not None:
-        responses = comm.allreduce(responses)
+        # Imported here: alone there is no need of it.
+        from mpi4py import MPI
+
+        comm.Allreduce(MPI.IN_PLACE, responses)
     for response in responses:
         response[:] = vectors @ (vectors @ response.T).T
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
+
+
+def ring_blocks(held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offsets: int, comm=None) -> np.ndarray:
+    """Flank compliance blocks (offsets + 1, f, f) of a ring, as `ring.ring_compliance`, from a `condensed.SweptSector` and the response of its cuts.
+
+    comm: communicator over whose ranks the products are shared out; every rank calls this and gets the result.
+    """
+    rows = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
+    (own_lower, own_upper), (lower, upper) = np.hsplit(rows, 2), np.hsplit(to_cuts, 2)
+    own = np.empty((offsets + 1, len(rows), len(to_cuts)))
+    # Response of the flanks to forces on the cuts m and m - 1 pitches behind; the latter is the former of the pitch before.
+    behind = own_lower @ joint(-1) + own_upper @ joint(0)
+    for offset, block in enumerate(own):
+        ahead = own_lower @ joint(offset) + own_upper @ joint(offset + 1)
+        np.matmul(ahead, lower.T, out=block)
+        block += behind @ upper.T
+        behind = ahead
+    blocks = own if comm is None else np.concatenate(comm.allgather(own), axis=1)
+    blocks[0] += held
+    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
+    return blocks

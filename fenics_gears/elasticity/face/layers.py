@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
+from scipy.spatial import cKDTree
+
+from fenics_gears.errors import ComputationError
 
 # Gauss's rule of three points on (-1, 1): exact to the fifth power, which the patch test of a twisted layer needs.
 POINTS = (-sqrt(0.6), 0.0, sqrt(0.6))
@@ -47,3 +50,11 @@ def shapes(place: float) -> tuple[np.ndarray, np.ndarray]:
     """Second-order shape functions (3,) of a layer's lower, middle and upper node at a place in (-1, 1), and their derivatives."""
     values = np.array([0.5 * place * (place - 1.0), 1.0 - place**2, 0.5 * place * (place + 1.0)])
     return values, np.array([place - 0.5, -2.0 * place, place + 0.5])
+
+
+def swept_nodes(nodes: np.ndarray, line: np.ndarray, heights: int) -> np.ndarray:
+    """Numbers (heights k,) of the body's nodes swept from nodes (k, 2) of the section (n, 2), by height."""
+    distance, found = cKDTree(nodes).query(line)
+    if distance.max(initial=0.0) > 1e-9 * np.abs(nodes).max():
+        raise ComputationError("swept body: a node of the section's boundary is not among the nodes of its elements")
+    return (len(nodes) * np.arange(heights)[:, None] + found).ravel()

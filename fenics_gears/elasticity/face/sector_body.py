@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
-from fenics_gears.elasticity.face.condensed import swept_nodes
-from fenics_gears.elasticity.face.layers import Sweep
+from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mumps import Factor

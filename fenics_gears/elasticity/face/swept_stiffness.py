@@ -70,16 +70,17 @@ def _forms(space, poisson, a, b, c, d):
     return [adapter.compile_form(ufl.inner(stress_of_strain(of_trial(trial), poisson), of_test(test)) * section) for of_trial, of_test in pairs]
 
 
-def swept_stiffness(section: SectionForms, sweep: Sweep, own: range | None = None) -> sparse.csr_matrix:
+def swept_stiffness(section: SectionForms, sweep: Sweep, own: range | None = None, standing: np.ndarray | None = None) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the section's frame turned with it.
 
-    own: consecutive heights whose rows are wanted, all when None.
+    own: consecutive heights whose rows are wanted, standing: (k,) nodes of the section whose rows are; all when None.
     """
-    heights = range(len(sweep.heights))
-    nothing = sparse.csr_matrix((3 * len(section.nodes.points),) * 2)
+    heights, nodes = range(len(sweep.heights)), len(section.nodes.points)
+    dofs = dofs_of(np.arange(nodes) if standing is None else standing, 3)
+    nothing = sparse.csr_matrix((len(dofs), 3 * nodes))
     # A block in every column, so that the matrix has all columns.
     rows = {height: [nothing if number == 0 else None] * len(heights) for number, height in enumerate(own or heights)}
-    for layer, blocks in enumerate(_layers(section, sweep)):
+    for layer, blocks in enumerate(_layers(section, sweep, dofs)):
         for (low, high), block in blocks.items():
             if 2 * layer + low in rows:
                 row, column = rows[2 * layer + low], 2 * layer + high
@@ -87,16 +88,16 @@ def swept_stiffness(section: SectionForms, sweep: Sweep, own: range | None = Non
     return sparse.bmat([*rows.values()], format="csr")
 
 
-def _layers(section: SectionForms, sweep: Sweep) -> Iterator[dict]:
+def _layers(section: SectionForms, sweep: Sweep, dofs: np.ndarray) -> Iterator[dict]:
     known: dict[float, dict] = {}
     for thickness in sweep.thicknesses.tolist():
         if thickness not in known:
-            known[thickness] = layer_stiffness(section, thickness, sweep.twist)
+            known[thickness] = layer_stiffness(section, thickness, sweep.twist, dofs)
         yield known[thickness]
 
 
-def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> dict[tuple[int, int], sparse.csr_matrix]:
-    """Blocks (3n, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own height."""
+def layer_stiffness(section: SectionForms, thickness: float, twist: float, dofs: np.ndarray) -> dict[tuple[int, int], sparse.csr_matrix]:
+    """Blocks (k, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own height; rows of dofs (k,)."""
     angles = 0.5 * twist * thickness * np.array([-1.0, 0.0, 1.0])
     found: dict = {}
     for place, weight in zip(POINTS, WEIGHTS):
@@ -105,13 +106,15 @@ def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> di
         turn = complex(values @ np.exp(1j * angles))
         change = complex(slopes @ np.exp(1j * angles))
         own, mixed, axial = section.at(turn, change / turn)
+        mixed_turned = mixed.T.tocsr()[dofs]
+        own, mixed, axial = own[dofs], mixed[dofs], axial[dofs]
         volume = 0.5 * thickness * weight * abs(turn) ** 2
         for i in range(3):
             for j in range(3):
                 part = volume * (
-                    values[i] * values[j] * own + slopes[i] * values[j] * mixed + values[i] * slopes[j] * mixed.T + slopes[i] * slopes[j] * axial
+                    values[i] * values[j] * own + slopes[i] * values[j] * mixed + values[i] * slopes[j] * mixed_turned + slopes[i] * slopes[j] * axial
                 )
                 found[i, j] = found[i, j] + part if (i, j) in found else part
     nodes = len(section.nodes.points)
     frames = [sparse.kron(sparse.eye(nodes), rotation(angle, 3), format="csr") for angle in angles]
-    return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in found.items()}
+    return {(i, j): (frames[i].T[dofs][:, dofs] @ block @ frames[j]).tocsr() for (i, j), block in found.items()}

@@ -8,13 +8,15 @@ import numpy as np
 from petsc4py import PETSc
 
 from fenics_gears.elasticity.face import condensed
+from fenics_gears.elasticity.face.cost import expected_size
 from fenics_gears.elasticity.mumps import _call, _handle, _petsc_matrix
+from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.face_route import gear_body
 
 
 class _Analysed(Exception):
-    """In place of a factor: operations of its elimination and bytes of its entries; the matrix's size, and that of the Schur complement."""
+    """In place of the factors of a sector's halves: operations of both, bytes of one's entries; unknowns of both, size of one's Schur complement."""
 
     def __init__(self, matrix, what: str, dofs: np.ndarray):
         super().__init__(what)
@@ -32,8 +34,8 @@ class _Analysed(Exception):
         # Negative: millions (MUMPS users' guide, INFOG(20)).
         entries = factor.getMumpsInfog(20)
         self.found = {
-            "factor_operations": factor.getMumpsRinfog(1), "factor_array_bytes": 8.0 * (entries if entries > 0 else -1e6 * entries),
-            "unknowns": matrix.size[0], "condensed_unknowns": len(dofs),
+            "factor_operations": 2.0 * factor.getMumpsRinfog(1), "factor_array_bytes": 8.0 * (entries if entries > 0 else -1e6 * entries),
+            "unknowns": 2 * matrix.size[0], "condensed_half": len(dofs),
         }  # fmt: skip
         preconditioner.destroy()
         factor.destroy()
@@ -45,7 +47,7 @@ def expected_by_mumps(model: Model) -> dict[str, float]:
     try:
         gear_body(model, "wheel", model.touching.reach, None)
     except _Analysed as analysed:
-        return analysed.found
+        return analysed.found | {"condensed_unknowns": expected_size(model.pair.wheel, face_discretisation(model, 1))[1]}
     finally:
         condensed.Factor = usual
     raise RuntimeError("the body was condensed without a factor")

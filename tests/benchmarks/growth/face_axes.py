@@ -135,7 +135,7 @@ FACE_AXES = (
         "ranks", "ranks that share a body of 15 layers", (1.0, 2.0), of_ranks, "ranks",
         {
             "assemble": Theory(-1.0, SHARED),
-            "schur": Theory(-1.0, SHARED + "; the dense front of flank and cuts is MUMPS's root"),
+            "schur": Theory(-1.0, SHARED + ", which have a half of the sector each"),
             "ring": Theory(-1.0, "harmonics " + SHARED),
             "clock": Theory(-1.0, SHARED),
             "condense peak": Theory(-1.0, "the factor is " + SHARED + ", each has all dense matrices of flank and cuts"),

@@ -6,9 +6,11 @@ from functools import lru_cache
 import numpy as np
 from tests.coarse_sector import PINION
 
+from fenics_gears.elasticity.condensation import CondensedBody, dofs_of
 from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.face.layers import Sweep
-from fenics_gears.elasticity.face.swept_stiffness import SectionForms
+from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
+from fenics_gears.elasticity.face.swept_stiffness import SectionForms, swept_stiffness
+from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 
@@ -51,3 +53,20 @@ def rigid_motions(points: np.ndarray, twist: float) -> np.ndarray:
     placed = in_place(points, twist)
     turning = np.stack([np.cross(axis, placed) for axis in np.eye(3)], axis=-1)
     return in_frame(np.concatenate([np.broadcast_to(np.eye(3), turning.shape), turning], axis=-1), points, twist)
+
+
+def condense_swept(mesh, sweep: Sweep, poissons_ratio: float, lines: dict[str, np.ndarray], held: np.ndarray | None = None) -> CondensedBody:
+    """Brute force: Schur complement of a swept body, not folded, onto surfaces swept from nodes (k, 2) of the section; nodes (j, 2) are held."""
+    section = SectionForms(mesh, poissons_ratio)
+    nodes, heights = section.nodes.points, sweep.heights
+    surfaces = {name: swept_nodes(nodes, line, len(heights)) for name, line in lines.items()}
+    free = np.ones(3 * len(nodes), dtype=bool)
+    if held is not None:
+        free[dofs_of(swept_nodes(nodes, held, 1), 3)] = False
+    free = np.tile(free, len(heights))
+    factor = Factor(swept_stiffness(section, sweep)[free][:, free], "a swept body", (np.cumsum(free) - 1)[dofs_of(np.concatenate([*surfaces.values()]), 3)])
+    try:
+        points = {name: np.column_stack([nodes[at % len(nodes)], heights[at // len(nodes)]]) for name, at in surfaces.items()}
+        return CondensedBody(points, factor.schur(), {})
+    finally:
+        factor.close()

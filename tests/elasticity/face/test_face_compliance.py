@@ -8,22 +8,29 @@ import pytest
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 from tests.coarse_sector import PINION, STEEL
-from tests.elasticity.face.swept import GEAR, TWISTED, mesh, section
+from tests.elasticity.face.swept import GEAR, TWIST, TWISTED, condense_swept, mesh, swept_points
+from tests.elasticity.face.swept import rigid_motions as rigid_by_brute_force
 from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius, dofs_of
+from fenics_gears.elasticity.face import conjugate_gradients
 from fenics_gears.elasticity.face.compliance import face_compliance
-from fenics_gears.elasticity.face.condensed import condense_swept, condensed_swept_sector, swept_nodes
-from fenics_gears.elasticity.face.cost import expected_memory, expected_size
+from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector
+from fenics_gears.elasticity.face.conjugate_gradients import rigid_motions
+from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, swept_stiffness
-from fenics_gears.elasticity.ring import fourier_response, ring_compliance, rotation, sector_cuts
+from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response, ring_blocks
+from fenics_gears.elasticity.face.layers import swept_nodes
+from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+from fenics_gears.elasticity.ring import fourier_response, rotation
 from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.system.memory import MEMORY_VARIABLE
 
 BOTH = Reach(1, (-1, 1))
+COARSEST = FaceDiscretisation(9.0, 1, 3.0, 0.006)
 TWISTED_PINION = FaceDiscretisation(2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius)
 
 
@@ -37,32 +44,67 @@ def both():
     return face_compliance(PINION, STEEL, TWISTED_PINION, BOTH)
 
 
-def test_condensed_is_uncondensed():
-    """Brute force, hard case 6 in three dimensions: a twisted sector with free cuts, its sparse stiffness solved by SuperLU for every flank force."""
-    sector, hub = condensed_swept_sector(mesh(), TWISTED, 0.3), mesh().edge_nodes("hub", ELEMENT.order)
-    cuts = np.concatenate([sector.dofs("lower"), sector.dofs("upper")])
-    flank_only = sector.between("flank", "flank") - sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ np.linalg.solve(
-        sector.stiffness[np.ix_(cuts, cuts)], sector.stiffness[np.ix_(cuts, sector.dofs("flank"))]
-    )
-    nodes, heights = section().nodes.points, len(TWISTED.heights)
-    free = np.delete(np.arange(3 * heights * len(nodes)), dofs_of(swept_nodes(nodes, hub, heights), 3))
-    flank = np.searchsorted(free, dofs_of(swept_nodes(nodes, by_radius(mesh().edge_nodes("flank", ELEMENT.order)), heights), 3))
-    loads = sparse.csc_matrix((np.ones(len(flank)), (flank, np.arange(len(flank)))), shape=(len(free), len(flank)))
-    uncondensed = spsolve(swept_stiffness(section(), TWISTED)[free][:, free].tocsc(), loads).toarray()[flank]
-    assert difference(np.linalg.inv(flank_only), uncondensed) < 1e-9
+@pytest.fixture(scope="module")
+def sector() -> SweptSector:
+    """A twisted sector with both flanks."""
+    return swept_sector(mesh(both_flanks=True))
 
 
-def test_ring_of_sectors_is_the_whole_gear():
+def swept_sector(section_mesh, **way) -> SweptSector:
+    return condensed_swept_sector(section_mesh, TWISTED, 0.3, centreline_angle(GEAR), GEAR.teeth, both=True, **way)
+
+
+def flank_nodes(section_mesh, side):
+    return by_radius(section_mesh.edge_nodes(side, ELEMENT.order))
+
+
+def test_condensed_is_uncondensed(sector):
+    """Brute force, hard case 6 in three dimensions: a twisted sector with free cuts, its sparse stiffness solved by SuperLU for forces on both flanks."""
+    whole = mesh(both_flanks=True)
+    forms = SectionForms(whole, 0.3)
+    nodes, heights = forms.nodes.points, len(TWISTED.heights)
+    free = np.delete(np.arange(3 * heights * len(nodes)), dofs_of(swept_nodes(nodes, whole.edge_nodes("hub", ELEMENT.order), heights), 3))
+    flanks = np.searchsorted(free, dofs_of(np.concatenate([swept_nodes(nodes, flank_nodes(whole, side), heights) for side in ("flank", "coast")]), 3))
+    loads = sparse.csc_matrix((np.ones(len(flanks)), (flanks, np.arange(len(flanks)))), shape=(len(free), len(flanks)))
+    uncondensed = spsolve(swept_stiffness(forms, TWISTED)[free][:, free].tocsc(), loads).toarray()[flanks]
+    assert difference(sector.held + sector.to_cuts @ np.linalg.solve(sector.link, sector.to_cuts.T), uncondensed) < 1e-9
+
+
+def test_ring_of_sectors_is_the_whole_gear(sector):
     """Brute force: the section copied around the gear, swept and condensed as one body; every tooth's frame is turned by its pitches."""
-    whole, offsets = whole_gear_mesh(mesh(), GEAR.teeth), 2
-    hub = whole.edge_nodes("hub", ELEMENT.order)
-    flanks = {f"flank {tooth}": [by_radius(whole.edge_nodes(f"flank {tooth}", ELEMENT.order))] for tooth in range(offsets + 1)}
-    body = condense_swept(whole, TWISTED, 0.3, flanks, held=hub)
+    whole, offsets = whole_gear_mesh(mesh(both_flanks=True), GEAR.teeth), 2
+    flanks = {f"flank {tooth}": flank_nodes(whole, f"flank {tooth}") for tooth in range(offsets + 1)}
+    body = condense_swept(whole, TWISTED, 0.3, flanks, held=whole.edge_nodes("hub", ELEMENT.order))
     compliance, size = np.linalg.inv(body.stiffness), len(body.dofs("flank 0"))
-    blocks = ring_compliance(condensed_swept_sector(mesh(), TWISTED, 0.3), GEAR.teeth, offsets)
-    for offset, block in enumerate(blocks):
+    joint = half_turn_response(sector.link, GEAR.teeth, offsets + 1, half_turn_basis(sector.lower, len(TWISTED.heights)))
+    for offset, block in enumerate(ring_blocks(sector.held, sector.to_cuts, joint, offsets)[:, :size, :size]):
         frame = np.kron(np.eye(size // 3), rotation(offset * GEAR.angular_pitch, 3))
         assert difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]) < 1e-10
+
+
+def test_conjugate_gradients_are_the_factorisation(monkeypatch):
+    """Brute force: the same body by MUMPS's Schur complement; the memory that a run may take chooses, where it holds the one and not the other."""
+    size = expected_size(PINION, COARSEST)
+    between = 0.5 * sum(expected_memory(*size, iterative) for iterative in (False, True))
+    factorised = face_compliance(PINION, STEEL, COARSEST, Reach(1))
+    for allowed, chosen in ((1e-3 * between, False), (between, True)):
+        monkeypatch.setenv(MEMORY_VARIABLE, f"{allowed / 1e6:.6f} MB")
+        assert is_iterative(*size) == chosen
+    found = face_compliance(PINION, STEEL, COARSEST, Reach(1))
+    assert 0.0 < difference(found.blocks, factorised.blocks) < 1e-9
+
+
+def test_gradients_that_do_not_converge_are_said(monkeypatch):
+    """Theory: one iteration does not solve a system of hundreds of unknowns. The message says what to change."""
+    monkeypatch.setattr(conjugate_gradients, "MOST_ITERATIONS", 1)
+    with pytest.raises(ComputationError, match="did not converge.*FENICS_GEARS_MEMORY"):
+        swept_sector(mesh(both_flanks=True), iterative=True)
+
+
+def test_rigid_motions_that_multigrid_knows():
+    """Exact kernel of a swept body's stiffness, by the brute force of the tests."""
+    points = swept_points(mesh().points, TWISTED)
+    np.testing.assert_allclose(rigid_motions(points, TWIST), rigid_by_brute_force(points, TWIST), atol=1e-13)
 
 
 def test_hands_mirror_each_other():
@@ -151,23 +193,21 @@ def test_impossible_bodies_are_refused(change, message):
         face_compliance(PINION, STEEL, replace(TWISTED_PINION, **change), Reach(0))
 
 
-def test_half_a_turn_gives_the_fourier_transform():
-    """Brute force: the ring's harmonics as complex matrices, of a sector with both flanks alike, and held alike."""
-    sector = condensed_swept_sector(mesh(both_flanks=True), TWISTED, 0.3, ("flank", "coast"))
-    cuts, turn = sector_cuts(sector, GEAR.teeth)
-    link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn
-    found = half_turn_response(link, GEAR.teeth, 2, half_turn_basis(sector.points["lower"], len(TWISTED.heights)))
-    expected = fourier_response(link, GEAR.teeth, 2)
+def test_half_a_turn_gives_the_fourier_transform(sector):
+    """Brute force: the ring's harmonics as complex matrices."""
+    found = half_turn_response(sector.link, GEAR.teeth, 2, half_turn_basis(sector.lower, len(TWISTED.heights)))
+    expected = fourier_response(sector.link, GEAR.teeth, 2)
     for offset in (-1, 0, 1, 2):
         assert difference(found(offset), expected(offset)) < 1e-11
 
 
-def test_sector_without_the_symmetry_is_refused():
-    """Half a turn does not map a sector on itself whose coast flank is meshed otherwise than its drive flank."""
-    sector = condensed_swept_sector(mesh(), TWISTED, 0.3)
-    basis = half_turn_basis(sector.points["lower"], len(TWISTED.heights))
+def test_sector_without_the_symmetry_is_refused(sector):
+    """Half a turn does not map a sector on itself whose coast flank is meshed otherwise than its drive flank, or one of whose cuts is stiffer."""
+    with pytest.raises(ComputationError, match="not symmetric"):
+        swept_sector(mesh())
+    stiffer = sector.link + np.diag(np.arange(len(sector.link)) == 0) * sector.link[0, 0]
     with pytest.raises(ComputationError, match="half a turn"):
-        ring_compliance(sector, GEAR.teeth, 1, lambda *ring: half_turn_response(*ring, basis))
+        half_turn_response(stiffer, GEAR.teeth, 1, half_turn_basis(sector.lower, len(TWISTED.heights)))
 
 
 @pytest.mark.parametrize("reach", [Reach(0), BOTH])

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
-from tests.elasticity.face.swept import TWIST, TWISTED, in_frame, in_place, mesh, rigid_motions, section, swept_points
+from tests.elasticity.face.swept import TWIST, TWISTED, condense_swept, in_frame, in_place, mesh, rigid_motions, section, swept_points
 
 from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of, without
-from fenics_gears.elasticity.face.condensed import condense_swept, swept_nodes
-from fenics_gears.elasticity.face.layers import Sweep
+from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, swept_stiffness
 from fenics_gears.elasticity.mesh_data import corner_areas
 
@@ -78,8 +77,8 @@ def test_body_without_variation_along_the_face_is_the_plane_section():
 def test_kernel_of_a_floating_sector_is_the_six_rigid_motions(twist):
     """Hard case 5 in three dimensions: norm(S R) / norm(S), symmetry, and the seventh eigenvalue."""
     hub = mesh().edge_nodes("hub", ELEMENT.order)
-    lines = {"flank": [by_radius(mesh().edge_nodes("flank", ELEMENT.order))], "hub": [hub]}
-    lines |= {name: [without(mesh().edge_nodes(f"{name} cut", ELEMENT.order), hub)] for name in ("lower", "upper")}
+    lines = {"flank": by_radius(mesh().edge_nodes("flank", ELEMENT.order)), "hub": hub}
+    lines |= {name: without(mesh().edge_nodes(f"{name} cut", ELEMENT.order), hub) for name in ("lower", "upper")}
     body = condense_swept(mesh(), Sweep(TWISTED.boundaries, twist), 0.3, lines)
     basis = np.linalg.qr(rigid_motions(np.vstack([*body.points.values()]), twist))[0]
     assert np.linalg.norm(body.stiffness @ basis) <= 1e-10 * np.linalg.norm(body.stiffness)
