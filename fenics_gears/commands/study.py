@@ -18,15 +18,20 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("study", parents=[shared], help="run a parameter study and draw it, alone or under mpirun; a stopped study is continued")
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the study file>)")
-    command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes, which share the cases")
+    add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=study)
+
+
+def add_processes_argument(command) -> None:
+    """The option --processes of a command that shares its runs among processes."""
+    command.add_argument("-n", "--processes", type=_count, metavar="N", help="start mpirun with N processes, which share the runs")
 
 
 def study(options: argparse.Namespace) -> int:
     """Run a study."""
     if options.processes is not None:
-        return _under_mpirun(options)
+        return under_mpirun("study", options.study, options)
     from fenics_gears.studies.run_study import run_study
     from fenics_gears.studies.summary import last_words, summary_rows
 
@@ -47,15 +52,15 @@ def study(options: argparse.Namespace) -> int:
     return ComputationError.exit_code if outcome.failures else 0
 
 
-def _under_mpirun(options: argparse.Namespace) -> int:
-    """The same study under mpirun, which finds its settings (as root, say) in the environment that `prepare` has completed."""
+def under_mpirun(name: str, file: Path, options: argparse.Namespace) -> int:
+    """The same command under mpirun, which finds its settings (as root, say) in the environment that `prepare` has completed."""
     mpirun = shutil.which("mpirun")
     if mpirun is None:
         raise SceneError("There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run the study alone.")
     command = [mpirun, "-n", str(options.processes)]
     if options.processes > (os.cpu_count() or 1):
         command.append("--oversubscribe")
-    command += [sys.executable, "-m", "fenics_gears", "study", str(options.study)]
+    command += [sys.executable, "-m", "fenics_gears", name, str(file)]
     command += ["--output", str(options.output)] if options.output is not None else []
     command += ["--quiet"] if options.quiet else []
     running = subprocess.Popen(command)
@@ -64,7 +69,7 @@ def _under_mpirun(options: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         # Ctrl-C is mpirun's as well, which ends its processes; to kill it meanwhile would leave them behind.
         running.wait()
-        print("Interrupted. The cases that were done are kept; the same command goes on from there.", file=sys.stderr)
+        print("Interrupted. Finished runs are kept; the same command goes on from there.", file=sys.stderr)
         return INTERRUPTED
 
 

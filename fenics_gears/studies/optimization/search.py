@@ -1,0 +1,61 @@
+"""The search for the best designs, by Optuna: which designs are tried next is asked of its samplers, what they amount to is told to them.
+
+For one goal over ranges CMA-ES (covariance matrix adaptation), with words among the variables TPE (Parzen estimators), for several goals NSGA-II.
+Designs are asked for and told in whole populations and in order, so that the same seed tries the same designs whatever the number of processes. So a search
+that was stopped goes on by being run again: its finished runs are found on disk.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from fenics_gears.errors import ComputationError
+from fenics_gears.studies.optimization.design import Design
+from fenics_gears.studies.optimization.evaluations import Evaluation
+
+Values = dict[str, float | str]
+
+
+def search(design: Design, evaluate: Callable[[Sequence[Values]], list[Evaluation]], report: Callable[[int], None]) -> list[Evaluation]:
+    """All designs that were tried, in their order; ``report`` is told their number before each population. Raises ComputationError without Optuna."""
+    try:
+        import optuna
+    except ImportError as error:
+        raise ComputationError(f"`gears optimize` needs Optuna, which cannot be loaded ({error}). Install it: pip install optuna cmaes.") from error
+    optuna.logging.set_verbosity(optuna.logging.ERROR)
+    study = optuna.create_study(directions=["minimize"] * len(design.goals), sampler=_sampler(optuna, design))
+    tried: list[Evaluation] = []
+    while len(tried) < design.search.evaluations:
+        report(len(tried))
+        count = min(design.search.population, design.search.evaluations - len(tried))
+        trials = [study.ask(_distributions(optuna, design)) for _ in range(count)]
+        found = evaluate([{each.name: each.rounded(trial.params[each.name]) for each in design.variables} for trial in trials])
+        for trial, evaluation in zip(trials, found):
+            study.tell(trial, evaluation.told(design.goals))
+        tried += found
+    return tried
+
+
+def _distributions(optuna, design: Design) -> dict:
+    of = optuna.distributions
+    return {each.name: of.CategoricalDistribution(each.words) if each.words else of.FloatDistribution(each.low, each.high) for each in design.variables}
+
+
+def _sampler(optuna, design: Design):
+    seed, population, samplers = design.search.seed, design.search.population, optuna.samplers
+    if len(design.goals) > 1:
+        return samplers.NSGAIISampler(seed=seed, population_size=population)
+    if any(each.words for each in design.variables) or len(design.variables) == 1:
+        return samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=population)
+    return samplers.CmaEsSampler(seed=seed, popsize=population, warn_independent_sampling=False)
+
+
+def front(tried: Sequence[Evaluation], names: Sequence[str]) -> list[int]:
+    """Places of the designs that keep the constraints and to which no other is better in one goal and as good in all others (the Pareto front)."""
+    allowed = [place for place, each in enumerate(tried) if each.allowed]
+
+    def better(one: int, other: int) -> bool:
+        pairs = [(tried[one].goals[name], tried[other].goals[name]) for name in names]
+        return all(a <= b for a, b in pairs) and any(a < b for a, b in pairs)
+
+    return [place for place in allowed if not any(better(other, place) for other in allowed)]
