@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.show.chart import LINES, MARKED_LINES, MARKERS, Chart, Curve
+from fenics_gears.show.chart import MARKED_LINES, MARKERS, Chart, Curve
 from fenics_gears.show.drawing import picture
 from fenics_gears.show.harris_map import harris_map
-from fenics_gears.show.panels import DARK, GREY, PALETTE
+from fenics_gears.show.panels import GREY, PALETTE
 from fenics_gears.show.plots import heading, save_figures
 from fenics_gears.studies.optimization.design import QUANTILE, Goal, Variable
 from fenics_gears.studies.optimization.evaluations import Evaluation
@@ -31,8 +31,13 @@ def called(name: str) -> str:
 
 def title(name: str, unit: str) -> str:
     """That with its unit, for an axis."""
-    unit = unit.replace("um", "µm")
-    return f"{called(name)} ({unit})" if unit not in ("", "1") else called(name)
+    words, unit = sentence(called(name)), unit.replace("um", "µm")
+    return f"{words} ({unit})" if unit not in ("", "1") else words
+
+
+def sentence(words: str) -> str:
+    """The words with a capital."""
+    return words[:1].upper() + words[1:]
 
 
 def goals_of(evaluations, goal: Goal) -> np.ndarray:
@@ -55,7 +60,7 @@ def search_chart(outcome: Outcome, goal: Goal) -> Chart:
         Curve("least so far", numbers, _shown(outcome, goal, least), PALETTE[0], width=2.2),
         *_before_line(outcome, goal, numbers[[0, -1]]),
     ]
-    return Chart(f"{called(goal.name).capitalize()} of the designs", curves, "Design, in the order in which they were tried", title(goal.name, goal.unit), _note(outcome))
+    return Chart(f"{sentence(called(goal.name))} of the designs", curves, "Design, in the order in which they were tried", title(goal.name, goal.unit), _note(outcome))
 
 
 def _before_line(outcome: Outcome, goal: Goal, ends) -> list[Curve]:
@@ -80,7 +85,7 @@ def front_chart(outcome: Outcome) -> Chart:
     ]
     if outcome.before.goals:
         curves.append(Curve(BEFORE, np.array([outcome.before.goals[one.name]]), np.array([outcome.before.goals[other.name]]), PALETTE[1], mode=MARKERS))
-    return Chart("Goals against each other", curves, title(one.name, one.unit).capitalize(), title(other.name, other.unit), _note(outcome), 380)
+    return Chart("Goals against each other", curves, title(one.name, one.unit), title(other.name, other.unit), _note(outcome), 380)
 
 
 def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
@@ -93,7 +98,7 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
         Curve(f"{BEST}{scatters}, this variable alone changed", np.array(places), goals_of(evaluations, goal), PALETTE[0], mode=MARKERS if variable.words else MARKED_LINES),
         Curve(BEST, np.array([outcome.chosen.values[variable.name]]), np.array([outcome.chosen.goals[goal.name]]), PALETTE[2], mode=MARKERS),
     ]
-    return Chart(f"{called(goal.name).capitalize()} over {called(variable.name)}", curves, title(variable.name, variable.unit).capitalize(), title(goal.name, goal.unit))
+    return Chart(f"{sentence(called(goal.name))} over {called(variable.name)}", curves, title(variable.name, variable.unit), title(goal.name, goal.unit))
 
 
 def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:

@@ -11,6 +11,7 @@ from fenics_gears.show.optimization import (
     goals_of,
     harris_charts,
     search_chart,
+    sentence,
     summary_rows,
     tolerance_rows,
     variable_chart,
@@ -51,7 +52,7 @@ def _summary(outcome: Outcome) -> Section:
     tiles = []
     for goal in outcome.design.goals:
         note = f"before: {goal_words(outcome, goal, outcome.before)}"
-        tiles.append(Tile(called(goal.name).capitalize(), f"{outcome.chosen.goals[goal.name]:.4g}", goal.unit.replace("um", "µm").removeprefix("1"), note))
+        tiles.append(Tile(sentence(called(goal.name)), f"{outcome.chosen.goals[goal.name]:.4g}", goal.unit.replace("um", "µm").removeprefix("1"), note))
     return Section("summary", "Summary", [Tiles(tiles), Facts(summary_rows(outcome))])
 
 
@@ -77,5 +78,5 @@ def _tolerances(outcome: Outcome) -> Section:
     blocks: list[Block] = []
     for goal in outcome.design.goals:
         heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
-        blocks.append(Table(heads, tolerance_rows(outcome, goal), f"{called(goal.name).capitalize()} ({goal.unit.replace('um', 'µm')}) of the chosen design"))
+        blocks.append(Table(heads, tolerance_rows(outcome, goal), f"{sentence(called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design"))
     return Section("tolerances", "Each tolerance alone", [Words("One deviation at its limit, all others zero; the largest change first."), *blocks])

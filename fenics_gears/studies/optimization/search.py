@@ -1,6 +1,6 @@
 """The search for the best designs, by Optuna: which designs are tried next is asked of its samplers, what they amount to is told to them.
 
-For one goal over ranges CMA-ES (covariance matrix adaptation), with words among the variables TPE (Parzen estimators), for several goals NSGA-II.
+For one goal over ranges CMA-ES (covariance matrix adaptation), else TPE (tree-structured Parzen estimators), which takes words and several goals too.
 Designs are asked for and told in whole populations and in order, so that the same seed tries the same designs whatever the number of processes. So a search
 that was stopped goes on by being run again: its finished runs are found on disk.
 """
@@ -43,10 +43,8 @@ def _distributions(optuna, design: Design) -> dict:
 
 def _sampler(optuna, design: Design):
     seed, population, samplers = design.search.seed, design.search.population, optuna.samplers
-    if len(design.goals) > 1:
-        return samplers.NSGAIISampler(seed=seed, population_size=population)
-    if any(each.words for each in design.variables) or len(design.variables) == 1:
-        return samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=population)
+    if len(design.goals) > 1 or len(design.variables) == 1 or any(each.words for each in design.variables):
+        return samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=2 * population)
     return samplers.CmaEsSampler(seed=seed, popsize=population, warn_independent_sampling=False)
 
 
@@ -58,4 +56,5 @@ def front(tried: Sequence[Evaluation], names: Sequence[str]) -> list[int]:
         pairs = [(tried[one].goals[name], tried[other].goals[name]) for name in names]
         return all(a <= b for a, b in pairs) and any(a < b for a, b in pairs)
 
-    return [place for place in allowed if not any(better(other, place) for other in allowed)]
+    best = [place for place in allowed if not any(better(other, place) for other in allowed)]
+    return [place for turn, place in enumerate(best) if tried[place].values not in [tried[other].values for other in best[:turn]]]
