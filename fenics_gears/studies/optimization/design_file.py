@@ -38,8 +38,8 @@ def load_design(path: str | Path) -> Design:
     sections.mistakes.check()
     varied = {variable.path[0] for variable in variables}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
-    trees = [Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before)]
-    design = Design(path.stem, tree.get("title", path.stem), *trees, directory, variables, loads, goals, tolerances, bounds, search, text)
+    scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
+    design = Design(path.stem, tree.get("title", path.stem), scene_tree, before_tree, directory, variables, loads, goals, tolerances, bounds, search, text)
     scene = _checked_ranges(design, sections)
     design = _with_class(design, scene, tolerance_class)
     _check_scatter(design, sections)
