@@ -228,8 +228,8 @@ def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
     pressures = '[constraints]\npeak_contact_pressure = {{ at_most = "{} MPa" }}\n'
     text = STILL + VARIABLES + GOAL + FEW + pressures
     reached = [each.at_points["peak_contact_pressure"][0] for each in found(write(folder, text.format(1e6)), folder / "wide").tried]
-    outcome = found(write(folder, text.format(float(np.median(reached)))), folder / "half")
-    assert outcome.chosen.allowed and outcome.chosen.at_points["peak_contact_pressure"][0] <= np.median(reached)
+    outcome = found(write(folder, text.format(float(np.mean(reached)))), folder / "half")
+    assert outcome.chosen.allowed and outcome.chosen.at_points["peak_contact_pressure"][0] <= np.mean(reached)
     assert any(each.violation > 0.0 for each in outcome.tried)
     with pytest.raises(ComputationError, match="None of 8 designs keeps the constraints"):
         found(write(folder, text.format(1.0)), folder / "none")

@@ -7,6 +7,7 @@ that was stopped goes on by being run again: its finished runs are found on disk
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 
 from fenics_gears.errors import ComputationError
@@ -23,7 +24,9 @@ def search(design: Design, evaluate: Callable[[Sequence[Values]], list[Evaluatio
     except ImportError as error:
         raise ComputationError(f"`gears optimize` needs Optuna, which cannot be loaded ({error}). Install it: pip install optuna cmaes.") from error
     optuna.logging.set_verbosity(optuna.logging.ERROR)
-    study = optuna.create_study(directions=["minimize"] * len(design.goals), sampler=_sampler(optuna, design))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that multivariate TPE is new
+        study = optuna.create_study(directions=["minimize"] * len(design.goals), sampler=_sampler(optuna, design))
     tried: list[Evaluation] = []
     while len(tried) < design.search.evaluations:
         report(len(tried))
