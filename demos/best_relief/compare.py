@@ -23,7 +23,7 @@ NAMES = {
     "frictionless_tolerances": "Without friction, nine of ten pairs within tolerances", "friction_tolerances": "With friction, nine of ten pairs within tolerances",
 }  # fmt: skip
 DEPTH, LENGTH, ERROR = "tip_relief.depth", "tip_relief.length_on_path", "peak_to_peak_transmission_error"
-DEPTHS, LENGTHS = np.linspace(5.0, 50.0, 13), np.linspace(3.0, 9.0, 11)
+DEPTHS, LENGTHS = np.linspace(5.0, 50.0, 10), np.linspace(3.0, 9.0, 9)
 PICTURE, TABLE = "best_relief.png", "best_relief.md"
 
 
@@ -95,3 +95,7 @@ def _exchanged(every: dict[str, Compared]) -> list[str]:
                 (found,) = evaluator.of_designs([every[chosen].found.chosen.values], samples(other.design))
             rows.append(f"| {NAMES[chosen]} | {NAMES[judged]} | {found.goals[ERROR]:.2f} | {other.chosen.goals[ERROR]:.2f} |")
     return rows
+
+
+if __name__ == "__main__":
+    sys.exit(main())
