@@ -15,7 +15,7 @@ from fenics_gears.show.panels import GREY, PALETTE
 from fenics_gears.show.plots import heading, save_figures
 from fenics_gears.studies.optimization.design import QUANTILE, Goal, Variable
 from fenics_gears.studies.optimization.evaluations import Evaluation
-from fenics_gears.studies.optimization.optimize import Outcome
+from fenics_gears.studies.optimization.optimize import Outcome, score
 from fenics_gears.studies.optimization.result import harris_dataset
 from fenics_gears.studies.study_file import scene_of_tree
 
@@ -143,6 +143,14 @@ def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
     return ", ".join((quantile, mean) if tolerances.judged == QUANTILE else (mean, quantile))
 
 
+def no_gain(outcome: Outcome) -> str:
+    """A warning where the chosen design is not better than what is before; empty where it is."""
+    before, design = outcome.before, outcome.design
+    if before.failure or score(design, before, outcome.chosen) < score(design, before, before):
+        return ""
+    return "The chosen design is not better than the scene before: try more designs, other variables or wider ranges."
+
+
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: what was tried and computed, the goals before and after, and the chosen values."""
     failed = sum(bool(each.failure) for each in outcome.tried)
@@ -150,4 +158,4 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     rows = [("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""), ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", "")]
     rows += [(f"{called(goal.name)}, {words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1")) for goal in outcome.design.goals for words, each in ((BEFORE, outcome.before), (BEST, outcome.chosen))]
     rows += [(called(each.name), f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.5g}", each.unit) for each in outcome.design.variables]
-    return rows
+    return [*rows, ("remark", no_gain(outcome), "")] if no_gain(outcome) else rows

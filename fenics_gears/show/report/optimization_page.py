@@ -10,6 +10,7 @@ from fenics_gears.show.optimization import (
     goal_words,
     goals_of,
     harris_charts,
+    no_gain,
     search_chart,
     sentence,
     summary_rows,
@@ -45,7 +46,7 @@ def optimization_page(outcome: Outcome) -> Page:
     sections.append(Section("harris", "Harris maps before and after", [Words("Quasi-static transmission error over two mesh cycles, a curve for each torque."), *maps]))
     sections += [scene_section(best_scene(outcome), f"Chosen design ({BEST})"), scene_section(design.text, "Design file", "design")]
     subtitle = f"{len(outcome.tried)} designs of {len(design.variables)} variables at {len(design.loads.points)} operating points"
-    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by())
+    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), no_gain(outcome))
 
 
 def _summary(outcome: Outcome) -> Section:

@@ -37,9 +37,9 @@ class Variable:
         number = float(f"{value:.5g}")
         return f"{number:.5g} {self.unit}" if self.unit else number
 
-    def rounded(self, value: float | str) -> float | str:
-        """The number that is written."""
-        return value if self.words else float(f"{value:.5g}")
+    def at(self, place: float | str) -> float | str:
+        """The value, as it is written, at a place of its range, 0 to 1; a word as it is."""
+        return place if self.words else float(f"{self.low + place * (self.high - self.low):.5g}")
 
 
 @dataclass(frozen=True)

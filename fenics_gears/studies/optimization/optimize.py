@@ -139,7 +139,7 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
     count = len(design.tolerances.scatters)
     nominal = np.zeros((1, count))
     for variable in design.variables:
-        places = list(variable.words) or sorted({*map(variable.rounded, np.linspace(variable.low, variable.high, VALUES)), values[variable.name]})
+        places = list(variable.words) or sorted({*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]})
         outcome.along[variable.name] = places, evaluator.of_designs([values | {variable.name: place} for place in places], nominal)
     if not count:
         return

@@ -32,7 +32,7 @@ def search(design: Design, evaluate: Callable[[Sequence[Values]], list[Evaluatio
         report(len(tried))
         count = min(design.search.population, design.search.evaluations - len(tried))
         trials = [study.ask(_distributions(optuna, design)) for _ in range(count)]
-        found = evaluate([{each.name: each.rounded(trial.params[each.name]) for each in design.variables} for trial in trials])
+        found = evaluate([{each.name: each.at(trial.params[each.name]) for each in design.variables} for trial in trials])
         for trial, evaluation in zip(trials, found):
             study.tell(trial, evaluation.told(design.goals))
         tried += found
@@ -40,15 +40,17 @@ def search(design: Design, evaluate: Callable[[Sequence[Values]], list[Evaluatio
 
 
 def _distributions(optuna, design: Design) -> dict:
+    """Words, and parts of ranges from 0 to 1: CMA-ES of Optuna 3 takes steps of the same size in all variables, whatever their units."""
     of = optuna.distributions
-    return {each.name: of.CategoricalDistribution(each.words) if each.words else of.FloatDistribution(each.low, each.high) for each in design.variables}
+    return {each.name: of.CategoricalDistribution(each.words) if each.words else of.FloatDistribution(0.0, 1.0) for each in design.variables}
 
 
 def _sampler(optuna, design: Design):
     seed, population, samplers = design.search.seed, design.search.population, optuna.samplers
     if len(design.goals) > 1 or len(design.variables) == 1 or any(each.words for each in design.variables):
         return samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=2 * population)
-    return samplers.CmaEsSampler(seed=seed, popsize=population, warn_independent_sampling=False)
+    middle = {each.name: 0.5 for each in design.variables}
+    return samplers.CmaEsSampler(x0=middle, sigma0=1.0 / 6.0, seed=seed, popsize=population, warn_independent_sampling=False)
 
 
 def front(tried: Sequence[Evaluation], names: Sequence[str]) -> list[int]:
