@@ -11,7 +11,7 @@ import numpy as np
 
 from demos.arguments import output_directory
 from fenics_gears.studies.optimization.conditions import samples
-from fenics_gears.studies.optimization.evaluations import Evaluator
+from fenics_gears.studies.optimization.evaluations import Evaluation, Evaluator
 from fenics_gears.studies.optimization.optimize import Outcome, optimize
 from fenics_gears.studies.ranks import Alone
 from fenics_gears.system.interruption import Interruption
@@ -74,7 +74,7 @@ def written(every: dict[str, Compared], directory: Path) -> list[Path]:
 
 
 def table(every: dict[str, Compared]) -> str:
-    """Markdown: a row for each search, with what each best relief gives under the conditions of the others that tolerances alone distinguish."""
+    """Markdown: a row for each search, and what reliefs give under conditions that they were not chosen for."""
     rows = ["| condition | best depth (um) | best length (mm) | goal (um) | best of the grid (um) | goal before (um) | designs |", "|---|---|---|---|---|---|---|"]
     for name, each in every.items():
         values, found = each.found.chosen.values, each.found
@@ -85,16 +85,20 @@ def table(every: dict[str, Compared]) -> str:
 
 
 def _exchanged(every: dict[str, Compared]) -> list[str]:
-    """What a relief that was chosen without tolerances gives within them, and one that was chosen without friction with it."""
-    rows = ["| chosen | judged | goal (um) | goal of the best (um) |", "|---|---|---|---|"]
+    """What a relief that was chosen under other conditions gives, beside the one that was chosen for these; both under samples that neither search knew."""
+    rows = ["| conditions | relief chosen for | goal (um) | goal of the relief chosen for these conditions (um) |", "|---|---|---|---|"]
     for chosen, judged in (("frictionless", "friction"), ("frictionless", "frictionless_tolerances"), ("friction", "friction_tolerances")):
         if {chosen, judged} <= set(every):
-            other = every[judged].found
-            with Interruption(LineProgress()) as progress:
-                evaluator = Evaluator(other.design, other.directory / "runs", Alone(), progress)
-                (found,) = evaluator.of_designs([every[chosen].found.chosen.values], samples(other.design))
-            rows.append(f"| {NAMES[chosen]} | {NAMES[judged]} | {found.goals[ERROR]:.2f} | {other.chosen.goals[ERROR]:.2f} |")
+            other, own = (f"{each.goals[ERROR]:.2f}" for each in fresh(every[judged].found, [every[name].found.chosen.values for name in (chosen, judged)]))
+            rows.append(f"| {NAMES[judged]} | {NAMES[chosen].lower()} | {other} | {own} |")
     return rows
+
+
+def fresh(found: Outcome, reliefs: Sequence[dict[str, float]]) -> list[Evaluation]:
+    """Reliefs under the conditions of a search, but under other samples of its tolerances than it was judged by."""
+    with Interruption(LineProgress()) as progress:
+        progress.stage("fresh samples")
+        return Evaluator(found.design, found.directory / "runs", Alone(), progress).of_designs(reliefs, samples(found.design, fresh=True))
 
 
 if __name__ == "__main__":

@@ -156,6 +156,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     failed = sum(bool(each.failure) for each in outcome.tried)
     rate = f", {outcome.computed / outcome.seconds:.3g} runs per second" if outcome.computed and outcome.seconds else ""
     rows = [("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""), ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", "")]
-    rows += [(f"{called(goal.name)}, {words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1")) for goal in outcome.design.goals for words, each in ((BEFORE, outcome.before), (BEST, outcome.chosen))]
+    compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh))
+    rows += [(f"{called(goal.name)}{words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1")) for goal in outcome.design.goals for words, each in compared.items()]
     rows += [(called(each.name), f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.5g}", each.unit) for each in outcome.design.variables]
     return [*rows, ("remark", no_gain(outcome), "")] if no_gain(outcome) else rows

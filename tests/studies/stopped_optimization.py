@@ -7,7 +7,8 @@ import os
 import signal
 import sys
 
-sys.modules["mpi4py"] = None
+if "OMPI_COMM_WORLD_RANK" not in os.environ:
+    sys.modules["mpi4py"] = None
 
 from fenics_gears.commands import cli
 from fenics_gears.studies.optimization import run_lines

@@ -12,19 +12,20 @@ from fenics_gears.studies import fields
 from fenics_gears.studies.axis import factor_of, number_in
 from fenics_gears.studies.optimization.design import Design, Scatter
 
+FRESH = 4
 FROM_ZERO = ("profile_modifications", "lead_modifications")
 
 
-def samples(design: Design) -> np.ndarray:
+def samples(design: Design, fresh: bool = False) -> np.ndarray:
     """Deviations (samples, scatters) in parts of their limits, -1 to 1, by Sobol's scrambled sequence: the same for all designs, so that these
-    are compared under the same deviations. Without tolerances one sample of none."""
+    are compared under the same deviations. Without tolerances one sample of none. `fresh`: other ones, and `FRESH` times as many."""
     count = len(design.tolerances.scatters)
     if not count:
         return np.zeros((1, 0))
     from scipy.stats import qmc
 
-    sequence = qmc.Sobol(count, scramble=True, seed=design.search.seed)
-    return 2.0 * sequence.random_base2(design.tolerances.samples.bit_length() - 1) - 1.0
+    sequence, number = qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh), design.tolerances.samples * (FRESH if fresh else 1)
+    return 2.0 * sequence.random_base2(number.bit_length() - 1) - 1.0
 
 
 def value_of(tree: Mapping[str, Any], path: fields.Path) -> Any:

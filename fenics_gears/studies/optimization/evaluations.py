@@ -63,24 +63,13 @@ class Evaluation:
 class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
-    `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here; `kept`: those that were there before and were used.
+    `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here; `kept`: those that were there before.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self.directory, self._team, self._progress = design, directory, team, progress
         self._lines = run_lines.kept(directory)
-        self._before, self._used = frozenset(self._lines), set()
-        self.designs, self.computed, self.seconds = (0, 0), 0, 0.0
-
-    @property
-    def found(self) -> int:
-        """Runs that were there before."""
-        return len(self._before)
-
-    @property
-    def kept(self) -> int:
-        """Runs from before that were used again."""
-        return len(self._used & self._before)
+        self.designs, self.kept, self.computed, self.seconds = (0, 0), len(self._lines), 0, 0.0
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
@@ -115,7 +104,6 @@ class Evaluator:
 
     def _run(self, cases: list[Case], batch: int) -> None:
         """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
-        self._used |= {case.key for case in cases}
         missing = list({case.key: case for case in cases if case.key not in self._lines}.values())
         if not missing:
             return

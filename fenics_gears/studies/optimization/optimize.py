@@ -38,6 +38,7 @@ class Outcome:
     """What an optimisation found.
 
     `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`: places of the Pareto front.
+    `fresh`: the scene before and the chosen design under samples that the search did not know, where there are tolerances.
     `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the evaluations of the
     chosen design at the lower limit, without scatter and at the upper limit. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves
     (2, steps) of mesh phase and transmission error, rad.
@@ -49,6 +50,7 @@ class Outcome:
     tried: list[Evaluation]
     best: int
     front: list[int]
+    fresh: list[Evaluation] = field(default_factory=list)
     along: dict[str, tuple[list[float | str], list[Evaluation]]] = field(default_factory=dict)
     limits: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
     harris: tuple[np.ndarray, list[list[np.ndarray | None]]] = (np.zeros(0), [])
@@ -106,7 +108,7 @@ def _run(design: Design, directory: Path, team: Alone | Together, progress: Inte
 def _opening(design: Design, count: int, evaluator: Evaluator, size: int) -> str:
     """One line on how much there is to do."""
     runs = len(design.loads.points) * count
-    kept = f" {evaluator.found} runs are kept from before." if evaluator.found else ""
+    kept = f" {evaluator.kept} runs are kept from before." if evaluator.kept else ""
     by = f", by {size} processes" if size > 1 else ""
     return f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each{by}.{kept}"
 
@@ -143,6 +145,8 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
         outcome.along[variable.name] = places, evaluator.of_designs([values | {variable.name: place} for place in places], nominal)
     if not count:
         return
+    trees = [design.before, design.scene_tree(values)]
+    outcome.fresh = evaluator.of_trees(trees, [{}, values], samples(design, fresh=True))
     deviations = np.concatenate([nominal, -np.eye(count), np.eye(count)])
     (found,) = evaluator.of_designs([values], deviations)
     for place, scatter in enumerate(design.tolerances.scatters):

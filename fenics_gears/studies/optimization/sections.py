@@ -181,7 +181,7 @@ class Sections:
         tolerance_class = self._whole("tolerances", "tolerance_class", None)
         if table and not found and tolerance_class is None:
             self.mistakes.add(("tolerances",), "", 'has nothing that scatters. Add tolerance_class, or a field with its limit, such as tip_relief.depth = "4 um".')
-        number, quantile = self._whole("tolerances", "samples", 16), table.get("quantile", 0.9)
+        number, quantile = self._whole("tolerances", "samples", 32), table.get("quantile", 0.9)
         if number & (number - 1):
             self.wrong("tolerances", "samples", number, "is no power of two, as Sobol's sequence needs. Allowed: 8, 16, 32, 64, ...")
         if not (is_number(quantile) and 0.5 <= quantile < 1.0):
