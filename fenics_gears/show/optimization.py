@@ -104,7 +104,7 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
 def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:
     """Of each scatter its limit, and the goal of the chosen design at the lower limit, without scatter, at the upper one; the largest change first."""
     rows = []
-    for scatter in outcome.design.tolerances.scatters:
+    for scatter in outcome.design.tolerances.scatters if outcome.limits else ():
         low, nominal, high = outcome.limits[scatter.name][goal.name]
         rows.append((max(abs(low - nominal), abs(high - nominal)), (called(scatter.name), f"± {scatter.limit:.4g} {scatter.unit}".strip(), f"{low:.4g}", f"{nominal:.4g}", f"{high:.4g}")))
     return [row for _, row in sorted(rows, key=lambda each: -each[0])]

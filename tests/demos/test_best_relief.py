@@ -19,7 +19,7 @@ def every(tmp_path_factory):
     folder, found = tmp_path_factory.mktemp("best_relief"), {}
     for name in ("frictionless", "friction", "friction_tolerances"):
         text = (compare.HERE / f"{name}.toml").read_text(encoding="utf-8").replace("../lundvall2004.toml", str(compare.HERE.parent / "lundvall2004.toml"))
-        text = re.sub("evaluations = .*", "evaluations = 24", re.sub("samples = .*", "samples = 2", text)).replace("without = [", 'without = ["accuracy", ')
+        text = re.sub("evaluations = .*", "evaluations = 40", re.sub("samples = .*", "samples = 2", text)).replace("without = [", 'without = ["accuracy", ')
         (folder / f"{name}.toml").write_text(text + COARSE, encoding="utf-8")
         with pytest.MonkeyPatch.context() as few:
             few.setattr("fenics_gears.studies.optimization.optimize.VALUES", 2)

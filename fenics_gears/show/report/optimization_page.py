@@ -80,4 +80,5 @@ def _tolerances(outcome: Outcome) -> Section:
     for goal in outcome.design.goals:
         heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
         blocks.append(Table(heads, tolerance_rows(outcome, goal), f"{sentence(called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design"))
-    return Section("tolerances", "Each tolerance alone", [Words("One deviation at its limit, all others zero; the largest change first."), *blocks])
+    words = "One deviation at its limit, all others zero; the largest change first." if outcome.limits else "A run with a deviation at its limit failed."
+    return Section("tolerances", "Each tolerance alone", [Words(words, warns=not outcome.limits), *blocks])

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.inputs.tree import value_at
 from fenics_gears.studies import fields
+from fenics_gears.studies.axis import number_in
 from fenics_gears.studies.case_files import sole_writer
 from fenics_gears.studies.optimization.conditions import samples
 from fenics_gears.studies.optimization.design import Design
@@ -40,7 +42,7 @@ class Outcome:
     `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`: places of the Pareto front.
     `fresh`: the scene before and the chosen design under samples that the search did not know, where there are tolerances.
     `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the evaluations of the
-    chosen design at the lower limit, without scatter and at the upper limit. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves
+    chosen design at the lower limit, without scatter and at the upper limit; nothing where one failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves
     (2, steps) of mesh phase and transmission error, rad.
     """
 
@@ -149,7 +151,7 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
     outcome.fresh = evaluator.of_trees(trees, [{}, values], samples(design, fresh=True))
     deviations = np.concatenate([nominal, -np.eye(count), np.eye(count)])
     (found,) = evaluator.of_designs([values], deviations)
-    for place, scatter in enumerate(design.tolerances.scatters):
+    for place, scatter in enumerate(design.tolerances.scatters if not found.failure else ()):
         at = [1 + place, 0, 1 + count + place]
         outcome.limits[scatter.name] = {name: numbers[at] for name, numbers in found.of_samples.items()}
 
@@ -158,9 +160,9 @@ def _harris(design: Design, evaluator: Evaluator, best: Evaluation) -> tuple[np.
     """Quasi-static transmission errors over the torque of the scene before and of the chosen design."""
     path = ("load", "wheel_torque")
     trees = [design.before, design.scene_tree(best.values)]
-    torques = sorted({float(_torque(point[path])) for point in design.loads.points if path in point})
+    torques = sorted({number_in(point[path], "N m") for point in design.loads.points if path in point})
     if len(torques) < 2:
-        torques = [part * (torques[0] if torques else _torque(trees[1]["load"]["wheel_torque"])) for part in TORQUES]
+        torques = [part * (torques or [number_in(value_at(trees[1], *path), "N m")])[0] for part in TORQUES]
     loaded: list[Any] = []
     for tree in trees:
         for section in NOT_IN_A_HARRIS_MAP:
@@ -168,9 +170,3 @@ def _harris(design: Design, evaluator: Evaluator, best: Evaluation) -> tuple[np.
         loaded += [fields.changed(tree, path, f"{torque:.9g} N m") for torque in torques]
     curves = evaluator.curves(loaded)
     return np.array(torques), [curves[: len(torques)], curves[len(torques) :]]
-
-
-def _torque(written: str) -> float:
-    from fenics_gears.studies.axis import number_in
-
-    return number_in(written, "N m")
