@@ -51,8 +51,8 @@ def modifications_are_small_and_given(tree: Tree) -> Iterator[Problem]:
         own = table(section, gear)
         if own is not None and not own:
             yield Problem(("profile_modifications", gear), "", "names no modification. Add crowning or slope, or leave the section out.")
-        for name in own or {}:
-            yield from too_large_for_the_module(tree, ("profile_modifications", gear, name), own[name])
+        for name in ProfileModificationText.model_fields:
+            yield from too_large_for_the_module(tree, ("profile_modifications", gear, name), (own or {}).get(name))
 
 
 def removal(modifications: ProfileModifications, pair):
