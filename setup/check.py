@@ -10,7 +10,7 @@ import sys
 NEEDED = (
     "tomllib", "vtkmodules.vtkRenderingOpenGL2", "pyvista", "dolfinx", "petsc4py.PETSc", "mpi4py.MPI", "gmsh",
     "numpy", "scipy", "cvxopt", "numba", "h5py", "h5netcdf", "xarray", "pydantic", "rich", "platformdirs",
-    "matplotlib", "threadpoolctl", "jinja2", "plotly",
+    "matplotlib", "threadpoolctl", "jinja2", "plotly", "optuna", "cmaes",
 )
 NEEDED_BY_TESTS = ("pytest", "pytest_benchmark", "xdist", "hypothesis", "sphinx", "myst_parser", "furo")
 

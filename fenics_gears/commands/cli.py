@@ -15,7 +15,7 @@ import sys
 from collections.abc import Sequence
 
 from fenics_gears import __version__
-from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, picture, plot, rate, report, run, study, tests
+from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, optimize, picture, plot, rate, report, run, study, tests
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
@@ -81,7 +81,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.set_defaults(verbose=False, quiet=False)
     parser.add_argument("--version", action="version", version=f"gears {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (check, run, study, map, effects, accuracy, plot, picture, report, export, listen, rate, import_rexs, cache):
+    for command in (check, run, study, map, optimize, effects, accuracy, plot, picture, report, export, listen, rate, import_rexs, cache):
         command.add(commands, shared)
     tests.add(commands)
     return parser

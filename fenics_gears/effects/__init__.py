@@ -23,6 +23,7 @@ from fenics_gears.effects import (
     inertia,
     lead_modifications,
     misalignment,
+    profile_modifications,
     root_relief,
     shafts,
     speed_ramp,
@@ -50,6 +51,7 @@ EFFECTS: tuple[Effect, ...] = (
     corner_contact.EFFECT,
     torque_ripple.EFFECT,
     speed_ramp.EFFECT,
+    profile_modifications.EFFECT,
 )
 
 # What every run has, whatever its effects.

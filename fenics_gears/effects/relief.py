@@ -8,7 +8,7 @@ from typing import Any, Literal, Optional
 from fenics_gears.effects.effect import own_or_shared
 from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief
 from fenics_gears.inputs import units
-from fenics_gears.inputs.fields import Measured, Section, choice, either, quantity
+from fenics_gears.inputs.fields import Measured, Section, choice, either, number, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
@@ -55,6 +55,9 @@ class TipReliefOfGearText(Section):
         "`parabolic` starts without a kink",
         otherwise="`linear`",
     )
+    exponent: Optional[float] = number(
+        1.5, lowest=1.0, highest=10.0, meaning="growth with this power of the roll angle, in place of `shape`: 1 is linear, 2 parabolic", otherwise="that of `shape`"
+    )
 
 
 class RootReliefOfGearText(TipReliefOfGearText):
@@ -74,9 +77,10 @@ def of_gear(both: Section, own: Section | None) -> Relief | None:
     if depth is None:
         return None
     starting = own if own is not None and own.model_fields_set.intersection(STARTS) else both
-    number = {starting.start.kind: starting.start.number} if starting.start is not None else {}
+    at = {starting.start.kind: starting.start.number} if starting.start is not None else {}
     shape = own_or_shared(own, both, "shape") or LINEAR
-    return Relief(depth, number.get("an angle"), shape, number.get("a length"), starting.length_on_path, starting.length_on_flank)
+    exponent = own_or_shared(own, both, "exponent")
+    return Relief(depth, at.get("an angle"), shape, at.get("a length"), starting.length_on_path, starting.length_on_flank, exponent)
 
 
 def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
@@ -90,6 +94,8 @@ def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
         named = [name for name in STARTS if name in given]
         for name in named[1:]:
             yield Problem((*path, name), as_written(given[name]), f"stands beside {named[0]}, and each says where the relief starts. Leave one out.")
+        if {"shape", "exponent"} <= set(given):
+            yield Problem((*path, "exponent"), as_written(given["exponent"]), "stands beside shape, and both say how the relief grows. Leave one out.")
     takers = [gear for gear in GEARS if "depth" in given_for(both, gear) and not {*STARTS}.intersection(own.get(gear, {}))]
     if _is_diameter(both.get("start")) and len(takers) > 1 and not _alike(tree):
         message = (
@@ -131,7 +137,7 @@ def kinks_watched(section: str, removal: Callable, reliefs, cycle, steps) -> dic
     Both (steps,), zero but for the first step: they are of the steps that press a node hardest.
     """
     curves = zip(GEARS, removal(reliefs, cycle.pair))
-    kinks = {gear: curve.start_roll_angle for gear, curve in curves if curve is not None and getattr(reliefs, gear).shape == LINEAR and curve.depth > 0.0}
+    kinks = {gear: curve.start_roll_angle for gear, curve in curves if curve is not None and curve.power == 1 and curve.depth > 0.0}
     if not kinks or not cycle.traits.has_pressure:
         return {}
     import numpy as np

@@ -11,7 +11,7 @@ import numpy as np
 
 from fenics_gears.geometry.face_data import BOTH, LEFT, RIGHT, LeadModification, LeadModifications, Misalignment
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.relief import POWERS
+from fenics_gears.geometry.relief_data import POWERS
 
 
 def face_opening(

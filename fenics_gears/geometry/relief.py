@@ -10,22 +10,20 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief, RootRelief, TipRelief
-
-POWERS = {LINEAR: 1, PARABOLIC: 2}
+from fenics_gears.geometry.relief_data import Relief, RootRelief, TipRelief
 
 
 @dataclass(frozen=True)
 class ReliefCurve:
     """Material removed along the flank's normal: nothing up to the start, ``depth`` (mm) at the end; roll angles in rad.
 
-    ``depth ((v - start)/(end - start))^power``, whichever way the end lies; ``power`` 1 or 2.
+    ``depth ((v - start)/(end - start))^power``, whichever way the end lies; ``power`` 1 or more.
     """
 
     depth: float
     start_roll_angle: float
     end_roll_angle: float
-    power: int = 1
+    power: float = 1
 
     def __call__(self, roll_angle) -> np.ndarray:
         """Removal (mm, not negative) at roll angles (rad, any shape); it goes on growing beyond the end."""
@@ -91,7 +89,7 @@ def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:
             f"{2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm, {gear.base_radius * (highest - lowest):.4g} mm on the path of "
             f"contact, {0.5 * gear.base_radius * (highest**2 - lowest**2):.4g} mm along the flank: change {side.field}.{_changed(relief)}"
         )
-    return ReliefCurve(relief.depth, start, side.end, POWERS[relief.shape])
+    return ReliefCurve(relief.depth, start, side.end, relief.power)
 
 
 def _check_depth(relief: Relief, side: _Side) -> None:

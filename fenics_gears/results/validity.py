@@ -14,7 +14,7 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
-from fenics_gears.effects.relief import LINEAR, PARABOLIC
+from fenics_gears.effects.relief import PARABOLIC
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -180,7 +180,7 @@ def _off_the_edge(scene: Scene, gears: list[str]) -> str:
         ways = [f"[tip_relief.{gear}] takes the load off the edge" for gear, relief in zip(gears, reliefs) if relief is None]
     elif reliefs:
         ways = ["a deeper or longer tip relief takes more load off the edge"]
-        ways += [f'tip_relief.shape = "{PARABOLIC}" is steeper at the tip'] if any(relief.shape == LINEAR for relief in reliefs) else []
+        ways += [f'tip_relief.shape = "{PARABOLIC}" is steeper at the tip'] if any(relief.power == 1 for relief in reliefs) else []
     else:
         ways = ["[tip_relief] takes the load off the edge"]
     rounded = scene.corner_contact is not None and min(scene.corner_contact.edge_radii) > 0.0

@@ -19,6 +19,7 @@ from fenics_gears.geometry.face_data import LeadModifications, Misalignment
 from fenics_gears.geometry.flank_error_data import FlankErrors
 from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
+from fenics_gears.geometry.profile_modification_data import ProfileModifications
 from fenics_gears.geometry.relief_data import RootRelief, TipRelief
 
 
@@ -131,6 +132,7 @@ class Scene:
     corner_contact: CornerContact | None = None
     torque_ripple: TorqueRipple | None = None
     speed_ramp: SpeedRamp | None = None
+    profile_modifications: ProfileModifications | None = None
 
     @property
     def mesh_frequencies(self) -> tuple[float, float]:

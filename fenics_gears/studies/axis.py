@@ -46,7 +46,7 @@ class Axis:
 
     def coordinate(self) -> np.ndarray:
         """The values as numbers in ``unit``, an absent one as NaN; as texts where not all are numbers."""
-        numbers = [_number(value, self.unit) for value in self.values]
+        numbers = [number_in(value, self.unit) for value in self.values]
         if all(number is not None for number in numbers):
             return np.array(numbers)
         return np.array([label(value) for value in self.values], dtype=object)
@@ -108,19 +108,20 @@ def _check(path: Path, value: Any) -> None:
     )
 
 
-def _number(value: Any, unit: str) -> float | None:
+def number_in(value: Any, unit: str) -> float | None:
     """A value as a number of units, NaN for an absent one; None for what is no number."""
     if value == ABSENT:
         return math.nan
     if isinstance(value, (bool, Mapping)):
         return None
     try:
-        return float(value) if isinstance(value, (int, float)) else units.quantity(value)[0] / _factor(unit)
+        return float(value) if isinstance(value, (int, float)) else units.quantity(value)[0] / factor_of(unit)
     except units.QuantityError:
         return None
 
 
-def _factor(unit: str) -> float:
+def factor_of(unit: str) -> float:
+    """The unit in N, mm, s, rad."""
     return units.quantity(f"1 {unit}")[0]
 
 
@@ -163,7 +164,7 @@ def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
         if len(kinds) > 1:
             raise AxisError(f"mixes {' and '.join(kinds)}.")
         unit = units.unit_of(given["start"])
-        numbers = [number / _factor(unit) for number, _ in quantities]
+        numbers = [number / factor_of(unit) for number, _ in quantities]
     if not all(map(math.isfinite, numbers)):
         raise AxisError("has an end that is not a finite number.")
     return numbers, unit

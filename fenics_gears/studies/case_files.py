@@ -69,13 +69,13 @@ def _undamaged(path: Path, case: Case) -> CaseRecord | None:
 
 
 @contextlib.contextmanager
-def sole_writer(directory: Path) -> Iterator[None]:
-    """Lock the study's directory for this process, and remove half-written files of a study that was killed.
+def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
+    """Lock the study's directory for this process, make the folder `inside` it, and remove half-written files of a study that was killed.
 
     Raises ComputationError where another study is writing there, or nothing can be written.
     """
     try:
-        (directory / "cases").mkdir(parents=True, exist_ok=True)
+        (directory / inside).mkdir(parents=True, exist_ok=True)
         lock = open(directory / ".lock", "w")
     except OSError as error:
         raise ComputationError(f"{directory}: cannot be written to: {error.strerror or error}") from error

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Mapping
 from typing import Any
 
+from fenics_gears.inputs.fields import Allowed, AllowedEither, AllowedList, allowed_in
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.tree import LOADS
-from fenics_gears.scene.schema import known_paths
+from fenics_gears.scene.schema import SceneText, known_paths, section_within
 
 Path = tuple[str, ...]
 ABSENT = "absent"
@@ -62,3 +64,22 @@ def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
     for name in path:
         home = home.get(name) if isinstance(home, Mapping) else None
     return dict(tree) if isinstance(home, Mapping) else changed(tree, path, {})
+
+
+def allowed_at(path: Path) -> tuple[Allowed | None, float, float]:
+    """What a field allows and its least and largest number in N, mm, s, rad; None for a section. Fields without bounds have infinite ones."""
+    section: Any = SceneText
+    for name in path[:-1]:
+        section = section_within(section, name)
+    allowed, info = allowed_in(section, path[-1]), section.model_fields[path[-1]]
+    if isinstance(allowed, AllowedEither):
+        return allowed, min(low for low, _ in allowed.ranges.values()), max(high for _, high in allowed.ranges.values())
+    limits = {key: getattr(item, key) for item in info.metadata for key in ("ge", "gt", "le", "lt") if getattr(item, key, None) is not None}
+    return allowed, limits.get("ge", limits.get("gt", -math.inf)), limits.get("le", limits.get("lt", math.inf))
+
+
+def is_numeric(path: Path) -> bool:
+    """Whether a field takes a number, with a unit or without, that need not be whole."""
+    allowed, lowest, _ = allowed_at(path)
+    whole = allowed is not None and "whole number" in allowed.description
+    return allowed is not None and not isinstance(allowed, AllowedList) and not whole and (allowed.kind is not None or math.isfinite(lowest))

@@ -62,7 +62,7 @@ def _run(study: Study, directory: Path, team: Alone | Together, progress: Progre
     say(_opening(study, outcome.kept, len(missing), base_changed(study, directory), team.size))
     with Interruption(progress) as interruption:
         try:
-            _condense(missing, team, interruption)
+            condense_gears(missing, team, interruption)
             _compute(in_order_of_sharing(missing), directory / "cases", team, outcome, interruption)
         except KeyboardInterrupt:
             outcome.interrupted = True
@@ -78,7 +78,7 @@ def _opening(study: Study, kept: int, missing: int, changed: bool, size: int) ->
     return f"{study.title}: {len(study.cases)} cases, {of_it}" + (f", by {size} processes." if size > 1 else ".") + since
 
 
-def _condense(missing: list[Case], team: Alone | Together, progress: Interruption) -> None:
+def condense_gears(missing: list[Case], team: Alone | Together, progress: Interruption) -> None:
     """Condense every gear of the study once, a process a gear; a gear that fails fails again, with its reason, in its cases."""
     tasks = gear_tasks(missing)
     if not tasks:

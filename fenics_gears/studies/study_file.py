@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -139,10 +139,10 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
 
 
 def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
-    without = _without(tree, mistakes)
-    fixed = dict(_entries(tree, "set", mistakes))
+    without = left_out(tree, mistakes)
+    fixed = dict(entries(tree, "set", mistakes))
     swept = []
-    for path, written in _entries(tree, "sweep", mistakes):
+    for path, written in entries(tree, "sweep", mistakes):
         try:
             swept.append((path, values_of(path, written)))
         except AxisError as error:
@@ -154,7 +154,8 @@ def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
     return Changes(without, fixed, axes, combine)
 
 
-def _without(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, ...]:
+def left_out(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, ...]:
+    """The paths that `without` names."""
     names = tree.get("without", [])
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         mistakes.add(("without",), as_written(names), 'is not a list of names. Allowed: sections and fields to leave out, such as ["inertia", "damping"].')
@@ -165,8 +166,8 @@ def _without(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, 
     return tuple(tuple(name.split(".")) for name in names)
 
 
-def _entries(tree: Mapping[str, Any], table: str, mistakes: Mistakes) -> list[tuple[fields.Path, Any]]:
-    """Paths and values below [set] or [sweep], however the dotted path is spelt: quoted, bare, or as a table of its own."""
+def entries(tree: Mapping[str, Any], table: str, mistakes: Mistakes, own: Collection[str] = ()) -> list[tuple[fields.Path, Any]]:
+    """Paths and values below [set], [sweep] or another `table` less its `own` keys, however the dotted path is spelt: quoted, bare, or as a table of its own."""
     found: list[tuple[fields.Path, Any]] = []
 
     def walk(home: fields.Path, values: Mapping[str, Any]) -> None:
@@ -179,7 +180,7 @@ def _entries(tree: Mapping[str, Any], table: str, mistakes: Mistakes) -> list[tu
             else:
                 found.append((path, value))
 
-    walk((), tree[table] if isinstance(tree.get(table), Mapping) else {})
+    walk((), {key: value for key, value in tree[table].items() if key not in own} if isinstance(tree.get(table), Mapping) else {})
     return found
 
 
@@ -242,7 +243,7 @@ def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[st
     points = list(changes.points())
     for index, point in enumerate(points):
         values = {axis.dotted: label(value) for axis, value in zip(changes.axes, point)}
-        scene, problems = _case_scene(f"{path.stem}-{index:04d}", changes.apply(scene_tree, point), directory)
+        scene, problems = scene_of_tree(f"{path.stem}-{index:04d}", changes.apply(scene_tree, point), directory)
         for problem in problems:
             wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
         if scene is None:
@@ -257,7 +258,7 @@ def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[st
     return tuple(cases)
 
 
-def _case_scene(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Scene | None, list[Problem]]:
+def scene_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Scene | None, list[Problem]]:
     """The validated scene of a case, or what is wrong with it."""
     checked, problems = problems_of_schema(tree)
     problems = without_echoes(problems + broken_rules(tree))

@@ -16,6 +16,7 @@ from tests.docs.commands_page import commands, parser
 
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.studies.optimization.design_file import load_design
 from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")
@@ -84,6 +85,10 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
             (tmp_path / tree["scene"]).write_text(relieved, encoding="utf-8")
             (tmp_path / "study.toml").write_text(block.code, encoding="utf-8")
             assert load_study(tmp_path / "study.toml").cases
+        elif "variables" in tree:
+            (tmp_path / tree["scene"]).write_text(DEMO, encoding="utf-8")
+            (tmp_path / "design.toml").write_text(block.code, encoding="utf-8")
+            assert load_design(tmp_path / "design.toml").variables
         else:
             whole = {"gears", "load"} <= set(tree)
             scene_from_text(block.code if whole else as_toml(merged(around(tree), tree)), f"{name_of(page)}:{block.line}")

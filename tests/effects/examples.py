@@ -83,6 +83,12 @@ coefficient = 0.1
 depth = "31 um"
 start = "HPSTC"
 """,
+    "profile_modifications": """
+[profile_modifications.pinion]
+crowning = "4 um"
+[profile_modifications.wheel]
+slope = "5 um"
+""",
     "root_relief": """
 [root_relief]
 depth = "10 um"

@@ -25,6 +25,7 @@ INSTEAD = {
     **{("load", name): ["wheel_torque"] for name in ("pinion_torque", "power")},
     **{(*path, "density"): [*LUMPED] for path in (("inertia",), ("inertia", "pinion"), ("inertia", "wheel"))},
     **{("damping", name): [*RAYLEIGH, "pinion", "wheel"] for name in ("ratio", "ratios")},
+    **{(section, *gear, "exponent"): ["shape"] for section in ("tip_relief", "root_relief") for gear in ((), ("pinion",), ("wheel",))},
 }
 SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/mm")
 # Units of every kind of quantity that a scene has, by what `units` calls it.

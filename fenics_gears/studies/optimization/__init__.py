@@ -1,0 +1,1 @@
+"""``gears optimize``: modifications of a pair chosen by its results over loads and tolerances."""

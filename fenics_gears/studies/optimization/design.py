@@ -1,0 +1,147 @@
+"""An optimisation as frozen dataclasses: what may vary, at which operating points, within which tolerances, for which goals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fenics_gears.studies import fields
+
+MEAN, WORST, QUANTILE = "mean", "worst", "quantile"
+Tree = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A field that the search varies: between `low` and `high` in `unit`, or among `words`."""
+
+    path: fields.Path
+    low: float = 0.0
+    high: float = 0.0
+    unit: str = ""
+    words: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The path as it is written."""
+        return ".".join(self.path)
+
+    def written(self, value: float | str) -> Any:
+        """A value as a scene has it, of five digits: more are on no drawing."""
+        if self.words:
+            return value
+        number = float(f"{value:.5g}")
+        return f"{number:.5g} {self.unit}" if self.unit else number
+
+    def at(self, place: float | str) -> float | str:
+        """The value, as it is written, at a place of its range, 0 to 1; a word as it is."""
+        return place if self.words else float(f"{self.low + place * (self.high - self.low):.5g}")
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """A field that scatters evenly within `limit` on either side of its value, in `unit`; never beyond what the field allows, `lowest` to `highest`."""
+
+    path: fields.Path
+    limit: float
+    unit: str
+    lowest: float
+    highest: float
+
+    @property
+    def name(self) -> str:
+        """The path as it is written."""
+        return ".".join(self.path)
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A number of the result to be made small. `weight`: of its ratio to what it is before, in the choice of one design."""
+
+    name: str
+    unit: str
+    words: str
+    weight: float = 1.0
+
+
+@dataclass(frozen=True)
+class Bound:
+    """A number of the result that must not pass its bounds, in the result's unit, at any operating point."""
+
+    goal: Goal
+    at_least: float = -np.inf
+    at_most: float = np.inf
+
+    def violation(self, value: float) -> float:
+        """How far a value is beyond the bounds, in parts of the bound; 0 within."""
+        beyond, bound = max((self.at_least - value, self.at_least), (value - self.at_most, self.at_most), key=lambda each: each[0])
+        return max(beyond, 0.0) / (abs(bound) or 1.0)
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Operating points: the values of scene fields at each, their weights, and whether goals are their mean or the worst of them."""
+
+    points: tuple[dict[fields.Path, Any], ...] = ({},)
+    weights: tuple[float, ...] = (1.0,)
+    combine: str = MEAN
+
+    def combined(self, values: np.ndarray) -> np.ndarray:
+        """One value (...) of those of all points (points, ...)."""
+        return np.max(values, axis=0) if self.combine == WORST else np.average(values, axis=0, weights=self.weights)
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """What scatters, the number of samples (a power of two), the quantile, and by which of mean and quantile designs are judged."""
+
+    scatters: tuple[Scatter, ...] = ()
+    samples: int = 1
+    quantile: float = 0.9
+    judged: str = MEAN
+
+    def statistic(self, values: np.ndarray) -> float:
+        """What designs are judged by, of the values (samples,)."""
+        return float(np.quantile(values, self.quantile) if self.judged == QUANTILE else np.mean(values))
+
+
+@dataclass(frozen=True)
+class Search:
+    """Number of designs that are tried, how many of them at a time, and the seed of all random numbers."""
+
+    evaluations: int = 200
+    population: int = 8
+    seed: int = 1
+
+
+@dataclass(frozen=True)
+class Design:
+    """A validated optimisation.
+
+    `tree`: the parsed scene that designs are changes of; `before`: the one they are compared with; `directory`: from which files are found
+    that the scene names; `text`: of the design file.
+    """
+
+    name: str
+    title: str
+    tree: Tree
+    before: Tree
+    directory: Path
+    variables: tuple[Variable, ...]
+    loads: Loads
+    goals: tuple[Goal, ...]
+    tolerances: Tolerances
+    bounds: tuple[Bound, ...]
+    search: Search
+    text: str
+
+    def scene_tree(self, values: Mapping[str, float | str]) -> dict[str, Any]:
+        """The parsed scene with these values of the variables, by their names."""
+        tree = dict(self.tree)
+        for variable in self.variables:
+            tree = fields.changed(tree, variable.path, variable.written(values[variable.name]))
+        return tree
