@@ -129,7 +129,8 @@ def chosen(design: Design, before: Evaluation, tried: Sequence[Evaluation]) -> i
         failed = [each.failure for each in tried if each.failure]
         why = f"{len(failed)} failed, the first since: {failed[0]}" if failed else f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
         raise ComputationError(f"None of {len(tried)} designs keeps the constraints: {why}. Widen ranges or bounds; the runs are kept.")
-    return min(allowed, key=lambda place: score(design, before, tried[place]))
+    reference = tried[allowed[0]] if before.failure else before
+    return min(allowed, key=lambda place: score(design, reference, tried[place]))
 
 
 def score(design: Design, before: Evaluation, evaluation: Evaluation) -> float:
