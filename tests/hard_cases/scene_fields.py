@@ -32,7 +32,7 @@ SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/
 UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a torque": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
     "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2", "a density": "g/cm^3", "a time": "s",
-    "a percentage": "%", "a power": "kW",
+    "a percentage": "%", "a power": "kW", "a dynamic viscosity": "mPa s",
 }  # fmt: skip
 
 
@@ -131,9 +131,20 @@ def whole_scene() -> dict[str, Any]:
     return tree | {"coast_flanks": {}, "output": {"root_stress": True}, "torque_ripple": ripple, "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0}}
 
 
+def plane_scene_with_webs() -> dict[str, Any]:
+    """The whole scene without what makes it three-dimensional, which webs are not for."""
+    tree = whole_scene()
+    for path in (("lead_modifications",), ("misalignment",), *(("gears", name) for name in ("helix_angle", "pinion_hand")), *(("accuracy", name) for name in ("slices", "layers"))):
+        tree = changed(tree, path, ABSENT)
+    for gear, rim, hub in (("pinion", "50 mm", "36 mm"), ("wheel", "80 mm", "50 mm")):
+        tree = changed(tree, ("gears", gear, "axial_offset"), ABSENT)
+        tree["gears"][gear]["web"] = {"rim_inner_diameter": rim, "width": "8 mm", "hub_diameter": hub}
+    return tree
+
+
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None) -> str:
     """The whole scene's text with `literal` (TOML) at a path, nothing there where that is None; under another `name` if given."""
-    tree = whole_scene()
+    tree = whole_scene() if "web" not in path else plane_scene_with_webs()
     for other in INSTEAD.get(path, ()):
         tree = changed(tree, (*path[:-1], other), ABSENT)
     tree = changed(tree, path, ABSENT)
