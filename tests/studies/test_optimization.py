@@ -327,3 +327,11 @@ def test_other_files_are_called_by_their_kind(folder):
     """Authority: the words of `gears study` on the same mistake."""
     with pytest.raises(SceneError, match="is a scene, not a design file; `gears run"):
         load_design(folder / "pair.toml")
+
+
+def test_a_missing_optimiser_is_said_before_anything_is_computed(folder, monkeypatch):
+    """Authority: the words themselves; no run is there."""
+    monkeypatch.setitem(sys.modules, "optuna", None)
+    with pytest.raises(ComputationError, match="needs Optuna and cmaes"):
+        found(write(folder, RIGID + VARIABLES + GOAL + FEWER))
+    assert not (folder / "results").exists()
