@@ -14,11 +14,13 @@ from tests.studies.conftest import CHECKOUT, command, environment
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.geometry.flank_tolerance import flank_tolerance
+from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
-from fenics_gears.scene.read import load_scene
+from fenics_gears.scene.read import build_scene, load_scene
 from fenics_gears.simulation.simulate import simulate
+from fenics_gears.studies.combine import record_of
+from fenics_gears.studies.fields import changed
 from fenics_gears.studies.optimization import evaluations, run_lines
 from fenics_gears.studies.optimization import optimize as optimization
 from fenics_gears.studies.optimization.conditions import samples, scattered
@@ -118,8 +120,6 @@ def test_goals_over_loads_and_tolerances_are_those_of_single_runs(folder):
         tree = design.scene_tree(values)
         tree["load"] = {"wheel_torque": f"{torque} N m"}
         for each in deviations:
-            from fenics_gears.scene.read import build_scene
-
             scene = build_scene(scattered(tree, design.tolerances.scatters, each))
             alone.append(simulate(scene).attrs[ERROR] * 1e3 * gear_pair(scene.gears).wheel.base_radius)
     of_samples = np.average(np.reshape(alone, (2, 4)), axis=0, weights=[1, 3])
@@ -156,6 +156,31 @@ def test_a_flank_class_scatters_within_the_standards_tolerances(folder):
     deviations = samples(design)
     assert deviations.shape == (64, 4) and np.abs(deviations).max() <= 1.0
     assert ((deviations > 0.0).sum(axis=0) == 32).all()
+
+
+def test_over_the_face_helix_slopes_scatter_too(folder):
+    """Authority: ISO 1328-1, by the function that is tested against it."""
+    text = STILL + '[variables]\nlead_modifications.pinion.crowning = ["0 um", "10 um"]\n[set]\nmisalignment.in_plane = "5 um"\n[goals]\nface_load_factor = 1\n'
+    design = load_design(write(folder, text + '[tolerances]\ntolerance_class = 6\nmisalignment.in_plane = "8 um"\n'))
+    limits = {each.name: each.limit for each in design.tolerances.scatters}
+    assert limits["lead_modifications.wheel.helix_slope"] == pytest.approx(1e3 * helix_tolerance(108.0, 15.0, 6).slope)
+    assert limits["misalignment.in_plane"] == 8.0 and design.variables[0].low == 0.0
+
+
+def test_speeds_are_operating_points_of_a_scene_with_inertia(folder):
+    """Authority: runs of each scene alone; the worst of both speeds counts."""
+    text = 'scene = "pair.toml"\n[variables]\ntip_relief.depth = ["10 um", "40 um"]\n[set]\ntip_relief.start = "HPSTC"\n'
+    text += '[loads]\nmotion.mesh_frequency = ["150 Hz", "400 Hz"]\ncombine = "worst"\n[goals]\nmax_normal_force = 1\n'
+    design = load_design(write(folder, text))
+    with Interruption(SilentProgress()) as interruption:
+        (folder / "runs").mkdir()
+        (evaluation,) = Evaluator(design, folder / "runs", Alone(), interruption).of_designs([{"tip_relief.depth": 25.0}], np.zeros((1, 0)))
+    alone = []
+    for frequency in ("150 Hz", "400 Hz"):
+        tree = design.scene_tree({"tip_relief.depth": 25.0})
+        alone.append(record_of(simulate(build_scene(changed(tree, ("motion", "mesh_frequency"), frequency))).assign_attrs(wall_time=0.0)).numbers["max_normal_force"])
+    assert alone[0] != alone[1] and evaluation.at_points["max_normal_force"] == pytest.approx(alone, rel=1e-12)
+    assert evaluation.goals["max_normal_force"] == pytest.approx(max(alone), rel=1e-12)
 
 
 def test_a_scatter_stays_within_what_the_field_allows(folder):
@@ -302,3 +327,11 @@ def test_other_files_are_called_by_their_kind(folder):
     """Authority: the words of `gears study` on the same mistake."""
     with pytest.raises(SceneError, match="is a scene, not a design file; `gears run"):
         load_design(folder / "pair.toml")
+
+
+def test_a_missing_optimiser_is_said_before_anything_is_computed(folder, monkeypatch):
+    """Authority: the words themselves; no run is there."""
+    monkeypatch.setitem(sys.modules, "optuna", None)
+    with pytest.raises(ComputationError, match="needs Optuna and cmaes"):
+        found(write(folder, RIGID + VARIABLES + GOAL + FEWER))
+    assert not (folder / "results").exists()

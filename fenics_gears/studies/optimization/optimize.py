@@ -19,7 +19,7 @@ from fenics_gears.studies.optimization.conditions import samples
 from fenics_gears.studies.optimization.design import Design
 from fenics_gears.studies.optimization.design_file import load_design
 from fenics_gears.studies.optimization.evaluations import Evaluation, Evaluator
-from fenics_gears.studies.optimization.search import front, search
+from fenics_gears.studies.optimization.search import front, optimiser, search
 from fenics_gears.studies.ranks import Alone, Together, ranks
 from fenics_gears.studies.run_study import condense_gears
 from fenics_gears.studies.study import Case
@@ -78,6 +78,7 @@ def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = 
         design = load_design(path)
         directory = output or Path("results") / design.name
         check_writable(directory)
+        optimiser()
         with sole_writer(directory, "runs"), Interruption(progress) as interruption:
             return _run(design, directory, team, interruption, quiet)
 

@@ -17,13 +17,20 @@ from fenics_gears.studies.optimization.evaluations import Evaluation
 Values = dict[str, float | str]
 
 
-def search(design: Design, evaluate: Callable[[Sequence[Values]], list[Evaluation]], report: Callable[[int], None]) -> list[Evaluation]:
-    """All designs that were tried, in their order; ``report`` is told their number before each population. Raises ComputationError without Optuna."""
+def optimiser():
+    """The module of Optuna, silent. Raises ComputationError where it, or the CMA-ES that it uses, cannot be loaded."""
     try:
+        import cmaes  # noqa: F401
         import optuna
     except ImportError as error:
-        raise ComputationError(f"`gears optimize` needs Optuna, which cannot be loaded ({error}). Install it: pip install optuna cmaes.") from error
+        raise ComputationError(f"`gears optimize` needs Optuna and cmaes, which cannot be loaded ({error}). Install them: pip install optuna cmaes.") from error
     optuna.logging.set_verbosity(optuna.logging.ERROR)
+    return optuna
+
+
+def search(design: Design, evaluate: Callable[[Sequence[Values]], list[Evaluation]], report: Callable[[int], None]) -> list[Evaluation]:
+    """All designs that were tried, in their order; ``report`` is told their number before each population. Raises ComputationError without Optuna."""
+    optuna = optimiser()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # that multivariate TPE is new
         study = optuna.create_study(directions=["minimize"] * len(design.goals), sampler=_sampler(optuna, design))
