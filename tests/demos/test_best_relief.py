@@ -7,6 +7,8 @@ import pytest
 from demos.best_relief import compare
 from demos.best_relief.compare import DEPTH, ERROR, LENGTH, compared
 
+pytestmark = pytest.mark.nightly
+
 COARSE = """
 [set]
 accuracy = { flank_element_size = "0.3 mm", contact_length = "2.4 mm", contact_nodes = 9, steps_per_mesh_cycle = 20 }

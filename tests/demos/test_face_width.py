@@ -39,6 +39,7 @@ def test_widths_are_overlap_ratios_at_the_same_load_per_width():
         np.testing.assert_allclose(values, values[0] * np.arange(1, 11), rtol=1e-3)
 
 
+@pytest.mark.nightly
 def test_a_whole_overlap_ratio_has_less_ripple(tmp_path):
     """Authority: the demonstration's own words, on coarse bodies and two widths; table and picture have both."""
     text = widths.STUDY.read_text(encoding="utf-8").replace('"pair.toml"', f'"{widths.STUDY.parent / "pair.toml"}"')

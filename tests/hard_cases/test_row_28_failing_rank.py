@@ -81,6 +81,7 @@ def test_a_killed_rank_loses_nothing_that_was_done(folder, measured, capsys):
     assert load("here").attrs["complete"] == 1
 
 
+@pytest.mark.nightly
 def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, measured):
     """A worker's answer travels to rank 0 as bytes; one that cannot be sent, or is no exception that can be made again, is a failure, not a
     rank waiting for ever."""

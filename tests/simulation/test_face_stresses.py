@@ -112,6 +112,7 @@ def test_picture_shows_stress(mesh):
         assert np.ptp(image.astype(float), axis=2).max() > 60.0
 
 
+@pytest.mark.nightly
 def test_moving_picture_goes_through_the_cycle(stresses, tmp_path, monkeypatch):
     """Frames asked for, of one size, which differ and have the colours of stress."""
     image = pytest.importorskip("PIL.Image")

@@ -130,6 +130,7 @@ def test_times_are_split(report):
     assert report.own.times.median("condense") > 0.0 and "cores" in report.machine["processor"]
 
 
+@pytest.mark.nightly
 def test_times_are_of_every_round(scene, monkeypatch):
     """Authority: identity; levels, whole settings and models are timed in all rounds, and a median is of these."""
     monkeypatch.setattr(reports, "MODELS", (RIGID_TEETH,))

@@ -149,6 +149,7 @@ def test_a_map_is_what_runs_of_its_scenes_give(folder, capsys):
     assert stamps("out/quasi_static") | stamps("out/over_speed") == before
 
 
+@pytest.mark.nightly
 @pytest.mark.ranks
 def test_two_processes_write_the_same_map(folder):
     """Authority: exact identity; who computes a case changes no digit."""

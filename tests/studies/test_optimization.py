@@ -212,6 +212,7 @@ def test_a_killed_search_repeats_nothing(folder):
     assert (again.kept, again.computed, again.best) == (whole.computed, 0, whole.best)
 
 
+@pytest.mark.nightly
 @pytest.mark.ranks
 def test_any_number_of_processes_gives_the_same_result(folder):
     """Authority: exact identity with one process."""

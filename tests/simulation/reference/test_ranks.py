@@ -33,7 +33,7 @@ def scene_file(tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("ranks", [pytest.param(number, marks=pytest.mark.nightly) for number in (2, 3)])
 def test_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch, ranks):
     """Which process condenses a position changes nothing but, with its number of threads, round-off; and only rank 0 writes."""
     monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))

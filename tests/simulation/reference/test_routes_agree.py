@@ -33,6 +33,7 @@ def test_routes_agree_at_the_papers_resolution(case, element, paper_cases, both_
     assert peak_to_peak < 0.03
 
 
+@pytest.mark.nightly
 def test_routes_approach_each_other(paper_cases, both_routes):
     """Other method: with the same arms of the normal forces nothing but discretisation is between the routes, of order one at least."""
     sizes = (0.16, 0.08)
