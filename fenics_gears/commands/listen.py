@@ -43,7 +43,7 @@ def listen(options: argparse.Namespace) -> int:
     try:
         heard = sound(result, options.curve, options.seconds, full_scale)
     except ValueError as error:
-        raise SceneError(f"--curve {options.curve}: {error} in this run, so there is nothing to hear.") from None
+        raise SceneError(f"--curve {options.curve}: {error} in this run, so there is nothing to hear. A quasi-static run without friction has a constant force; its transmission error is heard with --curve transmission_error.") from None
     print_files([write_whole(output, lambda path: save_sound(heard, path))], options.quiet)
     if not options.quiet:
         print(f"full scale {heard.full_scale:.4g} {result[options.curve].attrs['units']}")

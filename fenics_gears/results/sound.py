@@ -21,6 +21,8 @@ LOWEST_HEARD = 20.0
 FADE = 0.02
 # The loudest sample in parts of what the file can hold.
 HEADROOM = 0.9
+# A fluctuation of so small a part of the curve is round-off.
+ROUND_OFF = 1e-9
 _FULL = 2**15 - 1
 
 
@@ -42,7 +44,7 @@ def sound(result: xr.Dataset, name: str, seconds: float, full_scale: float | Non
     steady = bool(np.ptp(speed) < 1e-6 * speed.max())
     heard = of_settled(result)[name] if steady else result[name]
     time, values = heard["time"].values, heard.values - heard.values[:-1].mean()
-    if not np.ptp(values) > 0.0:
+    if not np.ptp(values) > ROUND_OFF * np.abs(heard.values).max():
         raise ValueError("does not fluctuate")
     samples = _samples(time - time[0], values, seconds if steady else None)
     fade = np.minimum(np.arange(len(samples)) / (FADE * SAMPLE_RATE), 1.0)

@@ -95,7 +95,7 @@ def test_wrong_calls_write_nothing(tmp_path, capsys, options, said):
 
 def test_silence_and_what_is_too_slow_are_refused(tmp_path, capsys):
     """The interface: a constant curve has no sound; a run without a speed has one mesh cycle a second."""
-    results.save(steady((MESH, 0.0)), tmp_path / "run.nc")
+    results.save(steady((MESH, 1e-7)), tmp_path / "run.nc")
     assert main(["listen", str(tmp_path)]) == 2 and "does not fluctuate" in capsys.readouterr().err
     slow = steady((MESH, 100.0))
     slow["time"] = ("time", slow.time.values * MESH, {"units": "s"})
