@@ -48,9 +48,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def draw_map(options: argparse.Namespace) -> int:
     """Run what is missing of a map and draw it."""
     if options.processes is not None:
-        directory = ["--output", str(options.output)] if options.output is not None else []
         values = [word for name in ("loads", "speeds") if getattr(options, name) for word in (f"--{name}", *getattr(options, name))]
-        return under_mpirun(options, ["map", str(options.scene), *values, *directory, "--most-runs", str(options.most_runs)])
+        return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])
     from fenics_gears.studies.ranks import ranks
 
     with ranks() as team:

@@ -22,8 +22,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def optimize(options: argparse.Namespace) -> int:
     """Search, write and draw."""
     if options.processes is not None:
-        directory = ["--output", str(options.output)] if options.output is not None else []
-        return under_mpirun(options, ["optimize", str(options.design), *directory])
+        return under_mpirun(options, ["optimize", str(options.design)])
     from fenics_gears.studies.optimization.optimize import optimize
     from fenics_gears.studies.optimization.result import write_result
 

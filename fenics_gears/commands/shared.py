@@ -52,14 +52,16 @@ def add_processes_argument(command) -> None:
 
 
 def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
-    """The command of these arguments under mpirun, which finds its settings (as root, say) in the environment that `prepare` has completed."""
+    """The command of these arguments under mpirun, with --output and --quiet as they are; it finds its settings (as root, say) in the environment that `prepare` has completed."""
     mpirun = shutil.which("mpirun")
     if mpirun is None:
         raise SceneError("There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run alone.")
     command = [mpirun, "-n", str(options.processes)]
     if options.processes > (os.cpu_count() or 1):
         command.append("--oversubscribe")
-    command += [sys.executable, "-m", "fenics_gears", *arguments, *(["--quiet"] if options.quiet else [])]
+    command += [sys.executable, "-m", "fenics_gears", *arguments]
+    command += ["--output", str(options.output)] if options.output is not None else []
+    command += ["--quiet"] if options.quiet else []
     running = subprocess.Popen(command)
     try:
         return running.wait()

@@ -23,8 +23,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def study(options: argparse.Namespace) -> int:
     """Run a study."""
     if options.processes is not None:
-        directory = ["--output", str(options.output)] if options.output is not None else []
-        return under_mpirun(options, ["study", str(options.study), *directory])
+        return under_mpirun(options, ["study", str(options.study)])
     from fenics_gears.studies.run_study import run_study
     from fenics_gears.studies.summary import last_words, summary_rows
 
