@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import asin, cos, pi, sin, tan
+from math import pi, tan
 
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.tooth_thickness import base_helix_angle
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ class Operation:
     @property
     def base_helix_angle(self) -> float:
         """beta_b, rad."""
-        return asin(sin(self.helix_angle) * cos(self.pair.pinion.normal_pressure_angle))
+        return base_helix_angle(self.pair.pinion)
 
     @cached_property
     def single_stiffness(self) -> float:

@@ -10,7 +10,7 @@ from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.flank import elasticity_factor, flank_stress, single_pair_factors, zone_factor
 from fenics_gears.rating.load_factors import LoadFactors, contact_ratio_factor, load_factors
 from fenics_gears.rating.operation import Operation, solid_reduced_mass
-from fenics_gears.rating.root import helix_angle_factor, root_stresses, tooth_form
+from fenics_gears.rating.root import form_at_outer_point, helix_angle_factor, root_stresses
 from fenics_gears.scene.data import GearData, GearPairData, Material
 
 STEEL = Material(206e3, 0.3)
@@ -63,7 +63,7 @@ def test_factors_of_another_program(data, printed):
     found = operation(data, 200e3, 1500.0)
     assert (zone_factor(found), contact_ratio_factor(found), helix_angle_factor(found)) == pytest.approx((printed["Z_H"], printed["Z_eps"], printed["Y_beta"]), abs=1.1e-3)
     for number, gear in enumerate((found.pair.pinion, found.pair.wheel)):
-        tooth = tooth_form(gear, found.pair.contact_ratio)
+        tooth = form_at_outer_point(gear, found.pair.contact_ratio)
         assert (tooth.form, tooth.stress_correction) == pytest.approx((printed["Y_F"][number], printed["Y_S"][number]), abs=1.1e-3)
 
 
