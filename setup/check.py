@@ -9,10 +9,10 @@ import sys
 # VTK stands before DOLFINx: DOLFINx 0.5 loaded first aborts VTK 9.7 (clash of std::regex symbols).
 NEEDED = (
     "tomllib", "vtkmodules.vtkRenderingOpenGL2", "pyvista", "dolfinx", "petsc4py.PETSc", "mpi4py.MPI", "gmsh",
-    "numpy", "scipy", "cvxopt", "numba", "h5py", "h5netcdf", "xarray", "pydantic", "rich", "platformdirs",
+    "numpy", "scipy", "cvxopt", "numba", "h5py", "xarray", "pydantic", "rich", "platformdirs",
     "matplotlib", "threadpoolctl", "jinja2", "plotly", "optuna", "cmaes",
 )
-NEEDED_BY_TESTS = ("pytest", "pytest_benchmark", "xdist", "hypothesis", "sphinx", "myst_parser", "furo")
+NEEDED_BY_TESTS = ("h5netcdf", "pytest", "pytest_benchmark", "xdist", "hypothesis", "sphinx", "myst_parser", "furo")
 
 
 def lacking(names):

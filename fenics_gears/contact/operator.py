@@ -23,11 +23,11 @@ from fenics_gears.geometry.pair import GearPair
 if TYPE_CHECKING:
     from fenics_gears.contact.face import Face
 
-# The seven centre coordinates q of the model. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
+# The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
 # coordinate is a length and every row a force, and no equation is scaled against another. The output shaft's end goes by its
 # twist rb2 (phi3 - phi2): as the difference of two rotations the twist of a stiff shaft would be lost in round-off.
 CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_twist")
-# Those of gears that also move along their axes and tilt; tilts are carried as arc lengths, rb theta.
+# Six more of gears that also move along their axes and tilt; tilts are carried as arc lengths, rb theta.
 FACE_COORDINATES = ("axial_1", "tilt_x1", "tilt_y1", "axial_2", "tilt_x2", "tilt_y2")
 COORDINATES = CENTRE_COORDINATES + FACE_COORDINATES
 

@@ -40,7 +40,7 @@ class Motion:
 
     @classmethod
     def of(cls, drivetrain: Drivetrain, method: int, friction: float, tolerance: Tolerance) -> Motion:
-        """That of a drivetrain."""
+        """The motion of a drivetrain by a method of time stepping, with its matrices as compiled code takes them."""
         nothing = np.zeros_like(drivetrain.stiffness)
         mass, damping = (nothing if matrix is None else np.ascontiguousarray(matrix) for matrix in (drivetrain.mass, drivetrain.damping))
         free = drivetrain.free_motion if method == STATIC else np.empty(0)

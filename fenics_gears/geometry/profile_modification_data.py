@@ -15,7 +15,7 @@ class ProfileModification:
 
 @dataclass(frozen=True)
 class ProfileModifications:
-    """Those of the pair; a gear without has None."""
+    """Profile modification of either gear; None for a gear that has none."""
 
     pinion: ProfileModification | None = None
     wheel: ProfileModification | None = None

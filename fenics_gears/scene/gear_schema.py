@@ -1,4 +1,4 @@
-"""``[gears]`` and the sections below it: what a drawing of the pair says. What it leaves out is derived (``geometry.drawing``)."""
+"""``[gears]`` and the sections below it: what a drawing of the pair says. What it leaves out is derived (``scene.drawing``)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """A stored run for charts, pictures and the report: the cycles shown, curves of tooth pairs, contact fields.
 
-Only this module of ``show`` knows the layout of a result (docs/result.md).
+What `contact_pattern`, `line_load` and `loaded_contact` do not read by themselves of the layout of a result (docs/result.md) is read here.
 """
 
 from __future__ import annotations

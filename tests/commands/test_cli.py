@@ -79,7 +79,7 @@ def files(directory):
 
 
 def test_a_run_writes_its_result_and_pictures(simulation, capsys, tmp_path):
-    """Authority: design.md; the directory defaults to results/<name of the scene file>."""
+    """Authority: docs/promises.md; the directory defaults to results/<name of the scene file>."""
     assert main(["run", str(DEMO)]) == 0
     assert files(tmp_path) == ["results/lundvall2004/run.nc", "results/lundvall2004/transmission_error.png"]
     assert results.load(tmp_path / "results/lundvall2004/run.nc").attrs["complete"] == 1
@@ -186,7 +186,7 @@ def test_pictures_of_a_study_are_those_of_its_report(simulation, capsys, tmp_pat
 
 
 def test_ctrl_c_keeps_what_was_done(simulation, capsys, tmp_path):
-    """Authority: design.md; marked incomplete, exit code 130."""
+    """Authority: docs/promises.md; marked incomplete, exit code 130."""
     simulation.outcome = small_result(complete=0)
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 0
@@ -248,7 +248,7 @@ def test_ctrl_c_while_the_result_is_written_does_not_lose_it(simulation, monkeyp
 
 
 def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_path):
-    """Authority: design.md; there is nothing to keep."""
+    """Authority: docs/promises.md; there is nothing to keep."""
     simulation.outcome = KeyboardInterrupt()
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     assert files(tmp_path) == []
@@ -256,7 +256,7 @@ def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_pat
 
 
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
-    """Authority: design.md; a run without a step is kept, marked incomplete, and not summed up as if it had some."""
+    """Authority: docs/promises.md; a run without a step is kept, marked incomplete, and not summed up as if it had some."""
     simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     output = capsys.readouterr()
@@ -266,7 +266,7 @@ def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path)
 
 @pytest.mark.parametrize("partial", [True, False])
 def test_a_failed_computation_keeps_what_was_done(simulation, capsys, tmp_path, partial):
-    """Authority: design.md; exit code 3, what was done is kept, marked incomplete."""
+    """Authority: docs/promises.md; exit code 3, what was done is kept, marked incomplete."""
     simulation.outcome = ComputationError("no convergence in step 17")
     simulation.outcome.partial = small_result(complete=0) if partial else None
     assert main(["run", str(DEMO), "--output", "here"]) == 3
@@ -285,7 +285,7 @@ def test_a_failed_computation_keeps_what_was_done(simulation, capsys, tmp_path, 
     ],
 )
 def test_impossible_gears_are_refused_before_anything_is_computed_or_written(simulation, capsys, tmp_path, old, new, fragments):
-    """Authority: design.md; exit code 2, the file is named, nothing written."""
+    """Authority: docs/promises.md; exit code 2, the file is named, nothing written."""
     text = DEMO.read_text(encoding="utf-8")
     assert old in text
     Path("pair.toml").write_text(text.replace(old, new), encoding="utf-8")
@@ -324,7 +324,7 @@ def test_a_result_that_cannot_be_written_leaves_the_old_one(simulation, monkeypa
 
 
 def test_plot_draws_a_run_again(simulation, capsys, tmp_path):
-    """Authority: design.md; RUN is the directory or the file."""
+    """Authority: docs/promises.md; RUN is the directory or the file."""
     main(["run", str(DEMO), "--output", "here", "--quiet"])
     for run in ("here", "here/run.nc"):
         Path("here/transmission_error.png").unlink()
@@ -335,7 +335,7 @@ def test_plot_draws_a_run_again(simulation, capsys, tmp_path):
 
 @pytest.mark.parametrize("content", [None, b"no result"])
 def test_plot_of_something_else_is_refused(simulation, capsys, tmp_path, content):
-    """Authority: design.md; exit code 2 for a wrong call."""
+    """Authority: docs/promises.md; exit code 2 for a wrong call."""
     if content is not None:
         Path("run.nc").write_bytes(content)
     assert main(["plot", "run.nc"]) == 2
@@ -343,7 +343,7 @@ def test_plot_of_something_else_is_refused(simulation, capsys, tmp_path, content
 
 
 def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, capsys, tmp_path):
-    """Authority: the values the paper prints (model.md, section 1); design.md, effects on and off with what each adds."""
+    """Authority: the values the paper prints (model.md, section 1); docs/promises.md, effects on and off with what each adds."""
     assert main(["check", str(DEMO)]) == 0
     output = capsys.readouterr().out
     for printed in ("22.44 deg", "13.28 mm", "1.47", "29.61 deg", "27.64 deg", "20.95 mm"):
@@ -360,7 +360,7 @@ def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, ca
 
 @pytest.mark.parametrize("arguments", [[], ["measure", "x.toml"], ["study"], ["run"], ["run", "x.toml", "--fast"], ["run", "x.toml", "-v", "-q"]])
 def test_a_wrong_call_has_exit_code_2(arguments, capsys):
-    """Authority: design.md's exit codes; commands that come later are not offered."""
+    """Authority: docs/promises.md's exit codes; commands that come later are not offered."""
     with pytest.raises(SystemExit) as leaving:
         main(arguments)
     assert leaving.value.code == 2
@@ -389,7 +389,7 @@ def test_help_loads_neither_numerics_nor_the_schema():
 
 
 def test_the_test_command_runs_pytest_on_the_checkout(tmp_path):
-    """Authority: design.md; options go to pytest, paths count from the checkout."""
+    """Authority: docs/promises.md; options go to pytest, paths count from the checkout."""
     environment = {**os.environ, "PYTHONPATH": str(CHECKOUT)}
     call = [sys.executable, "-m", "fenics_gears", "test", "--collect-only", "-q"]
     run = subprocess.run([*call, "tests/effects/test_list_of_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True)

@@ -153,7 +153,7 @@ def test_what_cannot_stand_beside_it_is_said(change, message):
 
 
 def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_written(tmp_path, capsys):
-    """design.md, exit codes: 2, nothing written; the message leads with the field. A file that is not there; quadrilaterals asked of triangles."""
+    """docs/promises.md, exit codes: 2, nothing written; the message leads with the field. A file that is not there; quadrilaterals asked of triangles."""
     scene = tmp_path / "scene.toml"
     for meshes, words in (
         (f'wheel = "{MESHES / "cracked_pinion.msh"}"', "body_meshes.wheel = "),

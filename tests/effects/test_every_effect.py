@@ -84,7 +84,7 @@ def test_effects_run_together_and_the_result_has_their_variables_and_no_others(s
 
 @pytest.mark.parametrize("section", SECTIONS)
 def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(section, capsys, tmp_path):
-    """Authority: design.md on `gears check`."""
+    """Authority: docs/promises.md on `gears check`."""
     lines = {}
     for state, sections in (("on", with_needs(section)), ("off", ())):
         file = tmp_path / f"{state}.toml"

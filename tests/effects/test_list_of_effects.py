@@ -43,7 +43,7 @@ def test_an_absent_section_takes_its_effect_and_variables_away(section):
 
 
 def test_a_scene_without_effects_is_one():
-    """Authority: design.md; every effect's section may be absent."""
+    """Authority: docs/promises.md; every effect's section may be absent."""
     scene = scene_from_text(without(*SECTIONS))
     assert effects.effects_on(scene) == ()
     assert [getattr(scene, section) for section in SECTIONS] == [None] * len(SECTIONS)
@@ -59,7 +59,7 @@ def test_names_in_the_list_are_consistent():
 
 
 def test_needs_and_conflicts_are_found():
-    """Authority: design.md; damping is that of moving masses. A meshed body's crack would be closed by its coast flanks, and the mesh
+    """Authority: docs/promises.md; damping is that of moving masses. A meshed body's crack would be closed by its coast flanks, and the mesh
     of a plane section has no face."""
     assert effects.missing_needs(["damping"]) == [(effects.effect_named("damping"), "inertia")]
     assert effects.missing_needs(["damping", "inertia"]) == []

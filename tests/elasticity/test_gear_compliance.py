@@ -190,6 +190,6 @@ def test_unreadable_body_mesh_is_refused(content, tmp_path):
 
 
 def test_contact_can_import_the_interface_without_finite_elements():
-    """design.md: the contact core needs no DOLFINx; a run from the cache loads neither it nor gmsh."""
+    """docs/promises.md: the contact core needs no DOLFINx; a run from the cache loads neither it nor gmsh."""
     code = "import sys, fenics_gears.elasticity.gear_compliance; sys.exit(any(m in sys.modules for m in ('dolfinx', 'gmsh', 'petsc4py')))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

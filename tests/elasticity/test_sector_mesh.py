@@ -99,7 +99,7 @@ def test_folded_cell_is_refused():
 
 
 def test_gmsh_leaves_the_interrupt_handler_alone(pinion):
-    """Ctrl-C must keep what was done (design.md); gmsh would replace the handler by the system's."""
+    """Ctrl-C must keep what was done (docs/promises.md); gmsh would replace the handler by the system's."""
     def handler(number, frame):
         raise KeyboardInterrupt
 

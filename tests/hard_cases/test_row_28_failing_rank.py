@@ -1,6 +1,6 @@
 """Row 28: a rank of an MPI study fails. Its case is recorded with the reason, the others finish, nothing hangs, the exit code says so.
 
-Authority throughout: hard case 28 and the exit codes of design.md.
+Authority throughout: hard case 28 and the exit codes of docs/promises.md.
 """
 
 import signal

@@ -82,7 +82,7 @@ def test_what_may_be_radians_is_no_speed(written):
     [("437 N m", "437 N m/rad"), ("200 Hz", "200 rad/s"), ("200 Hz", "200 rpm"), ("1 mm", "1 rad"), ("1 1/s", "1 rad/s")],
 )
 def test_an_angle_is_a_dimension(one, other):
-    """Authority: design.md's units; a torque is no torsional stiffness and a frequency no angular speed."""
+    """Authority: docs/promises.md's units; a torque is no torsional stiffness and a frequency no angular speed."""
     assert quantity(one)[1] != quantity(other)[1]
 
 

@@ -55,7 +55,7 @@ def test_the_demo_has_the_papers_numbers(section, by_hand):
 
 
 def test_the_scene_keeps_its_text_and_name():
-    """Authority: design.md, Result; the scene's text goes into the result, its file's name names the directory."""
+    """Authority: docs/promises.md, Result; the scene's text goes into the result, its file's name names the directory."""
     scene = load_scene(DEMO_FILE)
     assert (scene.text, scene.name, scene.title) == (DEMO, "lundvall2004", "Lundvall, Strömberg, Klarbring 2004")
     assert scene.tip_relief is None
@@ -63,7 +63,7 @@ def test_the_scene_keeps_its_text_and_name():
 
 
 def test_the_speed_of_the_pinion_gives_the_mesh_frequency():
-    """Authority: identity, mesh frequency = teeth * turns a second; 16 * 750/60 = 200 Hz (design.md's own pair of values)."""
+    """Authority: identity, mesh frequency = teeth * turns a second; 16 * 750/60 = 200 Hz (docs/promises.md's own pair of values)."""
     scene = scene_from_text(DEMO.replace('mesh_frequency = "200 Hz"', 'pinion_speed = "750 rpm"'))
     assert scene.motion.mesh_frequency == pytest.approx(200.0, rel=ROUND_OFF)
 
@@ -104,12 +104,12 @@ def test_other_units_give_the_same_scene():
     ],
 )
 def test_relief_of_both_gears_and_of_one(section, pinion, wheel):
-    """Authority: design.md; [tip_relief] speaks of both gears, its subsections of one."""
+    """Authority: docs/promises.md; [tip_relief] speaks of both gears, its subsections of one."""
     assert scene_from_text(f"{DEMO}\n[tip_relief]\n{section}\n").tip_relief == TipRelief(pinion, wheel)
 
 
 def test_what_is_left_out_has_its_default():
-    """Authority: design.md; rack tip radius 0.38 modules, two cycles recorded (as many as there are), accuracy from the scene."""
+    """Authority: docs/promises.md; rack tip radius 0.38 modules, two cycles recorded (as many as there are), accuracy from the scene."""
     text = DEMO[: DEMO.index("[accuracy]")].replace("recorded_cycles = 2\n", "")
     scene = scene_from_text(text, "pair")
     assert scene.accuracy == data.Accuracy()

@@ -64,7 +64,7 @@ def test_nodes_beyond_the_flank_bound_no_cell():
 
 
 def test_labels_and_units():
-    """Authority: design.md, units on every axis."""
+    """Authority: docs/promises.md, units on every axis."""
     figure = contact_pressure(made_up_run())
     flank, bar = figure.get_axes()
     assert "Roll angle on the pinion's flank (deg)" in words(flank)

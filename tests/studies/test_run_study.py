@@ -189,7 +189,7 @@ def stopped_in_the_middle(folder, study, how, ranks=0):
 
 
 def test_ctrl_c_keeps_what_is_done(folder):
-    """Authority: design.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched: this process has no mpi4py."""
+    """Authority: docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched: this process has no mpi4py."""
     study = write_study(folder, FIVE)
     ended = stopped_in_the_middle(folder, study, signal.SIGINT)
     assert ended.returncode == 130 and "Interrupted. What was done is kept" in ended.stderr and "Traceback" not in ended.stderr

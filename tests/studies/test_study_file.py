@@ -64,7 +64,7 @@ def test_dotted_names_may_be_bare_quoted_or_tables(folder, spelling):
 
 
 def test_a_field_called_start_is_no_range(folder):
-    """Authority: design.md, where tip relief has a field of that name."""
+    """Authority: docs/promises.md, where tip relief has a field of that name."""
     study = swept(folder, 'tip_relief.depth = ["10 um"]\ntip_relief.start = ["HPSTC", "29.61 deg"]')
     assert [case.scene.tip_relief.pinion.start_roll_angle for case in study.cases] == [None, pytest.approx(np.radians(29.61))]
 

@@ -21,7 +21,7 @@ ORDERS = {
     SLICES: (2.0, "the mean over a slice in place of each point in it: h^2"),
     LAYERS: (2.0, "elements of second order whose stress is unbounded at the ends of the face: about h^2"),
 }
-# The rung below: no face at all.
+# The coarsest model in the table: plane strain, without a face.
 PLANE = "plane"
 
 

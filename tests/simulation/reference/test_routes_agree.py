@@ -61,7 +61,7 @@ def test_published_method_solves_every_step(paper_cases, both_routes):
 
 
 def test_result_is_labelled_and_complete(paper_cases, both_routes):
-    """design.md: the same dataset by either route, which says by which."""
+    """docs/promises.md: the same dataset by either route, which says by which."""
     fast, reference = both_routes(paper_cases["static"])
     assert set(fast.data_vars) == set(reference.data_vars)
     assert (fast.attrs["condensation"], reference.attrs["condensation"]) == ("once", "every step")
