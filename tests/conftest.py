@@ -25,14 +25,30 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene
 
-# The suite draws the same examples on every run, so that a failure is the change's; `--hypothesis-profile explore` draws new ones.
+# By day the suite draws the same examples on every run, so that a failure is the change's; by night the same tests draw new ones.
 # Strategies that draw valid gears refuse many drawings on the way, and the first example may wait for a compiler.
 PATIENT = [HealthCheck.filter_too_much, HealthCheck.too_slow]
 settings.register_profile("suite", derandomize=True, deadline=None, suppress_health_check=PATIENT)
-settings.register_profile("explore", deadline=None, suppress_health_check=PATIENT)
+settings.register_profile("explore", deadline=None, suppress_health_check=PATIENT, print_blob=True)
 settings.load_profile("suite")
 
+NIGHT = "nightly"
 DEMOS = Path(__file__).parents[1] / "demos"
+
+
+def pytest_configure(config):
+    """New examples by night."""
+    if config.option.markexpr == NIGHT:
+        settings.load_profile("explore")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """Tests of drawn examples run by day and by night."""
+    if config.option.markexpr == NIGHT:
+        for item in items:
+            if getattr(item.obj, "is_hypothesis_test", False):
+                item.add_marker(NIGHT)
 
 
 def pytest_unconfigure():

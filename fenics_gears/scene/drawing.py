@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from math import cos, degrees, tan
+from math import cos, tan
 from typing import Any
 
 from fenics_gears.effects.effect import same_names
@@ -207,7 +207,7 @@ def _gear_data(pair: Gears, drawn: GearText, name: str, shift: float, cut: float
     if root is None:
         root = reference + 2.0 * pair.module * (cut - (standard[1] if dedendum is None else dedendum))
         found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
-    beyond, angle = _protuberance(pair, drawn, name)
+    beyond, angle = _protuberance(pair, drawn)
     if radius is None:
         radius = min(standard[2], tip_radius_with_room(replace(_rack_gear(pair, drawn.teeth, cut, root), protuberance=beyond)))
         why = f"what has room on the rack's tip, less than the usual {standard[2]:g}" if radius < standard[2] else "that of the rack"
@@ -228,23 +228,12 @@ def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
     return None
 
 
-def _protuberance(pair: Gears, own: GearText, name: str) -> tuple[float, float]:
-    """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both. Raises GeometryError."""
+def _protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
+    """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both."""
     sections = [each for each in (own.rack, pair.rack) if each is not None]
     amount, angle, stock = (
         next((float(getattr(each, field)) for each in sections if getattr(each, field) is not None), None) for field in ("protuberance", "protuberance_angle", "finishing_stock")
     )
-    home = f"gears.{name}.rack" if own.rack is not None and own.rack.protuberance is not None else "gears.rack"
-    if (stock or 0.0) > (amount or 0.0):
-        refuse(
-            name,
-            f"{home}.finishing_stock = {stock:.4g} mm is more than {home}.protuberance = {amount or 0.0:.4g} mm: finishing would leave a step in the root; "
-            "allowed is as much as the protuberance: raise protuberance or lower finishing_stock",
-        )
-    if angle is not None and not amount:
-        refuse(name, f"{home}.protuberance_angle = {degrees(angle):.4g} deg has no meaning without {home}.protuberance: give it, or leave both out")
-    if angle is not None and angle >= pair.pressure_angle:
-        refuse(name, f"{home}.protuberance_angle = {degrees(angle):.4g} deg must be less than gears.pressure_angle = {degrees(pair.pressure_angle):.4g} deg: lower it")
     beyond = (amount or 0.0) - (stock or 0.0)
     return beyond, (0.5 * float(pair.pressure_angle) if angle is None else angle) if beyond else 0.0
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, LOADS, Tree, table, value_at
+from fenics_gears.inputs.tree import GEARS, LOADS, Tree, quantity_at, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.gear_schema import MEASURES, Gear
 from fenics_gears.scene.schema import Load
@@ -57,6 +57,33 @@ def _no_figure_is_given_twice(tree: Tree) -> Iterator[Problem]:
                 yield Problem(("gears", gear, "rack", name), as_written(rack[name]), f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out.")
 
 
+def _protuberance_is_more_than_the_stock(tree: Tree) -> Iterator[Problem]:
+    """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root; the angle belongs to a protuberance."""
+    gears = table(tree, "gears") or {}
+    found, pressure_angle = {}, quantity_at(tree, "gears", "pressure_angle")
+    for gear in GEARS:
+        amount, stock, angle = (_of_rack(gears, gear, name) for name in ("protuberance", "finishing_stock", "protuberance_angle"))
+        cut = amount[1] if amount else 0.0
+        if stock and stock[1] > cut:
+            message = f"is more than the protuberance of the {gear}'s rack, {cut:.4g} mm: finishing would leave a step in the root."
+            found[stock[0]] = f"{message} Allowed: up to {cut:.4g} mm. Raise protuberance, or lower finishing_stock."
+        if angle and not cut:
+            found[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
+        elif angle and pressure_angle and angle[1] >= pressure_angle:
+            found[angle[0]] = f"must be less than gears.pressure_angle = {gears['pressure_angle']}. Lower it."
+    for path, message in found.items():
+        yield Problem(path, as_written(value_at(tree, *path)), message)
+
+
+def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:
+    """Where a quantity of a gear's rack is written, in the gear's own section first, and its number; None where it is not."""
+    for path in ((gear, "rack", figure), ("rack", figure)):
+        number = quantity_at(gears, *path)
+        if number is not None:
+            return ("gears", *path), number
+    return None
+
+
 def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
     """One of torque on the wheel, torque on the pinion and power; a power has a steady speed."""
     load, motion = table(tree, "load"), tree.get("motion", {})
@@ -76,4 +103,4 @@ def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
         yield Problem(("load", "power"), written, "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque.")
 
 
-DRAWING_RULES = (_thickness_is_given_once, _backlash_has_its_place, _no_figure_is_given_twice, _load_is_given_once)
+DRAWING_RULES = (_thickness_is_given_once, _backlash_has_its_place, _no_figure_is_given_twice, _protuberance_is_more_than_the_stock, _load_is_given_once)

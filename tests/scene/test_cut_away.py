@@ -67,10 +67,10 @@ def test_the_chamfer_is_the_gear_s():
 @pytest.mark.parametrize(
     ("rack", "said"),
     [
-        ('[gears.rack]\nfinishing_stock = "0.1 mm"', "gears.rack.finishing_stock = 0.1 mm is more than gears.rack.protuberance = 0 mm"),
-        (RACK.replace("0.1 mm", "0.2 mm"), "finishing_stock = 0.2 mm is more than gears.rack.protuberance = 0.15 mm"),
-        ('[gears.rack]\nprotuberance_angle = "10 deg"', "has no meaning without gears.rack.protuberance"),
-        (RACK + 'protuberance_angle = "25 deg"', "protuberance_angle = 25 deg must be less than gears.pressure_angle = 20 deg"),
+        ('[gears.rack]\nfinishing_stock = "0.1 mm"', 'gears.rack.finishing_stock = "0.1 mm"\n    is more than the protuberance of the wheel\'s rack, 0 mm'),
+        (RACK.replace("0.1 mm", "0.2 mm"), 'finishing_stock = "0.2 mm"\n    is more than the protuberance of the wheel\'s rack, 0.15 mm'),
+        ('[gears.rack]\nprotuberance_angle = "10 deg"', 'protuberance_angle = "10 deg"\n    has no meaning without a protuberance'),
+        (RACK + 'protuberance_angle = "25 deg"', "must be less than gears.pressure_angle = 20 deg"),
     ],
 )
 def test_a_protuberance_that_cannot_be_is_refused(rack, said):
