@@ -1,4 +1,4 @@
-"""What the pages tell a reader to type works: Python runs, scenes and studies are valid, commands are the program's."""
+"""What the pages tell a reader to type works: Python runs, scenes and studies are valid, commands are the program's, and the README's numbers are those of its runs."""
 
 import contextlib
 import doctest
@@ -14,8 +14,11 @@ import pytest
 from tests.docs.blocks import PAGES, ROOT, blocks, in_text, name_of
 from tests.docs.commands_page import commands, parser
 
+from fenics_gears import results
 from fenics_gears.inputs.written import as_toml
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.optimization.design_file import load_design
 from fenics_gears.studies.study_file import load_study
 
@@ -27,6 +30,7 @@ DEMO = (ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 # What stands for a number or a word in the pages' commands.
 STAND_FOR = {"N": "2", "SECONDS": "2", "PHASE": "0.25", "TORQUE": "437 N m", "SPEED": "750 rpm"}
 STARTERS = ("mpirun", "srun")
+README = ROOT / "README.md"
 
 
 def holding(language):
@@ -160,3 +164,42 @@ def test_modules_and_scripts_that_a_page_names_are_there(page):
     for script in re.findall(r"^(?:\./)?((?!docs/_build)(?:demos|docs|setup)/[a-z0-9_/]+)(?=\s|$)", everything, re.M):
         path = ROOT / script
         assert path.is_dir() or os.access(path, os.X_OK), script
+
+
+@pytest.fixture(scope="module")
+def first_run(readers_folder):
+    """The result of the first command."""
+    return results.load(readers_folder / "results" / "lundvall2004" / "run.nc")
+
+
+def micrometres(result):
+    """Peak-to-peak transmission error on the wheel's base circle, um."""
+    return 1e3 * result.attrs["base_radius_wheel"] * result.attrs["peak_to_peak_transmission_error"]
+
+
+def test_the_summary_is_as_shown(first_run):
+    """Authority: the README; its lines are those of the run, with numbers as meshes of other gmsh versions give them."""
+    shown = next(block.code for block in blocks(README) if block.language == "text").splitlines()
+    assert shown[0] == first_run.attrs["title"]
+    rows = {label: value for label, value, _ in summary_rows(first_run)}
+    lines = [re.split(r"\s{2,}", line.strip()) for line in shown[1:] if line.strip() != "..."]
+    assert len(lines) >= 3
+    for label, value in lines:
+        numbers = [[float(number) for number in re.findall(r"\d+\.?\d*", text)] for text in (value, rows[label])]
+        assert numbers[0] == pytest.approx(numbers[1], rel=5e-3)
+
+
+def test_the_four_pictures_are_there(readers_folder):
+    """Authority: the README."""
+    assert "and four pictures are in" in README.read_text(encoding="utf-8")
+    assert len(list((readers_folder / "results" / "lundvall2004").glob("*.png"))) == 4
+
+
+def test_tip_relief_does_what_the_readme_says(first_run):
+    """Authority: the README's two numbers; the scene with what it tells to append."""
+    text = README.read_text(encoding="utf-8")
+    before, after = (float(number) for number in re.search(r"falls from ([\d.]+) to ([\d.]+) um", text).groups())
+    appended = next(block.code for block in blocks(README) if block.language == "toml")
+    relieved = simulate(scene_from_text(DEMO + "\n" + appended, "mine"))
+    assert micrometres(first_run) == pytest.approx(before, rel=5e-3)
+    assert micrometres(relieved) == pytest.approx(after, rel=1e-2)

@@ -50,8 +50,13 @@ def test_files_are_read_as_another_program_reads_them():
                 expected = opened.load()
             assert found.identical(expected) and list(found.variables) == list(expected.variables) and list(found.attrs) == list(expected.attrs)
             for name, each in found.variables.items():
-                assert each.dtype == expected[name].dtype
+                assert _kind(each.dtype) == _kind(expected[name].dtype)
                 assert {key: type(value) for key, value in each.attrs.items()} == {key: type(value) for key, value in expected[name].attrs.items()}
+
+
+def _kind(type_of_values: np.dtype):
+    """A type; all types of text alike, since xarray reads texts as objects or as characters, by its version."""
+    return "text" if type_of_values.kind in "OU" else type_of_values
 
 
 def test_a_file_made_on_disk_is_the_one_made_in_memory(monkeypatch):
