@@ -11,7 +11,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.errors import ComputationError
-from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
@@ -61,13 +61,9 @@ def simulate(
 def memory_for_operators(model: Model, ranks: int = 1) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without keeping any."""
     allowed, cost = allowed_memory(), expected_cost(model, ranks)
-    held = cost.memory - cost.operators
-    if held > allowed:
-        raise ComputationError(
-            f"The run would take {held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB are allowed. Nothing was computed. "
-            "Larger flank elements and fewer mesh cycles take less; `--memory` or FENICS_GEARS_MEMORY allow more."
-        )
-    return allowed - held
+    if said := too_large(model, cost, allowed):
+        raise ComputationError(said)
+    return allowed - cost.held
 
 
 def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):

@@ -57,4 +57,4 @@ def on_terminal_of_its_own(environment=os.environ):
 def _largest(environment, names):
     # Slurm counts by machine, "4(x2),3": four on each of two, three on another.
     counts = re.findall(r"\d+", re.sub(r"\(x\d+\)", "", ",".join(environment.get(name, "") for name in names)))
-    return max(1, *map(int, counts))
+    return max([1, *map(int, counts)])

@@ -15,7 +15,7 @@ from tests.system.failing_rank import WORDS
 
 pytestmark = pytest.mark.ranks
 
-PLANE = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 1 ").partition("[accuracy]")[0] + ACCURACY
+PLANE = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0] + ACCURACY
 EVERY_STEP = PLANE.replace("steps_per_mesh_cycle = 20", 'steps_per_mesh_cycle = 2\ncondensation = "every step"')
 FACE = (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").partition("[accuracy]")[0] + (
     '[accuracy]\nflank_element_size = "0.6 mm"\nbody_element_size = "9 mm"\nlayers = 1\nslices = 2\ncontact_length = "3 mm"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4\n'
@@ -69,10 +69,10 @@ def ended(folder: Path, command: str, stage: str, rank: int, how: str, *more: st
         (folder / name).write_text(text, encoding="utf-8")
     comes = rank if stage in SHARED else 0
     call = [*mpirun(2), sys.executable, "-m", "tests.system.failing_rank", stage, str(comes), how, str(rank), *arguments, *more, "--output", "here"]
-    done = subprocess.run(call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120)
+    done = subprocess.run(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": str(folder)}, capture_output=True, text=True, timeout=240)
     over = time.time()
     processes = [Path("/proc", file.read_text()) for file in folder.glob("process.*")]
-    assert len(processes) == 2
+    assert len(processes) == 2 and (folder / "failed").exists(), done.stderr
     while any(each.exists() for each in processes) and time.time() < over + 20.0:
         time.sleep(0.1)
     return End(done.returncode, done.stderr, over - (folder / "failed").stat().st_mtime, [int(each.name) for each in processes if each.exists()])
