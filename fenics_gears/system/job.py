@@ -92,7 +92,7 @@ class Job:
             if request is END:
                 return
             with contextlib.suppress(GearsError):  # rank 0 has it too
-                self._carried_out(*request, {})
+                self._carried_out(request[0], request[1], {})
 
     def _carried_out(self, work: Callable[..., Any], arguments: tuple, here: dict[str, Any]) -> list[Any]:
         error, outcome = None, None
