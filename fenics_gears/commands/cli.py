@@ -1,7 +1,7 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
 Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are kept,
-marked incomplete), 4 the run ended with a result that has no meaning (it is kept, with the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the
+marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the
 program that reads the output closed the pipe.
 """
 
@@ -75,7 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="gears",
         description="Spur and helical gear pairs as flexible multi-body systems with frictional contact.",
-        epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed, 4 result without meaning, 130 interrupted, 141 output closed.",
+        epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed or cannot fit, 4 result without meaning, 130 interrupted, 141 output closed.",
         parents=[shared],
     )
     parser.set_defaults(verbose=False, quiet=False)

@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace, team) -> int:
     directory, outcomes = options.output or Path("results") / f"{scene.name}_map", {}
     studies = wanted.studies
     if not options.quiet:
-        print(f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core.", file=sys.stderr, flush=True)
+        print(f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core of an idle machine.", file=sys.stderr, flush=True)
     for name, study in studies.items():
         outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
         if not options.quiet:

@@ -14,6 +14,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("optimize", parents=[shared], help="search the best modification of a pair over loads and tolerances, alone or under mpirun; a stopped search is continued")
     command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the design file>)")
+    command.add_argument("-y", "--yes", action="store_true", help="start whatever time is expected (else: refused where it is more than 8 h)")
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=optimize)
@@ -22,12 +23,12 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def optimize(options: argparse.Namespace) -> int:
     """Search, write and draw."""
     if options.processes is not None:
-        return under_mpirun(options, ["optimize", str(options.design)])
+        return under_mpirun(options, ["optimize", str(options.design), *(["--yes"] if options.yes else [])])
     from fenics_gears.studies.optimization.optimize import optimize
     from fenics_gears.studies.optimization.result import write_result
 
     try:
-        outcome = optimize(options.design, options.output, shown_progress(options.quiet), options.quiet)
+        outcome = optimize(options.design, options.output, shown_progress(options.quiet), options.quiet, options.yes)
     except KeyboardInterrupt:
         print("Interrupted. Finished runs are kept; the same command goes on from there.", file=sys.stderr)
         return INTERRUPTED

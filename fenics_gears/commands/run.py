@@ -23,7 +23,7 @@ from fenics_gears.commands.shared import (
 from fenics_gears.errors import ComputationError
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 from fenics_gears.system.interruption import Interruption
-from fenics_gears.system.job import communicator
+from fenics_gears.system.job import Job, led
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -38,14 +38,12 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run a scene."""
-    scene, directory = checked_scene_and_directory(options)
-    # Every rank has now found the scene and the directory right, and none leaves the others waiting.
-    comm = communicator()
-    if comm is not None and comm.rank > 0:
-        from fenics_gears.simulation.simulate import assist
+    return led(lambda job: _run(options, job))
 
-        assist(scene, comm)
-        return 0
+
+def _run(options: argparse.Namespace, job: Job | None) -> int:
+    """The stages of a run, on rank 0."""
+    scene, directory = checked_scene_and_directory(options)
     from fenics_gears.results.journal import Place
     from fenics_gears.studies.simulate import simulate
 
@@ -54,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
     journal = Place(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
         try:
-            dataset = simulate(scene, progress=interruption, comm=comm, journal=journal)
+            dataset = simulate(scene, progress=interruption, job=job, journal=journal)
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
                 # Nothing was done that an earlier result in the directory should give way to.

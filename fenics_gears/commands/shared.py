@@ -42,7 +42,7 @@ def add_memory_argument(command) -> None:
     """The option --memory of a command that runs scenes."""
     command.add_argument(
         "--memory", metavar="SIZE", default=argparse.SUPPRESS, type=_size,
-        help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free, shared by the processes of an MPI job)',
+        help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free, shared by the processes of an MPI job on a machine)',
     )  # fmt: skip
 
 

@@ -31,12 +31,14 @@ def _load_vtk_before_old_dolfinx() -> None:
 
 _load_vtk_before_old_dolfinx()
 
+# Before DOLFINx, which would start PETSc itself.
+from fenics_gears.elasticity.petsc import PETSc  # noqa: E402 I001
+
 import dolfinx  # noqa: E402
 import dolfinx.fem.petsc  # noqa: E402
 import ufl  # noqa: E402
 from dolfinx import fem  # noqa: E402
 from mpi4py import MPI  # noqa: E402
-from petsc4py import PETSc  # noqa: E402
 
 # gmsh numbers the corners of a quadrilateral around it, DOLFINx row by row.
 _CORNER_ORDER = {3: [0, 1, 2], 4: [0, 1, 3, 2]}

@@ -8,9 +8,9 @@ from __future__ import annotations
 import ctypes
 
 import numpy as np
-from petsc4py import PETSc
 from scipy import sparse
 
+from fenics_gears.elasticity.petsc import PETSc
 from fenics_gears.errors import ComputationError
 
 # Right-hand sides solved at once; more take memory and save no time.

@@ -45,8 +45,8 @@ MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
 
 @dataclass(frozen=True)
 class ExpectedCost:
-    """Seconds of condensing (None where nothing is condensed) and of marching; unknowns (words, number) of the gears; how bodies over the face are
-    condensed (words, way).
+    """Seconds of condensing (None where nothing is condensed) and of marching, of which `building` make the contact operators; unknowns (words, number)
+    of the gears; how bodies over the face are condensed (words, way).
 
     Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes round.
     """
@@ -57,6 +57,25 @@ class ExpectedCost:
     operators: float = 0.0
     unknowns: tuple[tuple[str, float], ...] = ()
     ways: tuple[tuple[str, str], ...] = ()
+    building: float = 0.0
+
+    @property
+    def held(self) -> float:
+        """Bytes that a run takes at least."""
+        return self.memory - self.operators
+
+
+def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
+    """Why a run that may take `allowed` bytes does not fit, and what to change; empty where it does."""
+    if cost.held <= allowed:
+        return ""
+    less = "Larger flank elements and fewer mesh cycles take less"
+    if model.face is not None:
+        less = f"Fewer slices (accuracy.slices, here {model.face.slices}) and larger elements of the bodies (accuracy.body_element_size, accuracy.layers) take less"
+    return (
+        f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB are allowed. Nothing was computed. "
+        f"{less}; `--memory` or FENICS_GEARS_MEMORY allow more."
+    )
 
 
 def loaded_pairs(model: Model) -> float:
@@ -98,7 +117,8 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
     cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
     condensing, marching, held, operators = cost(model, gears)
     unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
-    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + model.stored_bytes + held + operators, operators, unknowns)
+    building = 0.0 if cost is _remeshed_cost else _building(model, contact_rows(model))
+    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + model.stored_bytes + held + operators, operators, unknowns, building=building)
 
 
 @dataclass(frozen=True)
@@ -144,10 +164,14 @@ def _positions(model: Model) -> int:
 
 def _marching(model: Model, rows: float) -> float:
     """Seconds of marching with so many contact rows a position."""
-    pairs = loaded_pairs(model)
-    nodes = rows / (2 if model.scene.friction is not None else 1)
     step = (STEP if model.scene.tooth_elasticity is not None else RIGID_STEP) + sum(STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene))
-    return _positions(model) * (PAIR * pairs + NODES_SQUARE * nodes**2) + model.steps * (step + ROW * rows)
+    return _building(model, rows) + model.steps * (step + ROW * rows)
+
+
+def _building(model: Model, rows: float) -> float:
+    """Seconds of making the contact operators."""
+    nodes = rows / (2 if model.scene.friction is not None else 1)
+    return _positions(model) * (PAIR * loaded_pairs(model) + NODES_SQUARE * nodes**2)
 
 
 def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:

@@ -57,7 +57,7 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
     if model.drivetrain.mass is not None:
         sections.append(("Inertia", _inertia_rows(model)))
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(model)))
-    sections.append(("Expected cost (about)", _cost_rows(model)))
+    sections.append(("Expected cost (about, alone on an idle machine)", _cost_rows(model)))
     if model.warnings:
         sections.append(("Warnings", [("", warning, "") for warning in model.warnings]))
     return sections
@@ -238,5 +238,5 @@ def _cost(model: Model) -> Rows:
         *condensing,
         ("marching", f"{cost.marching:.1f}", "s"),
         ("memory", f"{cost.memory / 1e6:.0f}", "MB"),
-        *([("memory if contact operators are not kept", f"{(cost.memory - cost.operators) / 1e6:.0f}", "MB")] if cost.operators > NOTABLE_OPERATORS else []),
+        *([("memory if contact operators are not kept", f"{cost.held / 1e6:.0f}", "MB")] if cost.operators > NOTABLE_OPERATORS else []),
     ]

@@ -10,7 +10,7 @@ from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import FILLET_POINTS_OVER_FACE
-from fenics_gears.system.memory import allowed_memory
+from fenics_gears.system.memory import usual_memory
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a cut for each harmonic of the ring,
 # of which there are half as many as teeth.
@@ -53,17 +53,27 @@ def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
     return len(places) / phases, nodes / phases
 
 
+def _size(model: Model, number: int) -> tuple[int, int]:
+    """Unknowns of a gear's body, and those that it is condensed onto."""
+    return expected_size((model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number), model.scene.coast_flanks is not None)
+
+
+def by_gradients(model: Model, number: int, ranks: int = 1) -> bool:
+    """Whether the body of a gear, 0 or 1, is condensed by conjugate gradients."""
+    return is_iterative(*_size(model, number), ranks)
+
+
 def face_cost(model: Model, ranks: int = 1) -> FaceCost:
     """Cost of the three-dimensional bodies and of contact over the face, without that of the plane sections; memory of each of some MPI ranks that share the bodies."""
     bodies, ways, condensing, memory, kept, stress_step = [], [], 0.0, 0.0, 0.0, 0.0
     coast = model.scene.coast_flanks is not None
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):
         division = face_discretisation(model, number)
-        unknowns, condensed = expected_size(gear, division, coast)
+        unknowns, condensed = _size(model, number)
         bodies.append(unknowns)
         of_flank = expected_size(gear, division, True)[1] - expected_size(gear, division, False)[1]
         of_cut = 0.5 * (condensed - of_flank * (2 if coast else 1))
-        iterative = is_iterative(unknowns, condensed, ranks)
+        iterative = by_gradients(model, number, ranks)
         condensing += (UNKNOWN + (SOLVED_BY_GRADIENTS * condensed if iterative else 0.0)) * unknowns
         condensing += CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
         memory = max(memory, expected_memory(unknowns, condensed, iterative, ranks))
@@ -91,5 +101,5 @@ def face_cost(model: Model, ranks: int = 1) -> FaceCost:
 def _way(iterative: bool, memory: float, by_factor: float) -> str:
     """How a body is condensed, and why."""
     if iterative:
-        return f"conjugate gradients, {memory / 1e9:.3g} GB: a factorisation takes {by_factor / 1e9:.3g} GB, and {allowed_memory() / 1e9:.3g} GB are allowed"
+        return f"conjugate gradients, {memory / 1e9:.3g} GB: a factorisation takes {by_factor / 1e9:.3g} GB, and {usual_memory() / 1e9:.3g} GB are allowed"
     return f"factorisation by MUMPS, {memory / 1e9:.3g} GB"

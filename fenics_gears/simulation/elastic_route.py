@@ -9,12 +9,13 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.deviations import deviating
+from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
 Compliances = tuple[FlankCompliance, FlankCompliance]
 
 
-def elastic_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[Compliances, Cycle]:
+def elastic_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[Compliances, Cycle]:
     """Flank compliance of both gears, and the contact operators of a mesh cycle on them."""
     compliances = gear_compliances(model, progress, cache)
     return compliances, mesh_cycle(model, compliances)

@@ -8,47 +8,43 @@ from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+from fenics_gears.model.face_cost import by_gradients
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
+from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
 Bodies = tuple[FaceCompliance, FaceCompliance]
 
 
-def face_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[tuple, Cycle | None]:
-    """Flank compliance of both gears' sections, their bodies, and the contact operators of a mesh cycle on them.
-
-    comm: MPI communicator whose ranks share the work on each body; every rank calls this, only rank 0 has sections and contact.
-    """
-    if comm is not None:
-        # PETSc starts on all ranks at once: while one starts it, another that waits for a message would get one of PETSc's.
-        import fenics_gears.elasticity.dolfinx_adapter  # noqa: F401
-    if comm is not None and comm.rank > 0:
-        return gear_bodies(model, progress, cache, comm), None
+def face_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
+    """Flank compliance of both gears' sections, their bodies, and the contact operators of a mesh cycle on them. job: whose ranks share the work on each body."""
     sections = gear_compliances(model, progress, cache)
-    bodies = gear_bodies(model, progress, cache, comm)
+    bodies = gear_bodies(model, progress, cache, job)
     return (*sections, *bodies), face_cycle(model, sections, bodies)
 
 
-def gear_bodies(model: Model, progress: Progress, cache: Cache | None, comm=None) -> Bodies:
+def gear_bodies(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Bodies:
     """Compliance of pinion and wheel over their faces."""
     bodies = []
-    for name in ("pinion", "wheel"):
-        progress.stage(f"condense {name}'s body")
-        bodies.append(gear_body(model, name, model.touching.reach, cache, comm))
+    for number, name in enumerate(("pinion", "wheel")):
+        # They take a multiple of the time.
+        way = " by conjugate gradients" if by_gradients(model, number, 1 if job is None else job.size) else ""
+        progress.stage(f"condense {name}'s body{way}")
+        bodies.append(gear_body(model, name, model.touching.reach, cache, job))
     return bodies[0], bodies[1]
 
 
-def gear_body(model: Model, name: str, reach: Reach, cache: Cache | None, comm=None) -> FaceCompliance:
+def gear_body(model: Model, name: str, reach: Reach, cache: Cache | None, job: Job | None = None) -> FaceCompliance:
     """Compliance of the "pinion" or the "wheel" over its face, from the cache where it is there."""
     # Imported here: plane scenes have none.
     from fenics_gears.elasticity.face.compliance import face_compliance
 
     number = ("pinion", "wheel").index(name)
     gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
-    return face_compliance(gear, material, face_discretisation(model, number), reach, cache, comm)
+    return face_compliance(gear, material, face_discretisation(model, number), reach, cache, job)
 
 
 def face_cycle(model: Model, sections: Compliances, bodies: Bodies) -> Cycle:

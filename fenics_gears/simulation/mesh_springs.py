@@ -18,6 +18,7 @@ from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
+from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
 # Most phases of a table, which is linear between them.
@@ -26,7 +27,7 @@ MOST_PHASES = 200
 DEFLECTION_WITHOUT_LOAD = 1e-3
 
 
-def table_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[Compliances, Cycle]:
+def table_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[Compliances, Cycle]:
     """Flank compliance of both gears, and the springs that a table of their full contact gives."""
     compliances = gear_compliances(model, progress, cache)
     progress.stage("tabulate the mesh stiffness")
@@ -34,7 +35,7 @@ def table_route(model: Model, progress: Progress, cache: Cache | None, comm=None
     return compliances, deviating(model, cycle)
 
 
-def iso_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[tuple, Cycle]:
+def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
     """No compliance, and the springs of ISO 6336-1."""
     return (), deviating(model, iso_cycle(model))
 

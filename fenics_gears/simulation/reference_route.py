@@ -15,16 +15,16 @@ from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.simulation.deviations import deviating
+from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
 
 def reference_route(
-    model: Model, progress: Progress, cache: Cache | None, comm=None
+    model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
 ) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], Cycle]:
     """Stiffness of pinion and wheel at every position, and the contact equations of a mesh cycle on them.
 
-    comm: MPI communicator over which the positions are shared out; every rank calls this, only rank 0 can use the result.
-    None: this process does all, and needs no MPI. Raises SceneError where the scene has coast flanks.
+    job: whose ranks share the positions out. Raises SceneError where the scene has coast flanks.
     """
     if model.scene.coast_flanks is not None:
         raise SceneError(
@@ -43,7 +43,7 @@ def reference_route(
                 [loaded_teeth(pairs, number, order) for pairs in nodes],
                 resolution.discretisation(number),
                 cache=cache,
-                comm=comm,
+                job=job,
                 report=progress.update,
             )
         )

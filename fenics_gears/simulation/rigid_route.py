@@ -6,10 +6,11 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.deviations import deviating
+from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
 
-def rigid_route(model: Model, progress: Progress, cache: Cache | None, comm=None) -> tuple[tuple, Cycle]:
+def rigid_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
     """No compliance, and the contact of one mesh cycle."""
     return (), rigid_cycle(model)
 

@@ -15,6 +15,7 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import ELASTIC, ISO_6336, STIFFNESS_TABLE
+from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
 Prepared = tuple[tuple[Any, ...], Cycle]
@@ -23,27 +24,25 @@ Preparation = Callable[[Model, Progress, Cache | None], Prepared]
 
 @dataclass(frozen=True)
 class Route:
-    """A way to the contact equations: the function `module:function` that takes (model, progress, cache, comm) and returns gears and cycle.
+    """A way to the contact equations: the function `module:function` that takes (model, progress, cache, job) and returns gears and cycle.
 
-    `condensed_once`: its gears are flank compliances that other runs can share; `stresses`: stresses can be recovered in them; `shared_by_ranks`:
-    the ranks of an MPI job share its work.
+    `condensed_once`: its gears are flank compliances that other runs can share; `stresses`: stresses can be recovered in them.
     """
 
     function: str
     condensed_once: bool = False
     stresses: bool = False
-    shared_by_ranks: bool = False
 
-    def __call__(self, model: Model, progress: Progress, cache: Cache | None, comm=None) -> Prepared:
+    def __call__(self, model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Prepared:
         module, _, function = self.function.partition(":")
-        return getattr(importlib.import_module(f"fenics_gears.simulation.{module}"), function)(model, progress, cache, comm)
+        return getattr(importlib.import_module(f"fenics_gears.simulation.{module}"), function)(model, progress, cache, job)
 
 
 RIGID = Route("rigid_route:rigid_route")
-REMESHED = Route("reference_route:reference_route", shared_by_ranks=True)
+REMESHED = Route("reference_route:reference_route")
 ISO_SPRINGS = Route("mesh_springs:iso_route")
 TABLE_SPRINGS = Route("mesh_springs:table_route", condensed_once=True)
-ON_FACE = Route("face_route:face_route", condensed_once=True, stresses=True, shared_by_ranks=True)
+ON_FACE = Route("face_route:face_route", condensed_once=True, stresses=True)
 CONDENSED = Route("elastic_route:elastic_route", condensed_once=True, stresses=True)
 BY_MODEL = {None: CONDENSED, ELASTIC: CONDENSED, ISO_6336: ISO_SPRINGS, STIFFNESS_TABLE: TABLE_SPRINGS}
 
@@ -57,6 +56,6 @@ def route_of(model: Model) -> Route:
     return REMESHED if model.resolution.condensation == EVERY_STEP else BY_MODEL[model.scene.accuracy.model]
 
 
-def prepared(model: Model, progress: Progress, cache: Cache | None, comm=None) -> Prepared:
+def prepared(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Prepared:
     """The gears' elasticity and the contact equations on it, by the model's route."""
-    return route_of(model)(model, progress, cache, comm)
+    return route_of(model)(model, progress, cache, job)

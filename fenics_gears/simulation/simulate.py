@@ -11,7 +11,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.errors import ComputationError
-from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
@@ -19,6 +19,7 @@ from fenics_gears.results.validity import worst_first
 from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
 from fenics_gears.simulation.routes import Preparation, prepared, route_of
 from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.job import Job
 from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress, SilentProgress
 
@@ -32,13 +33,13 @@ def simulate(
     progress: Progress | None = None,
     cache: Cache | None = None,
     preparation: Preparation | None = None,
-    comm=None,
+    job: Job | None = None,
     journal: Place | None = None,
 ) -> xr.Dataset:
     """Run a scene whose settings are decided and return its result (docs/result.md); `studies.simulate` chooses them by a target first.
 
-    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `comm`: communicator
-    of rank 0 of an MPI job whose other ranks call `assist`; they share the remeshing of `condensation = "every step"`.
+    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `job`: of rank 0,
+    whose ranks share the bodies over the face and the remeshing of `condensation = "every step"`.
     `journal`: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the caller removes it.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
     computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with what was done before as
@@ -46,8 +47,8 @@ def simulate(
     """
     progress, cache = progress or SilentProgress(), cache or user_cache()
     model = model_of(scene)
-    for_operators = memory_for_operators(model, 1 if comm is None else comm.size)
-    gears, cycle = (preparation or functools.partial(prepared, comm=comm))(model, progress, cache)
+    for_operators = memory_for_operators(model, 1 if job is None else job.size)
+    gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)
     cycle.kept.most = for_operators
     progress.stage("compile")
     compiled = compile_kernels(tangential=scene.friction is not None)
@@ -60,13 +61,9 @@ def simulate(
 def memory_for_operators(model: Model, ranks: int = 1) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without keeping any."""
     allowed, cost = allowed_memory(), expected_cost(model, ranks)
-    held = cost.memory - cost.operators
-    if held > allowed:
-        raise ComputationError(
-            f"The run would take {held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB are allowed. Nothing was computed. "
-            "Larger flank elements and fewer mesh cycles take less; `--memory` or FENICS_GEARS_MEMORY allow more."
-        )
-    return allowed - held
+    if said := too_large(model, cost, allowed):
+        raise ComputationError(said)
+    return allowed - cost.held
 
 
 def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
@@ -102,14 +99,6 @@ def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Prog
     progress.stage("quasi-static run")
     result.attrs.update(dynamic_factor.dynamic_factors(recorder, result))
     return result
-
-
-def assist(scene: Scene, comm) -> None:
-    """The work of the other ranks of a job while rank 0 calls `simulate(scene, comm=comm)`: their share of the remeshing, if there is any."""
-    model = model_of(scene)
-    route = route_of(model)
-    if route.shared_by_ranks:
-        route(model, SilentProgress(), None, comm)
 
 
 def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> xr.Dataset:

@@ -72,17 +72,16 @@ class GearStore:
         # Imported here: plane scenes have none.
         from fenics_gears.simulation.face_route import face_cycle
 
-        bodies = tuple(self._body(model, name, reach, cache) for name in GEARS)
-        self._forget(self._bodies)
+        bodies = tuple(self.body(model, name, reach, cache) for name in GEARS)
         return (*compliances, *bodies), face_cycle(model, compliances, bodies)
 
-    def _body(self, model: Model, name: str, reach: Reach, cache: Cache | None):
+    def body(self, model: Model, name: str, reach: Reach, cache: Cache | None):
         """Compliance of the "pinion" or the "wheel" over its face, kept, from the cache, or condensed."""
-        from fenics_gears.model.face_resolution import face_discretisation
         from fenics_gears.simulation.face_route import gear_body
 
-        key = getattr(model.pair, name), model.scene.gears.material_of(name), face_discretisation(model, GEARS.index(name)), reach
+        key = body_key(model, name, reach)
         self._bodies[key] = self._bodies.pop(key, None) or gear_body(model, name, reach, cache)
+        self._forget(self._bodies)
         return self._bodies[key]
 
     def _forget(self, kept: dict) -> None:
@@ -100,6 +99,14 @@ def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
     return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name)), reach, own
+
+
+def body_key(model: Model, name: str, reach: Reach) -> tuple:
+    """What a gear's compliance over the face depends on."""
+    # Imported here: plane scenes have none.
+    from fenics_gears.model.face_resolution import face_discretisation
+
+    return getattr(model.pair, name), model.scene.gears.material_of(name), face_discretisation(model, GEARS.index(name)), reach
 
 
 def differs_in_gaps_alone(model: Model) -> bool:

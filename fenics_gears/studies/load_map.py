@@ -90,7 +90,7 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
     if found.count > most:
         raise SceneError(
             f"gears map: {len(torques)} loads{f' with {len(written)} speeds each, and at rest,' if written else ''} are {found.count} runs, about "
-            f"{seconds_in_words(found.expected_seconds)} on one core. Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {found.count}. {NOTHING_DONE}"
+            f"{seconds_in_words(found.expected_seconds)} on one core of an idle machine. Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {found.count}. {NOTHING_DONE}"
         )
     return found
 

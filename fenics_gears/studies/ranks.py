@@ -12,7 +12,7 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from fenics_gears.system.job import communicator
+from fenics_gears.system.job import communicator, ending_all
 
 SECONDS_BETWEEN_LOOKS = 0.05
 
@@ -103,5 +103,9 @@ def ranks() -> Iterator[Alone | Together | None]:
     if world.rank > 0:
         # Rank 0 decides; a worker that Ctrl-C also reaches would leave it waiting.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+        with ending_all(world), MPICommExecutor(world, root=0):
+            pass
+        yield None
+        return
     with MPICommExecutor(world, root=0) as executor:
-        yield None if executor is None else Together(executor, world.size)
+        yield Together(executor, world.size)

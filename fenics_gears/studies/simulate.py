@@ -16,6 +16,7 @@ from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import Preparation
 from fenics_gears.studies.fields import changed
+from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress, SilentProgress
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def simulate(
     progress: Progress | None = None,
     cache: Cache | None = None,
     preparation: Preparation | None = None,
-    comm=None,
+    job: Job | None = None,
     journal: Place | None = None,
 ) -> xr.Dataset:
     """Run a scene and return its result (docs/result.md).
@@ -42,7 +43,7 @@ def simulate(
     settings in place of the target, so that it repeats the run. Arguments, results and errors are those of `simulation.simulate.simulate`;
     with a target also TargetNotReached.
     """
-    arguments = {"progress": progress or SilentProgress(), "cache": cache, "preparation": preparation, "comm": comm, "journal": journal}
+    arguments = {"progress": progress or SilentProgress(), "cache": cache, "preparation": preparation, "job": job, "journal": journal}
     target = scene.accuracy.target
     if target is None:
         return simulation.simulate(scene, **arguments)

@@ -16,7 +16,7 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.combine import CaseRecord
-from fenics_gears.studies.gear_store import GEARS, cycle_key, gear_key, operators_key, own_gear_store
+from fenics_gears.studies.gear_store import GEARS, body_key, cycle_key, gear_key, operators_key, own_gear_store
 from fenics_gears.studies.simulate import simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.system.progress import SilentProgress
@@ -26,15 +26,17 @@ Tick = Callable[[], None]
 
 @dataclass(frozen=True)
 class GearTask:
-    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`."""
+    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`; its plane section, or its body over the face."""
 
     scene: Scene
     name: str
     reach: Reach
+    body: bool = False
 
 
 def gear_tasks(cases: list[Case]) -> list[GearTask]:
-    """The distinct gears of the cases."""
+    """The distinct gears of the cases, bodies first, which take longest."""
+    bodies: dict[tuple, GearTask] = {}
     reaches: dict[tuple, Reach] = {}
     tasks: dict[tuple, GearTask] = {}
     for case in cases:
@@ -49,7 +51,10 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
             # Young's modulus is a factor, so the cache keeps one entry for all its values.
             key = gear_key(model, name, reaches[cycle])
             tasks.setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle]))
-    return list(tasks.values())
+            if model.face is not None:
+                key = body_key(model, name, reaches[cycle])
+                bodies.setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle], body=True))
+    return [*bodies.values(), *tasks.values()]
 
 
 def in_order_of_sharing(cases: list[Case]) -> list[Case]:
@@ -63,7 +68,8 @@ def in_order_of_sharing(cases: list[Case]) -> list[Case]:
 
 def condense(task: GearTask, tick: Tick | None = None) -> None:
     """Condense a gear into the cache and into this process's store."""
-    own_gear_store().gear(model_of(task.scene), task.name, task.reach, user_cache())
+    store = own_gear_store()
+    (store.body if task.body else store.gear)(model_of(task.scene), task.name, task.reach, user_cache())
 
 
 def run_case(directory: Path, case: Case, tick: Tick | None = None) -> CaseRecord | str:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Sequence
 from typing import Any, TextIO
 
-# Open MPI and MPICH start processes on a pseudo-terminal of their own, whatever mpirun itself writes to.
-STARTED_BY_MPI = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE")
+from fenics_gears.system.environment import on_terminal_of_its_own
 
 Row = tuple[str, Any, str]
 
 
 def on_terminal(stream: TextIO) -> bool:
     """Whether colours and bars reach a person by a stream: they do not by a pipe or a file, also behind mpirun."""
-    return stream.isatty() and not any(name in os.environ for name in STARTED_BY_MPI)
+    return stream.isatty() and not on_terminal_of_its_own()
 
 
 def print_rows(heading: str, rows: Sequence[Row]) -> None:

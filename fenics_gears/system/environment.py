@@ -4,9 +4,12 @@ A variable the user has set is never changed.
 """
 
 import os
+import re
 
 RANK_COUNTS = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS")
 """Where Open MPI, MPICH and Slurm say how many processes run together."""
+LOCAL_COUNTS = ("OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_STEP_TASKS_PER_NODE")
+"""Where they say how many of these are on one machine."""
 
 
 def prepare(environment=os.environ):
@@ -27,7 +30,7 @@ def defaults(environment):
             values[f"{prefix}_ALLOW_RUN_AS_ROOT"] = "1"
             values[f"{prefix}_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
     ranks = started_ranks(environment)
-    if ranks == max(1, _count(environment, "OMPI_COMM_WORLD_LOCAL_SIZE")):
+    if ranks == local_ranks(environment):
         # On one machine ranks meet in shared memory; TCP only warns about interfaces it cannot pair.
         values["OMPI_MCA_btl"] = "^tcp,ofi"
     if ranks > 1 and "OMP_NUM_THREADS" not in environment:
@@ -38,9 +41,20 @@ def defaults(environment):
 
 def started_ranks(environment=os.environ):
     """How many processes were started together; 1 for a process that was started alone."""
-    return max(_count(environment, name) for name in RANK_COUNTS)
+    return _largest(environment, RANK_COUNTS)
 
 
-def _count(environment, name):
-    value = environment.get(name, "")
-    return int(value) if value.isdigit() else 1
+def local_ranks(environment=os.environ):
+    """How many of them are on this machine, or on the one that has most; 1 for a process that was started alone."""
+    return _largest(environment, LOCAL_COUNTS)
+
+
+def on_terminal_of_its_own(environment=os.environ):
+    """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal, whatever mpirun itself writes to."""
+    return any(name in environment for name in RANK_COUNTS[:2])
+
+
+def _largest(environment, names):
+    # Slurm counts by machine, "4(x2),3": four on each of two, three on another.
+    counts = re.findall(r"\d+", re.sub(r"\(x\d+\)", "", ",".join(environment.get(name, "") for name in names)))
+    return max([1, *map(int, counts)])

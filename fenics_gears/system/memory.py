@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.system.job import ranks_on_machine
 
 MEMORY_VARIABLE = "FENICS_GEARS_MEMORY"
 BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
-# Of what is free when a run starts; other programs need some too.
-SHARE_OF_FREE = 0.6
+# Of what is free when a run starts, or of what there is; other programs need some too.
+SHARE = 0.6
 # Where neither the kernel nor a container says what is free.
 UNKNOWN = 8e9
 
@@ -26,32 +28,39 @@ def size_in_bytes(size: str, name: str, example: str) -> float:
 
 def allowed_memory() -> float:
     """Bytes that a run may take; processes of an MPI job on one machine share what is free. Raises SceneError for a size that is none."""
+    return _named_or(free_memory)
+
+
+def usual_memory() -> float:
+    """The same by what the machine, or this container, has in all: what is decided by it is decided alike whatever else runs. Raises SceneError as `allowed_memory`."""
+    return _named_or(lambda: min(_of_machine("MemTotal"), _of_container(used=False)))
+
+
+def _named_or(of_machine: Callable[[], float]) -> float:
     given = os.environ.get(MEMORY_VARIABLE)
-    if given:
-        return size_in_bytes(given, MEMORY_VARIABLE, "8 GB")
-    return SHARE_OF_FREE * free_memory() / int(os.environ.get("OMPI_COMM_WORLD_LOCAL_SIZE", "1"))
+    return size_in_bytes(given, MEMORY_VARIABLE, "8 GB") if given else SHARE * of_machine() / ranks_on_machine()
 
 
 def free_memory() -> float:
     """Bytes that programs can still take on this machine, or in this container."""
-    return min(_of_machine(), _of_container())
+    return min(_of_machine("MemAvailable"), _of_container())
 
 
-def _of_machine() -> float:
+def _of_machine(what: str) -> float:
     try:
-        found = re.search(r"^MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"), re.MULTILINE)
+        found = re.search(rf"^{what}:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"), re.MULTILINE)
     except OSError:
         return UNKNOWN
     return 1024.0 * int(found[1]) if found else UNKNOWN
 
 
-def _of_container() -> float:
-    """By the control group's limit; infinite where there is none."""
-    for limit, used in (("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")):
+def _of_container(used: bool = True) -> float:
+    """By the control group's limit, less what is in use; infinite where there is none."""
+    for names in (("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")):
         try:
-            limit, used = ((Path("/sys/fs/cgroup") / name).read_text(encoding="ascii").strip() for name in (limit, used))
+            limit, in_use = ((Path("/sys/fs/cgroup") / name).read_text(encoding="ascii").strip() for name in names)
         except OSError:
             continue
         if limit.isdecimal():
-            return max(float(limit) - float(used), 0.0)
+            return max(float(limit) - (float(in_use) if used else 0.0), 0.0)
     return float("inf")

@@ -10,6 +10,9 @@ import time
 from typing import Protocol, TextIO
 
 SECONDS_BETWEEN_LINES = 5.0
+# A stage begins with what takes longest, such as compiling, or a first mesh cycle whose operators are made. The time left is said once a tenth is done, or once a
+# minute is over, by the pace since the line before.
+ENOUGH_DONE, ENOUGH_SECONDS = 0.1, 60.0
 
 
 Finished = list[tuple[str, float]]
@@ -55,6 +58,7 @@ class LineProgress:
         self._clock = clock
         self._name: str | None = None
         self._begun = self._spoken = clock()
+        self._done = 0
         self.finished: Finished = []
 
     def stage(self, name: str) -> None:
@@ -62,15 +66,17 @@ class LineProgress:
         self.close()
         self._name = name
         self._begun = self._spoken = self._clock()
+        self._done = 0
 
     def update(self, done: int, total: int, note: str = "") -> None:
         """Print a line when the last one is old enough."""
         now = self._clock()
         if now - self._spoken < self._interval or total <= 0:
             return
-        self._spoken = now
-        elapsed = now - self._begun
-        left = f", about {seconds_in_words(elapsed * (total - done) / done)} left" if done else ""
+        elapsed, since, before = now - self._begun, now - self._spoken, self._done
+        self._spoken, self._done = now, done
+        known = done > before and is_enough(done, total, elapsed)
+        left = f", about {seconds_in_words(since * (total - done) / (done - before))} left" if known else ""
         said = f", {note}" if note else ""
         self._print(f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %){said} after {seconds_in_words(elapsed)}{left}")
 
@@ -90,6 +96,14 @@ class BarProgress:
 
     def __init__(self, console):
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+        from rich.text import Text
+
+        class Remaining(TimeRemainingColumn):
+            """Nothing before enough is known."""
+
+            def render(self, task):
+                known = is_enough(task.completed, task.total or 0, task.elapsed or 0.0)
+                return super().render(task) if task.finished or known else Text("-:--:--", style="progress.remaining")
 
         self._bars = Progress(
             TextColumn("{task.description}"),
@@ -97,7 +111,7 @@ class BarProgress:
             MofNCompleteColumn(),
             TimeElapsedColumn(),
             TextColumn("left"),
-            TimeRemainingColumn(),
+            Remaining(),
             console=console,
         )
         self._task = None
@@ -133,6 +147,11 @@ class BarProgress:
             self._bars.stop_task(self._task)
             self.finished.append((self._name, self._bars.tasks[self._task].finished_time or self._bars.tasks[self._task].elapsed))
         self._task = None
+
+
+def is_enough(done: float, total: float, elapsed: float) -> bool:
+    """Whether the time left of a stage can be told."""
+    return done >= ENOUGH_DONE * total or elapsed >= ENOUGH_SECONDS
 
 
 def seconds_in_words(seconds: float) -> str:

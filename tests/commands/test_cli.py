@@ -51,7 +51,7 @@ def simulation(monkeypatch, tmp_path):
     stand_in = types.ModuleType("fenics_gears.studies.simulate")
     stand_in.outcome, stand_in.calls = small_result(), []
 
-    def simulate(scene, *, progress=None, comm=None, journal=None):
+    def simulate(scene, *, progress=None, job=None, journal=None):
         stand_in.calls.append(scene)
         progress.stage("march")
         progress.update(1, 3)

@@ -1,10 +1,14 @@
 """Memory that a run may take: what does not fit is made again, with the same numbers, or refused before anything is computed."""
 
+import os
+import re
 
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene
+from tests.studies.conftest import DEMO
 
+from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.cost import expected_cost
@@ -12,7 +16,8 @@ from fenics_gears.model.model import model_of
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.system.memory import MEMORY_VARIABLE, allowed_memory, size_in_bytes
+from fenics_gears.system import memory
+from fenics_gears.system.memory import MEMORY_VARIABLE, SHARE, allowed_memory, size_in_bytes, usual_memory
 
 
 @pytest.mark.parametrize("share", [0.0, 0.4])
@@ -42,6 +47,26 @@ def test_a_run_that_does_not_fit_is_refused(paper_scene, monkeypatch):
     monkeypatch.setenv(MEMORY_VARIABLE, "20 MB")
     with pytest.raises(ComputationError, match=r"0\.3\d* GB of memory, contact operators apart, and 0\.02 GB are allowed. Nothing was computed"):
         simulate(coarse_scene(paper_scene), preparation=lambda *arguments: pytest.fail("computed"))
+
+
+def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
+    """Row 26: as a run of it, but with the description first; exit code 3, for the scene itself is right. With the memory of another machine it fits."""
+    wide = tmp_path / "wide.toml"
+    wide.write_text((DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").replace("slices = 12", "slices = 300"), encoding="utf-8")
+    monkeypatch.setenv(MEMORY_VARIABLE, "8 GB")
+    assert main(["check", str(wide)]) == 3
+    told = capsys.readouterr()
+    assert "Effects" in told.out and re.search(r"CANNOT FIT: The run would take [\d.]+ GB .* 8 GB are allowed.*slices.*here 300.*--memory", told.err)
+    assert main(["check", str(wide), "--memory", "1 TB"]) == 0
+    assert "CANNOT" not in capsys.readouterr().err
+
+
+def test_the_choice_of_a_solver_does_not_depend_on_what_is_free(monkeypatch):
+    """Definition: of what the machine has in all, of which no more than that can be free; the same on every look."""
+    monkeypatch.delenv(MEMORY_VARIABLE, raising=False)
+    usual = usual_memory()
+    monkeypatch.setattr(memory, "free_memory", lambda: 1e6)
+    assert allowed_memory() < usual_memory() == usual <= SHARE * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
 def test_sizes_of_memory(monkeypatch):

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.helical import helical_scene
 
 from fenics_gears.contact.stiffness_table import LOADS
 from fenics_gears.effects import OVER_CONTACT_NODES
@@ -265,3 +266,9 @@ def test_a_study_condenses_what_its_models_need(static):
     assert [task.name for task in tasks] == ["pinion", "wheel"]
     assert gear_tasks(cases[1:2] + cases[3:]) == []
     assert len(in_order_of_sharing(cases)) == 4
+
+
+def test_a_study_over_the_face_condenses_each_body_once():
+    """From the task: misalignments share plane sections and bodies, which take longest and come first."""
+    cases = [Case(i, {}, helical_scene(f'[misalignment]\nin_plane = "{i} um"\n'), str(i)) for i in range(3)]
+    assert [(task.name, task.body) for task in gear_tasks(cases)] == [("pinion", True), ("wheel", True), ("pinion", False), ("wheel", False)]

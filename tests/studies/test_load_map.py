@@ -66,7 +66,7 @@ def test_ranges_that_are_none_say_why(written, message):
         ({"speeds": ["100 N m"]}, {}, "is a torque, not a frequency"),
         ({"loads": ["100 N m", "0.1 kNm"]}, {}, '"0.1 kNm" is given twice'),
         ({"loads": ["inf N m"]}, {}, "not a finite number"),
-        ({"loads": ["1 .. 100 N m in 20"], "speeds": ["10 .. 1000 Hz in 50"]}, {}, r"20 loads with 50 speeds each, and at rest, are 1020 runs, about \d.* on one core. Allowed: up to 1000.*--most-runs 1020"),
+        ({"loads": ["1 .. 100 N m in 20"], "speeds": ["10 .. 1000 Hz in 50"]}, {}, r"20 loads with 50 speeds each, and at rest, are 1020 runs, about \d.* on one core of an idle machine. Allowed: up to 1000.*--most-runs 1020"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_mapped_is_refused_by_name(arguments, changes, message):

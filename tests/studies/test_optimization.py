@@ -27,6 +27,7 @@ from fenics_gears.studies.optimization.conditions import samples, scattered
 from fenics_gears.studies.optimization.design import QUANTILE, WORST, Bound, Goal, Loads, Tolerances
 from fenics_gears.studies.optimization.design_file import load_design
 from fenics_gears.studies.optimization.evaluations import Evaluation, Evaluator
+from fenics_gears.studies.optimization.expected import expected_work
 from fenics_gears.studies.optimization.optimize import chosen, optimize
 from fenics_gears.studies.optimization.search import front
 from fenics_gears.studies.ranks import Alone
@@ -227,6 +228,23 @@ def test_any_number_of_processes_gives_the_same_result(folder):
     assert {"search.png", "variables.png", "harris_map.png", "report.html", "best.toml", "designs.csv"} <= {each.name for each in (folder / "two").iterdir()}
     page = (folder / "two" / "report.html").read_text(encoding="utf-8")
     assert all(heading in page for heading in ("Summary", "Designs", "Each variable alone", "Harris map, before", "Harris map, chosen design"))
+
+
+def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, monkeypatch, capsys, unwritten):
+    """Brute force: the runs that are computed, fewer only by those that two designs share. More time than is allowed is refused, by its name, unless agreed to;
+    what is kept is not counted."""
+    monkeypatch.setattr("fenics_gears.studies.optimization.expected.VALUES", 2)
+    monkeypatch.setattr("fenics_gears.studies.optimization.expected.TORQUES", (1.0,))
+    path = write(folder, RIGID + VARIABLES + GOAL + OVER_LOADS + FEWER)
+    work = expected_work(load_design(path), 0)
+    monkeypatch.setattr("fenics_gears.studies.optimization.expected.MOST_HOURS", 0.5 * work.seconds / 3600.0)
+    with pytest.raises(SceneError, match=rf"up to {work.runs} runs, about .* on an idle machine. Allowed.*--yes"):
+        found(path, folder / "here")
+    assert not list((folder / "here" / "runs").iterdir())
+    assert main(["optimize", str(path), "--output", str(folder / "here"), "--yes"]) == 0
+    computed = len(run_lines.kept(folder / "here" / "runs"))
+    assert f"up to {work.runs} runs, about" in capsys.readouterr().err and 0.8 * work.runs <= computed <= work.runs
+    assert expected_work(load_design(path), computed).runs == work.runs - computed
 
 
 def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):

@@ -2,6 +2,8 @@
 
 import os
 
+import pytest
+
 from fenics_gears.system import environment
 
 
@@ -32,6 +34,23 @@ def test_tcp_is_left_out_on_one_machine_and_kept_across_machines():
     assert prepared()["OMPI_MCA_btl"] == "^tcp,ofi"
     assert prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="4")["OMPI_MCA_btl"] == "^tcp,ofi"
     assert "OMPI_MCA_btl" not in prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="2")
+
+
+@pytest.mark.parametrize(
+    ("given", "together", "here"),
+    [
+        ({}, 1, 1),
+        ({"OMPI_COMM_WORLD_SIZE": "8", "OMPI_COMM_WORLD_LOCAL_SIZE": "4"}, 8, 4),
+        ({"PMI_SIZE": "8", "MPI_LOCALNRANKS": "4"}, 8, 4),
+        ({"SLURM_STEP_NUM_TASKS": "11", "SLURM_STEP_TASKS_PER_NODE": "4(x2),3"}, 11, 4),
+        # mpirun under Slurm: one daemon on each machine is a step's task.
+        ({"SLURM_STEP_NUM_TASKS": "2", "SLURM_STEP_TASKS_PER_NODE": "1(x2)", "OMPI_COMM_WORLD_SIZE": "8", "OMPI_COMM_WORLD_LOCAL_SIZE": "4"}, 8, 4),
+        ({"OMPI_COMM_WORLD_LOCAL_SIZE": "0", "PMI_SIZE": "two"}, 1, 1),
+    ],
+)
+def test_ranks_are_counted(given, together, here):
+    """Documented variables of Open MPI, of MPICH's Hydra and of Slurm's srun; what is no number above 0 counts as one process."""
+    assert (environment.started_ranks(given), environment.local_ranks(given)) == (together, here)
 
 
 def test_mpirun_may_run_as_root_only_where_the_user_is_root(monkeypatch):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict
 from time import perf_counter
 
@@ -17,6 +16,7 @@ from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS, c
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.system.job import Job, together
 
 # To be raised by one whenever the same inputs give other numbers.
 FACE_VERSION = 4
@@ -25,14 +25,13 @@ ORDER = 2
 
 
 def face_compliance(
-    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None, comm=None
+    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None, job: Job | None = None
 ) -> FaceCompliance:
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end faces free.
 
     gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs follow the drive
     flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are.
-    comm: communicator over whose ranks the work is shared out; every rank calls this and gets the result, the cache is that of rank 0.
-    Raises SceneError for an impossible size, ComputationError when a stage fails.
+    job: whose ranks share the work. Raises SceneError for an impossible size, ComputationError when a stage fails.
     """
     check_inputs(gear, material, reach)
     discretisation.check()
@@ -47,7 +46,12 @@ def face_compliance(
         "farthest": farthest,
         "both flanks": both,
     }
-    arrays, timings = _kept(cache, inputs, lambda: _computed(similar, scaled, material.poissons_ratio, farthest, both, comm), comm)
+
+    def compute() -> tuple[dict, dict]:
+        iterative = is_iterative(*expected_size(similar, scaled, both), 1 if job is None else job.size)
+        return together(job, _computed, similar, scaled, material.poissons_ratio, farthest, both, iterative)[0]
+
+    arrays, timings = kept(cache, inputs, compute)
     # In place: the arrays are large, and nothing else refers to them.
     arrays["blocks"] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
@@ -64,21 +68,8 @@ def face_compliance(
     )
 
 
-def _kept(cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, dict]], comm) -> tuple[dict, dict]:
-    """As `cache.kept`: rank 0 looks into its cache and says whether all must compute."""
-    if comm is None:
-        return kept(cache, inputs, compute)
-    if comm.rank == 0:
-        found = kept(cache, inputs, lambda: comm.bcast(True) and compute())
-        if found[1]["from_cache"]:
-            comm.bcast(False)
-            comm.bcast(found)
-        return found
-    return kept(None, inputs, compute) if comm.bcast(None) else comm.bcast(None)
-
-
-def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm) -> tuple[dict, dict]:
-    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
+def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, iterative: bool, comm) -> tuple[dict, dict] | None:
+    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on all ranks of a communicator but 0, which share the work."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius
     from fenics_gears.elasticity.element_nodes import node_roll_angles
@@ -91,10 +82,6 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     clock = perf_counter()
     mesh = sector_mesh(gear, face.sizes)
     meshed = perf_counter()
-    iterative = is_iterative(*expected_size(gear, face, both), 1 if comm is None else comm.size)
-    if comm is not None:
-        # Free memory differs from rank to rank.
-        iterative = comm.bcast(iterative)
     sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative)
     condensed = perf_counter()
     basis = half_turn_basis(sector.lower, len(face.sweep.heights))
@@ -103,6 +90,8 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     # Its link between the cuts takes as much memory as all blocks.
     del sector
     blocks = ring_blocks(held, to_cuts, joint, farthest, comm)
+    if blocks is None:
+        return None
     blocks = _in_mirrored_frame(blocks, gear, both)
     joined = perf_counter()
     flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in (("flank", "coast") if both else ("flank",))])

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 from mpi4py import MPI
-from petsc4py import PETSc
 from scipy import sparse
 
 from fenics_gears.elasticity.face.fold import Fold
 from fenics_gears.elasticity.mumps import distributed
+from fenics_gears.elasticity.petsc import PETSc
 from fenics_gears.errors import ComputationError
 
 # Of the error's energy norm, as the preconditioner sees it; compliances then agree with those of a factorisation to some 1e-10 (measured).

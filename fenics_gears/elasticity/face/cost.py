@@ -5,7 +5,7 @@ from __future__ import annotations
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.system.memory import allowed_memory
+from fenics_gears.system.memory import usual_memory
 
 # Nodes of a section by those of its outline, within 15 % for 16 to 80 teeth and sections of 0.15 to 0.4 modules.
 NODES, POWER = 0.37, 1.7
@@ -30,6 +30,6 @@ def expected_memory(unknowns: int, condensed_unknowns: int, iterative: bool = Fa
 
 
 def is_iterative(unknowns: int, condensed_unknowns: int, ranks: int = 1) -> bool:
-    """Whether conjugate gradients condense a sector: where the memory that a run may take holds them, and not MUMPS's factor."""
+    """Whether conjugate gradients condense a sector: where the memory that the user names, or else the machine's, holds them, and not MUMPS's factor."""
     gradients, factor = (expected_memory(unknowns, condensed_unknowns, iterative, ranks) for iterative in (True, False))
-    return gradients <= allowed_memory() < factor
+    return gradients <= usual_memory() < factor

@@ -79,10 +79,10 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
 
 
-def ring_blocks(held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offsets: int, comm=None) -> np.ndarray:
+def ring_blocks(held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offsets: int, comm=None) -> np.ndarray | None:
     """Flank compliance blocks (offsets + 1, f, f) of a ring, as `ring.ring_compliance`, from a `condensed.SweptSector` and the response of its cuts.
 
-    comm: communicator over whose ranks the products are shared out; every rank calls this and gets the result.
+    comm: communicator over whose ranks the products are shared out; every rank calls this, rank 0 gets the result, the others None.
     """
     rows = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
     (own_lower, own_upper), (lower, upper) = np.hsplit(rows, 2), np.hsplit(to_cuts, 2)
@@ -94,7 +94,10 @@ def ring_blocks(held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offse
         np.matmul(ahead, lower.T, out=block)
         block += behind @ upper.T
         behind = ahead
-    blocks = own if comm is None else np.concatenate(comm.allgather(own), axis=1)
+    parts = [own] if comm is None else comm.gather(own)
+    if parts is None:
+        return None
+    blocks = np.concatenate(parts, axis=1)
     blocks[0] += held
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks

@@ -19,19 +19,15 @@ from fenics_gears.studies.optimization.conditions import samples
 from fenics_gears.studies.optimization.design import Design
 from fenics_gears.studies.optimization.design_file import load_design
 from fenics_gears.studies.optimization.evaluations import Evaluation, Evaluator
+from fenics_gears.studies.optimization.expected import TORQUES, VALUES, Work, at_ends, expected_work
 from fenics_gears.studies.optimization.search import front, optimiser, search
 from fenics_gears.studies.ranks import Alone, Together, ranks
 from fenics_gears.studies.run_study import condense_gears
-from fenics_gears.studies.study import Case
 from fenics_gears.studies.study_file import scene_of_tree
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import Progress
 
-# Values of a variable at which the chosen design's goals are evaluated, over its whole range.
-VALUES = 9
-# Torques of the Harris map where the operating points have one, in parts of it.
-TORQUES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5)
 NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_ripple")
 
 
@@ -66,11 +62,11 @@ class Outcome:
         return self.tried[self.best]
 
 
-def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = False) -> Outcome | None:
+def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = False, any_time: bool = False) -> Outcome | None:
     """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are kept in `runs` of the directory.
 
     output: the directory, `results/<name of the design file>` where None. Raises SceneError, before anything is computed or written, where the design
-    file is wrong; ComputationError where the directory cannot be used or no design keeps the constraints; KeyboardInterrupt at Ctrl-C.
+    file is wrong or the work takes more than `expected.MOST_HOURS`, unless `any_time`; ComputationError where the directory cannot be used or no design keeps the constraints; KeyboardInterrupt at Ctrl-C.
     """
     with ranks() as team:
         if team is None:
@@ -80,14 +76,17 @@ def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = 
         check_writable(directory)
         optimiser()
         with sole_writer(directory, "runs"), Interruption(progress) as interruption:
-            return _run(design, directory, team, interruption, quiet)
+            return _run(design, directory, team, interruption, quiet, any_time)
 
 
-def _run(design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool) -> Outcome:
+def _run(design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool) -> Outcome:
     evaluator, deviations = Evaluator(design, directory / "runs", team, progress), samples(design)
+    work = expected_work(design, evaluator.kept)
+    if not any_time:
+        work.check(design.title, team.size)
     if not quiet:
-        print(_opening(design, len(deviations), evaluator, team.size), file=sys.stderr, flush=True)
-    condense_gears(_bodies(design), team, progress)
+        print(_opening(design, len(deviations), evaluator, work, team.size), file=sys.stderr, flush=True)
+    condense_gears(at_ends(design)[-1:], team, progress)
     progress.stage("before")
     (before,) = evaluator.of_trees([design.before], [{}], deviations)
     progress.stage("search")
@@ -108,19 +107,11 @@ def _run(design: Design, directory: Path, team: Alone | Together, progress: Inte
     return outcome
 
 
-def _opening(design: Design, count: int, evaluator: Evaluator, size: int) -> str:
+def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size: int) -> str:
     """One line on how much there is to do."""
     runs = len(design.loads.points) * count
     kept = f" {evaluator.kept} runs are kept from before." if evaluator.kept else ""
-    by = f", by {size} processes" if size > 1 else ""
-    return f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each{by}.{kept}"
-
-
-def _bodies(design: Design) -> list[Case]:
-    """A case whose gears most designs share."""
-    values = {each.name: each.words[0] if each.words else each.high for each in design.variables}
-    scene, _ = scene_of_tree(design.name, design.scene_tree(values), design.directory)
-    return [] if scene is None else [Case(0, {}, scene, "")]
+    return f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each, and around them; {work.words(size)}.{kept}"
 
 
 def chosen(design: Design, before: Evaluation, tried: Sequence[Evaluation]) -> int:

@@ -1,6 +1,6 @@
 """One point of an axis over the face, in a process of its own or in one for each rank: `python -m tests.benchmarks.growth.face_point "layers" 8`.
 
-As `point`; the processor's seconds of a rank count while it waits for another. Numbers are those of rank 0, memory that of the rank with the most.
+As `point`; the processor's seconds of a rank count while it waits for another. Numbers are those of rank 0, which alone holds the finished body.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import statistics
 import sys
 import time
 
-from mpi4py import MPI
 from tests.benchmarks.growth.analysis import expected_by_mumps
 from tests.benchmarks.growth.axes import axis_named
 from tests.benchmarks.growth.face_axes import helical
@@ -25,6 +24,7 @@ from fenics_gears.model.model import model_of
 from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.simulation.face_route import face_cycle, gear_bodies, gear_body
 from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.job import Job, led
 from fenics_gears.system.progress import SilentProgress
 
 # Dofs of flank and cuts that take some 6 GB and five minutes.
@@ -35,27 +35,27 @@ PARTS = ("mesh", "assemble", "schur", "ring")
 class FacePoint(Point):
     """The stages of the wheel's body, or of contact on bodies from the cache."""
 
-    def body(self, comm=None) -> dict[str, float]:
+    def body(self, job: Job | None = None) -> dict[str, float]:
         """Seconds of every part of condensing, which is the program's own account, and by the clock; memory; what was counted.
 
         Of a body that is too large to be condensed here, and of any on one rank, what MUMPS expects.
         """
         face, gear = face_discretisation(self.model, 1), self.model.pair.wheel
         if expected_size(gear, face)[1] <= MOST_CONDENSED:
-            self._condense_body(comm)
-        if comm is None:
+            self._condense_body(job)
+        if job is None:
             self.found |= expected_by_mumps(self.model)
         return self.found | {
             "teeth": gear.teeth, "layers": face.layers, "section_nodes": self.found["unknowns"] / (3 * (2 * face.layers + 1)),
-            "ranks": 1 if comm is None else comm.size,
+            "ranks": 1 if job is None else job.size,
         }  # fmt: skip
 
-    def _condense_body(self, comm) -> None:
+    def _condense_body(self, job) -> None:
         found: dict[str, list[float]] = {part: [] for part in (*PARTS, "clock")}
 
         def run():
             begun = time.perf_counter()
-            body = gear_body(self.model, "wheel", self.model.touching.reach, None, comm)
+            body = gear_body(self.model, "wheel", self.model.touching.reach, None, job)
             found["clock"].append(time.perf_counter() - begun)
             for part in PARTS:
                 found[part].append(body.timings[f"time_{part}"])
@@ -64,8 +64,6 @@ class FacePoint(Point):
         body = self._stage("condense", run, lambda body: array_bytes(body.blocks) + 8 * body.timings["condensed_unknowns"] ** 2)
         self.found |= {f"{part}_s": statistics.median(seconds) for part, seconds in found.items()}
         self.found |= {name: body.timings[name] for name in ("unknowns", "condensed_unknowns")}
-        if comm is not None:
-            self.found |= {name: comm.allreduce(self.found[name], MPI.MAX) for name in ("condense_peak_bytes", "condense_above_idle_bytes")}
 
     def contact(self, cache: Cache) -> dict[str, float]:
         """Seconds and memory of the operators of a mesh cycle, and of the march through it; what was counted."""
@@ -88,25 +86,22 @@ class FacePoint(Point):
         }  # fmt: skip
 
 
-def main() -> None:
+def main(job: Job | None) -> int:
     """Measure the point that the command line names."""
     axis, value = axis_named(sys.argv[1]), float(sys.argv[2])
     small, cache = model_of(helical(layers=1)), user_cache()
     if axis.measured == "body":
-        comm = MPI.COMM_WORLD if axis.counted == "ranks" else None
-        # Loads every library and compiles every form; DOLFINx on all ranks at once.
-        FacePoint(small, set()).body(comm)
+        # Loads every library and compiles every form.
+        FacePoint(small, set()).body(job)
         compliance.perf_counter = condensed.perf_counter = time.process_time
-        # Ranks would not agree on the number of rounds.
-        found = FacePoint(model_of(axis.scene(value)), axis.stages if comm is None else set()).body(comm)
-        if MPI.COMM_WORLD.rank > 0:
-            return
+        found = FacePoint(model_of(axis.scene(value)), axis.stages if axis.counted != "ranks" else set()).body(job)
     else:
         compile_kernels(tangential=False)
         FacePoint(small, set()).contact(cache)
         found = FacePoint(model_of(axis.scene(value)), axis.stages).contact(cache)
     print(json.dumps(found))
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(led(main))

@@ -6,9 +6,6 @@ from tests.studies.conftest import CHECKOUT, gears
 
 from fenics_gears import results
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.remeshing import remeshed_stiffness
-from fenics_gears.errors import ComputationError
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.simulate import simulate
 
@@ -45,29 +42,3 @@ def test_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch, ranks):
         scale = np.abs(alone[name].values).max()
         assert together[name].values == pytest.approx(alone[name].values, rel=1e-8, abs=1e-9 * scale, nan_ok=True)
     assert together.attrs["condensation"] == "every step"
-
-
-class TwoRanks:
-    """A communicator whose other rank has failed or not."""
-
-    rank, size = 0, 2
-
-    def __init__(self, other):
-        self._other = other
-
-    def bcast(self, value, root):
-        return value
-
-    def allgather(self, value):
-        return [value, self._other]
-
-    def gather(self, value, root):
-        return [value, {}]
-
-
-def test_a_failure_on_one_rank_is_an_error_on_all(paper_pair, paper_scene):
-    """Hard case 28: no hang, and the message says where and why."""
-    with pytest.raises(ComputationError, match="rank 1: gmsh"):
-        remeshed_stiffness(
-            paper_pair.pinion, paper_scene.gears.material, [], Discretisation("P1", 1.0), comm=TwoRanks("rank 1: gmsh gave up")
-        )

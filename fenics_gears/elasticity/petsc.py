@@ -1,0 +1,10 @@
+"""PETSc, started by this process for itself. Started for all ranks of a job, it would wait until the last of them loads it, for ever where one never does."""
+
+import petsc4py
+from mpi4py import MPI
+
+petsc4py.init(comm=MPI.COMM_SELF)
+
+from petsc4py import PETSc  # noqa: E402
+
+__all__ = ["PETSc"]

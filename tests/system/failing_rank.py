@@ -1,0 +1,60 @@
+"""`gears` under mpirun, of which one rank fails at a stage: python -m tests.system.failing_rank STAGE RANK HOW VICTIM ARGUMENTS OF THE COMMAND.
+
+RANK is the one that comes to the stage; it fails there itself, or kills the VICTIM and waits for its own end.
+"""
+
+import importlib
+import os
+import signal
+import sys
+from pathlib import Path
+
+from fenics_gears.commands import cli
+from fenics_gears.errors import ComputationError, SceneError
+
+OWN = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 0))
+WORDS = "no more chalk"
+STAGES = {
+    "reading": "commands.run:checked_scene_and_directory",
+    "model": "simulation.simulate:model_of",
+    "plane sections": "elasticity.gear_compliance:_drive_flank",
+    "section mesh": "elasticity.face.condensed:SectionForms",
+    "condensing": "elasticity.face.condensed:_condensed",
+    "ring": "elasticity.face.half_turn:definite_inverse",
+    "remeshing": "elasticity.remeshed_gear:RemeshedGear.stiffness",
+    "positions": "contact.mesh_cycle:Cycle.position",
+    "march": "dynamics.march:Marcher.run",
+    "writing": "results:save",
+    "reading a study": "studies.run_study:load_study",
+    "condensing for a study": "studies.gear_store:GearStore.gear",
+    "a case": "studies.work:simulate",
+    "writing a case": "studies.work:save_case",
+    "combining": "studies.run_study:save_study",
+    "reading a design": "studies.optimization.optimize:load_design",
+    "a design's run": "studies.optimization.evaluations:simulate",
+    "keeping a run": "studies.optimization.run_lines:append",
+    "choosing": "studies.optimization.optimize:chosen",
+}
+ERRORS = {"refuses": SceneError(WORDS), "fails": ComputationError(WORDS), "breaks": MemoryError(WORDS), "interrupted": KeyboardInterrupt()}
+
+
+def main(stage: str, rank: str, how: str, victim: str, *arguments: str) -> int:
+    """The exit code of this rank."""
+    Path(f"process.{OWN}").write_text(str(os.getpid()))
+
+    def failure(*_, **__):
+        Path("failed").touch()
+        if how == "killed":
+            os.kill(int(Path(f"process.{victim}").read_text()), signal.SIGKILL)
+            signal.pause()
+        raise ERRORS[how]
+
+    if int(rank) == OWN:
+        module, _, name = STAGES[stage].partition(":")
+        home, found = importlib.import_module(f"fenics_gears.{module}"), name.split(".")
+        setattr(getattr(home, found[0]) if found[1:] else home, found[-1], failure)
+    return cli.main(arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

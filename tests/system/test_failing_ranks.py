@@ -1,0 +1,95 @@
+"""One rank of a job fails: each stage of each command that ranks share, each rank of two. `python -m tests.system.test_failing_ranks` prints the table."""
+
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from tests.studies.conftest import ACCURACY, DEMO, environment, mpirun
+from tests.studies.test_optimization import FEWER, GOAL, RIGID, VARIABLES
+from tests.system.failing_rank import WORDS
+
+pytestmark = pytest.mark.ranks
+
+PLANE = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0] + ACCURACY
+EVERY_STEP = PLANE.replace("steps_per_mesh_cycle = 20", 'steps_per_mesh_cycle = 2\ncondensation = "every step"')
+FACE = (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").partition("[accuracy]")[0] + (
+    '[accuracy]\nflank_element_size = "0.6 mm"\nbody_element_size = "9 mm"\nlayers = 1\nslices = 2\ncontact_length = "3 mm"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4\n'
+)
+STUDY = 'scene = "pair.toml"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\n'
+COMMANDS = {
+    "plane": (["run", "pair.toml", "--no-pictures"], PLANE),
+    "every step": (["run", "pair.toml", "--no-pictures"], EVERY_STEP),
+    "face": (["run", "pair.toml", "--no-pictures"], FACE),
+    "study": (["study", "study.toml"], PLANE),
+    "optimize": (["optimize", "design.toml"], PLANE),
+}
+# Stages that every rank comes to; to the others comes rank 0 alone.
+SHARED = {"section mesh", "condensing", "ring", "remeshing", "condensing for a study", "a case", "writing a case", "a design's run", "keeping a run"}
+OF_A_RUN = ("reading", "model", "positions", "march", "writing")
+STAGES_OF = {
+    "plane": ("plane sections", "march"),
+    "every step": (*OF_A_RUN, "remeshing"),
+    "face": (*OF_A_RUN, "plane sections", "section mesh", "condensing", "ring"),
+    "study": ("reading a study", "condensing for a study", "a case", "writing a case", "combining"),
+    "optimize": ("reading a design", "a design's run", "keeping a run", "choosing"),
+}
+CODES = {"refuses": 2, "fails": 3, "breaks": 3, "interrupted": 130, "killed": 128 + signal.SIGKILL}
+# A run of an optimisation that fails is a design without numbers.
+GOES_ON = {"a design's run", "keeping a run"}
+MATRIX = [
+    (command, stage, rank, how)
+    for command, stages in STAGES_OF.items()
+    for stage in stages
+    for rank in (0, 1)
+    for how in ("fails", "killed")
+    if not (how == "fails" and (stage in GOES_ON or rank == 1 and stage not in SHARED))
+]
+DAILY = [("face", "condensing", 1, "breaks")]
+
+
+@dataclass(frozen=True)
+class End:
+    """How a job ended: exit code, what it wrote to the standard error, seconds after the failure, processes that are still there."""
+
+    code: int
+    told: str
+    seconds: float
+    left: list[int]
+
+
+def ended(folder: Path, command: str, stage: str, rank: int, how: str, *more: str) -> End:
+    """A command of two ranks of which one fails at a stage, until its end."""
+    arguments, scene = COMMANDS[command]
+    for name, text in (("pair.toml", scene), ("study.toml", STUDY), ("design.toml", RIGID + VARIABLES + GOAL + FEWER)):
+        (folder / name).write_text(text, encoding="utf-8")
+    comes = rank if stage in SHARED else 0
+    call = [*mpirun(2), sys.executable, "-m", "tests.system.failing_rank", stage, str(comes), how, str(rank), *arguments, *more, "--output", "here"]
+    done = subprocess.run(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": str(folder)}, capture_output=True, text=True, timeout=240)
+    over = time.time()
+    processes = [Path("/proc", file.read_text()) for file in folder.glob("process.*")]
+    assert len(processes) == 2 and (folder / "failed").exists(), done.stderr
+    while any(each.exists() for each in processes) and time.time() < over + 20.0:
+        time.sleep(0.1)
+    return End(done.returncode, done.stderr, over - (folder / "failed").stat().st_mtime, [int(each.name) for each in processes if each.exists()])
+
+
+@pytest.mark.parametrize(("command", "stage", "rank", "how"), DAILY + [pytest.param(*each, marks=pytest.mark.nightly) for each in MATRIX])
+def test_an_error_of_a_rank_ends_all(tmp_path, command, stage, rank, how):
+    """Hard case 28 and the exit codes of the command line: no rank waits for ever, none is left behind, and the error is said once with its exit code."""
+    end = ended(tmp_path, command, stage, rank, how)
+    assert end.code == CODES[how], end.told
+    assert not end.left
+    if how != "killed":
+        assert WORDS in end.told
+
+
+if __name__ == "__main__":
+    for each in MATRIX:
+        with tempfile.TemporaryDirectory() as place:
+            end = ended(Path(place), *each)
+        print(*each, end.code, f"{end.seconds:.1f} s", end.left, "says it" if WORDS in end.told else "", sep=" | ", flush=True)
