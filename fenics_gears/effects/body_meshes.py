@@ -51,6 +51,11 @@ def read(written: BodyMeshesText) -> BodyMeshes:
     return BodyMeshes(*(name and MeshFile(name) for name in (written.pinion, written.wheel)))
 
 
+def write(meshes: BodyMeshes) -> dict:
+    """The section; files have absolute paths."""
+    return {name: getattr(meshes, name).path for name in GEARS if getattr(meshes, name) is not None}
+
+
 def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
     """The meshes with their files found from a directory on, and hashed."""
     return BodyMeshes(*(each and _located(each, directory) for each in (meshes.pinion, meshes.wheel)))
@@ -176,6 +181,7 @@ EFFECT = Effect(
     needs=("tooth_elasticity",),
     excludes=("coast_flanks",),
     read=read,
+    write=write,
     located=located,
     rules=meshes_are_given_and_used,
     check=check,

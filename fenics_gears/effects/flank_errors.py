@@ -18,6 +18,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
 from fenics_gears.inputs.fields import Section, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.spelling import section_tree
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
@@ -115,6 +116,15 @@ class FlankErrorsText(Section):
     wheel: Optional[GearErrorsText] = None
 
 
+def write(errors: FlankErrors) -> dict:
+    """The section; what stands in tables is left to them."""
+    found = section_tree(errors, FlankErrorsText)
+    for gear in GEARS:
+        for column in getattr(errors, gear).columns:
+            found[gear].pop(column, None)
+    return found
+
+
 def located(errors: FlankErrors, directory: Path) -> FlankErrors:
     """The errors with those that stand in tables, found from a directory on."""
     return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
@@ -133,7 +143,7 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
             twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
             if twice is not None:
                 raise files.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
-            errors = replace(errors, **found)
+            errors = replace(errors, columns=tuple(found), **found)
         for name, (measured, along) in CURVES.items():
             if getattr(errors, name) is not None:
                 curves = files.curves_in((directory / getattr(errors, name)).resolve(), getattr(files, along))
@@ -336,6 +346,7 @@ EFFECT = Effect(
             ("helix_form", "helix form deviation"),
         )
     ),
+    write=write,
     located=located,
     check=check,
     rules=errors_fit_the_gears,

@@ -66,6 +66,6 @@ class Study:
 def scene_key(scene: Scene) -> str:
     """Hash of all that a scene's result depends on: its values, however they are written, and the program's version."""
     said: dict[str, Any] = asdict(scene)
-    for words in ("title", "text", "name", "derived"):
+    for words in ("title", "name", "derived", "written", "folder"):
         del said[words]
     return content_key({"scene": said, "program": fenics_gears.__version__, "elasticity": ALGORITHM_VERSION})
