@@ -70,6 +70,11 @@ def _located(file: MeshFile, directory: Path) -> MeshFile:
         return replace(file, path=str(path))
 
 
+def files(meshes: BodyMeshes) -> dict[str, str]:
+    """Path and hash of each mesh file."""
+    return {each.path: each.digest for each in (meshes.pinion, meshes.wheel) if each is not None}
+
+
 def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
     """A section names a file; only the elastic model, condensed once, can have teeth that are not alike."""
     section = table(tree, "body_meshes")
@@ -183,6 +188,7 @@ EFFECT = Effect(
     read=read,
     write=write,
     located=located,
+    files=files,
     rules=meshes_are_given_and_used,
     check=check,
     warnings=warnings,

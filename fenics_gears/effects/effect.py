@@ -56,6 +56,7 @@ class Effect:
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None for that of equal teeth.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
+    ``files(data)``: the names of these files, each with a hash of what was read from it.
     ``check(data, scene, pair)``: raises SceneError where those files are wrong.
     ``warnings(data, model)``: sentences that a user should read before the run.
     ``watched(data, cycle, steps)``: values of consecutive steps (``dynamics.steps.Steps``) that the effect's findings need, name to values (steps,).
@@ -84,6 +85,7 @@ class Effect:
     clock: Callable | None = None
     elasticity: Callable | None = None
     located: Callable | None = None
+    files: Callable | None = None
     check: Callable | None = None
     warnings: Callable | None = None
     watched: Callable | None = None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from hashlib import sha256
 from math import lcm
 from pathlib import Path
 from typing import Any, Optional
@@ -151,6 +152,15 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
     except files.FileProblem as problem:
         return replace(errors, problem=(name, str(problem)))
     return errors
+
+
+def files(errors: FlankErrors) -> dict[str, str]:
+    """Names of the tables, with a hash of what they say."""
+    found = {}
+    for own in (errors.pinion, errors.wheel):
+        said = {"file": {name: getattr(own, name) for name in own.columns}} | {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
+        found |= {getattr(own, name): sha256(repr(said[name]).encode()).hexdigest() for name in TABLES if getattr(own, name) is not None}
+    return found
 
 
 def check(errors: FlankErrors, scene, pair) -> None:
@@ -348,6 +358,7 @@ EFFECT = Effect(
     ),
     write=write,
     located=located,
+    files=files,
     check=check,
     rules=errors_fit_the_gears,
     gaps=gaps,
