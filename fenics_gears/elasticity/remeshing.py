@@ -14,9 +14,7 @@ from fenics_gears.elasticity.elements import element_named
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-
-# To be raised by one whenever the same inputs give other numbers.
-ALGORITHM_VERSION = 3
+from fenics_gears.numbers_version import NUMBERS_VERSION
 
 
 @dataclass(frozen=True)
@@ -43,7 +41,7 @@ def remeshed_stiffness(
     positions done and in all, by this process. Raises ComputationError, on every rank, when a position fails on any.
     """
     key = content_key({
-        "remeshed": ALGORITHM_VERSION,
+        "remeshed": NUMBERS_VERSION,
         "gear": asdict(gear),
         "poissons_ratio": material.poissons_ratio,
         "element": discretisation.element,

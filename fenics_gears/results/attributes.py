@@ -48,6 +48,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("scene_folder", "", "the folder from which files are looked for that the scene names", WITH_FILES),
     ResultAttribute("scene_files", "", "a line for each of these files: a hash of what was read from it, and its name", WITH_FILES),
     ResultAttribute("fenics_gears_version", "", "version of this program"),
+    ResultAttribute("numbers_version", "", "version of its numbers: two results of the same scene may differ where these do"),
     ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
     ResultAttribute("stopped", "", "why the run is not complete: `interrupted`, `failed`, or `not ended` (killed or still running, read from `run.nc.part`)", "`complete` is 0"),
     ResultAttribute("warnings", "", "warnings, one on each line"),

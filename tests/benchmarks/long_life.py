@@ -9,7 +9,6 @@ import ctypes
 import sys
 import tempfile
 import time
-from dataclasses import replace
 from pathlib import Path
 
 from tests.benchmarks.growth.memory import resident
