@@ -50,7 +50,7 @@ def _option(name: str) -> str:
 def rate(options: argparse.Namespace) -> int:
     """Print and write the table."""
     from fenics_gears.rating import rating
-    from fenics_gears.scene.read import scene_from_text
+    from fenics_gears.results.carried_scene import carried_scene
     from fenics_gears.system.output import check_writable, write_whole
 
     file = run_file(options.run)
@@ -59,7 +59,7 @@ def rate(options: argparse.Namespace) -> int:
         raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
     check_writable(output.parent)
     result = loaded_run(file)
-    scene = scene_from_text(str(result.attrs["scene"]))
+    scene = carried_scene(result)
     rows = rating.rate(result, scene, _finish(options, scene))
     write_whole(output, lambda path: _save(rows, path))
     if not options.quiet:

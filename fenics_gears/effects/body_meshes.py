@@ -51,6 +51,11 @@ def read(written: BodyMeshesText) -> BodyMeshes:
     return BodyMeshes(*(name and MeshFile(name) for name in (written.pinion, written.wheel)))
 
 
+def write(meshes: BodyMeshes) -> dict:
+    """The section; files have absolute paths."""
+    return {name: getattr(meshes, name).path for name in GEARS if getattr(meshes, name) is not None}
+
+
 def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
     """The meshes with their files found from a directory on, and hashed."""
     return BodyMeshes(*(each and _located(each, directory) for each in (meshes.pinion, meshes.wheel)))
@@ -63,6 +68,11 @@ def _located(file: MeshFile, directory: Path) -> MeshFile:
     except OSError:
         # `check` reports a missing file; a scene that is only looked at needs no mesh.
         return replace(file, path=str(path))
+
+
+def files(meshes: BodyMeshes) -> dict[str, str]:
+    """Path and hash of each mesh file."""
+    return {each.path: each.digest for each in (meshes.pinion, meshes.wheel) if each is not None}
 
 
 def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
@@ -176,7 +186,9 @@ EFFECT = Effect(
     needs=("tooth_elasticity",),
     excludes=("coast_flanks",),
     read=read,
+    write=write,
     located=located,
+    files=files,
     rules=meshes_are_given_and_used,
     check=check,
     warnings=warnings,

@@ -9,7 +9,8 @@ from typing import Optional
 from fenics_gears.effects.effect import Effect, own_or_shared
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import Tree, value_at
+from fenics_gears.inputs.spelling import field_of
+from fenics_gears.inputs.tree import GEARS, Tree, value_at
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,11 @@ def read(text: CornerContactText) -> CornerContact:
     return CornerContact(tuple(float(own_or_shared(own, text, "edge_radius") or 0.0) for own in (text.pinion, text.wheel)))
 
 
+def write(corner: CornerContact) -> dict:
+    """The section, with a radius for each gear."""
+    return {name: {"edge_radius": field_of(EdgeText, "edge_radius", radius)} for name, radius in zip(GEARS, corner.edge_radii)}
+
+
 def route_has_corners(tree: Tree) -> Iterator[Problem]:
     """Remeshing at every step has no nodes beside the path of contact."""
     if "corner_contact" in tree and value_at(tree, "accuracy", "condensation") == "every step":
@@ -55,5 +61,6 @@ EFFECT = Effect(
     terms=("contact of tip edges off the line of action",),
     needs=("tooth_elasticity",),
     read=read,
+    write=write,
     rules=route_has_corners,
 )

@@ -15,6 +15,7 @@ from typing import Any, get_args, get_type_hints
 
 from fenics_gears.inputs.fields import Section
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.spelling import section_tree
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are stored.
 OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)
@@ -43,7 +44,8 @@ class Effect:
 
     ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``, ``terms`` and
     ``variables`` say what it adds. ``text`` is the section as a scene file has it and ``data`` the frozen dataclass of its values;
-    ``read`` makes one of the other where the names do not do so by themselves, ``rules`` finds what is wrong between fields.
+    ``read`` makes the data of the section where the names do not do so by themselves, ``write`` a section (a dictionary) of the data; ``rules`` finds
+    what is wrong between fields.
     ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all the same.
 
     Hooks, each with the effect's data first:
@@ -54,6 +56,7 @@ class Effect:
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None for that of equal teeth.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
+    ``files(data)``: the names of these files, each with a hash of what was read from it.
     ``check(data, scene, pair)``: raises SceneError where those files are wrong.
     ``warnings(data, model)``: sentences that a user should read before the run.
     ``watched(data, cycle, steps)``: values of consecutive steps (``dynamics.steps.Steps``) that the effect's findings need, name to values (steps,).
@@ -74,6 +77,7 @@ class Effect:
     excludes: tuple[str, ...] = ()
     within: tuple[str, ...] = ()
     read: Callable[[Any], Any] | None = None
+    write: Callable[[Any], dict[str, Any]] | None = None
     rules: Callable[[Mapping[str, Any]], Iterator[Problem]] | None = None
     removal: Callable | None = None
     gaps: Callable | None = None
@@ -81,6 +85,7 @@ class Effect:
     clock: Callable | None = None
     elasticity: Callable | None = None
     located: Callable | None = None
+    files: Callable | None = None
     check: Callable | None = None
     warnings: Callable | None = None
     watched: Callable | None = None
@@ -99,6 +104,10 @@ class Effect:
             return None
         data = self.read(section) if self.read is not None else same_names(self.data, section)
         return data if self.located is None else self.located(data, directory)
+
+    def as_section(self, data: Any) -> dict[str, Any]:
+        """The section that has the data, as a scene file has it."""
+        return self.write(data) if self.write is not None else section_tree(data, self.text)
 
 
 # A study reads hundreds of scenes.

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from hashlib import sha256
 from math import lcm
 from pathlib import Path
 from typing import Any, Optional
@@ -18,6 +19,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
 from fenics_gears.inputs.fields import Section, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.spelling import section_tree
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
@@ -115,6 +117,15 @@ class FlankErrorsText(Section):
     wheel: Optional[GearErrorsText] = None
 
 
+def write(errors: FlankErrors) -> dict:
+    """The section; what stands in tables is left to them."""
+    found = section_tree(errors, FlankErrorsText)
+    for gear in GEARS:
+        for column in getattr(errors, gear).columns:
+            found[gear].pop(column, None)
+    return found
+
+
 def located(errors: FlankErrors, directory: Path) -> FlankErrors:
     """The errors with those that stand in tables, found from a directory on."""
     return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
@@ -133,7 +144,7 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
             twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
             if twice is not None:
                 raise files.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
-            errors = replace(errors, **found)
+            errors = replace(errors, columns=tuple(found), **found)
         for name, (measured, along) in CURVES.items():
             if getattr(errors, name) is not None:
                 curves = files.curves_in((directory / getattr(errors, name)).resolve(), getattr(files, along))
@@ -141,6 +152,15 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
     except files.FileProblem as problem:
         return replace(errors, problem=(name, str(problem)))
     return errors
+
+
+def files(errors: FlankErrors) -> dict[str, str]:
+    """Names of the tables, with a hash of what they say."""
+    found = {}
+    for own in (errors.pinion, errors.wheel):
+        said = {"file": {name: getattr(own, name) for name in own.columns}} | {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
+        found |= {getattr(own, name): sha256(repr(said[name]).encode()).hexdigest() for name in TABLES if getattr(own, name) is not None}
+    return found
 
 
 def check(errors: FlankErrors, scene, pair) -> None:
@@ -336,7 +356,9 @@ EFFECT = Effect(
             ("helix_form", "helix form deviation"),
         )
     ),
+    write=write,
     located=located,
+    files=files,
     check=check,
     rules=errors_fit_the_gears,
     gaps=gaps,

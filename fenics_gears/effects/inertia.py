@@ -9,6 +9,7 @@ from fenics_gears.dynamics.drivetrain_data import LUMPED, Inertia
 from fenics_gears.effects.effect import Effect, ResultVariable, same_names
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.spelling import field_of, section_tree
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, value_at, with_gears
 from fenics_gears.inputs.written import as_written
 
@@ -63,6 +64,12 @@ class InertiaText(Section):
 def read(text: InertiaText) -> Inertia:
     """The data of a validated section, in which the load is its moment of inertia."""
     return same_names(Inertia, text, load=None if text.load is None else text.load.moment_of_inertia)
+
+
+def write(inertia: Inertia) -> dict:
+    """The section, in which the load's moment of inertia is a section."""
+    found = section_tree(inertia, InertiaText, ("load",))
+    return found if inertia.load is None else found | {"load": {"moment_of_inertia": field_of(LoadInertiaText, "moment_of_inertia", inertia.load)}}
 
 
 def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
@@ -126,5 +133,6 @@ EFFECT = Effect(
     terms=("inertia forces",),
     variables=(ResultVariable("energy_kinetic", "N mm", "kinetic energy"),),
     read=read,
+    write=write,
     rules=inertia_is_complete,
 )

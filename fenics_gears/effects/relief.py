@@ -10,6 +10,7 @@ from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief
 from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Measured, Section, choice, either, number, quantity
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.spelling import quantity_text, section_tree
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
 
@@ -78,9 +79,26 @@ def of_gear(both: Section, own: Section | None) -> Relief | None:
         return None
     starting = own if own is not None and own.model_fields_set.intersection(STARTS) else both
     at = {starting.start.kind: starting.start.number} if starting.start is not None else {}
-    shape = own_or_shared(own, both, "shape") or LINEAR
     exponent = own_or_shared(own, both, "exponent")
+    shape = LINEAR if exponent is not None else own_or_shared(own, both, "shape") or LINEAR
     return Relief(depth, at.get("an angle"), shape, at.get("a length"), starting.length_on_path, starting.length_on_flank, exponent)
+
+
+def write(text: type[Section], usual: str, reliefs: Any) -> dict[str, Any]:
+    """The section of both gears' reliefs, each by itself; one without a start begins at the ``usual`` place."""
+    found = {}
+    for gear in GEARS:
+        own = getattr(reliefs, gear)
+        if own is None:
+            continue
+        found[gear] = section_tree(own, text)
+        if own.start_roll_angle is not None:
+            found[gear]["start"] = quantity_text(own.start_roll_angle, "an angle", "deg")
+        elif own.start_diameter is not None:
+            found[gear]["start"] = quantity_text(own.start_diameter, "a length", "mm")
+        elif not {*STARTS} & set(found[gear]):
+            found[gear]["start"] = usual
+    return found
 
 
 def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:

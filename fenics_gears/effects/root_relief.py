@@ -6,7 +6,7 @@ from functools import partial
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import RootReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
+from fenics_gears.effects.relief import RootReliefOfGearText, kink_findings, kinks_watched, of_gear, rules, write
 from fenics_gears.geometry.relief_data import RootRelief
 
 
@@ -37,6 +37,7 @@ EFFECT = Effect(
     data=RootRelief,
     terms=("gaps between the flanks",),
     read=read,
+    write=partial(write, RootReliefOfGearText, "LPSTC"),
     rules=partial(rules, "root_relief", "LPSTC"),
     removal=removal,
     watched=partial(kinks_watched, "root_relief", removal),

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules
+from fenics_gears.effects.relief import TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules, write
 from fenics_gears.geometry.relief_data import TipRelief
 
 
@@ -37,6 +37,7 @@ EFFECT = Effect(
     data=TipRelief,
     terms=("gaps between the flanks",),
     read=read,
+    write=partial(write, TipReliefOfGearText, "HPSTC"),
     rules=partial(rules, "tip_relief", "HPSTC"),
     removal=removal,
     watched=partial(kinks_watched, "tip_relief", removal),

@@ -17,6 +17,7 @@ from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Allowed, Section, out_of_range, refused
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.spelling import quantity_text
 from fenics_gears.inputs.tree import Tree, dotted, load_in, quantity_in, table
 from fenics_gears.inputs.written import as_written
 
@@ -26,6 +27,7 @@ MOST_HARMONICS = 1000
 FINEST_PART_OF_ORDER = 1000
 # Bounds of amplitude and phase, and what they are written like.
 QUANTITIES = {"amplitude": ("1e-12 N m", "1e12 N m", "20 N m"), "phase": ("-360 deg", "360 deg", "30 deg")}
+_KINDS = {name: (units.quantity(example)[1], units.unit_of(example)) for name, (_, _, example) in QUANTITIES.items()}
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,16 @@ class TorqueRippleText(Section):
     harmonics: tuple = Field(..., json_schema_extra={"allowed": _HARMONICS})
 
 
+def write(ripple: TorqueRipple) -> dict:
+    """The section, with a table for each harmonic."""
+
+    def harmonic(each: Harmonic) -> dict:
+        written = {name: quantity_text(getattr(each, name), *_KINDS[name]) for name in QUANTITIES if name != "phase" or each.phase}
+        return {"order": float(each.order), **written}
+
+    return {"harmonics": [harmonic(each) for each in ripple.harmonics]}
+
+
 def torque_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
     """A torque that changes its sign needs the coast flanks."""
     ripple, mean = table(tree, "torque_ripple"), load_in(tree)
@@ -144,6 +156,7 @@ EFFECT = Effect(
     variables=(ResultVariable("wheel_couple", "N mm", "load torque on the wheel's shaft, positive where it resists the rotation"),),
     rules=torque_keeps_its_sign,
     load=load,
+    write=write,
     results=results,
     period=period,
 )

@@ -14,9 +14,7 @@ from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-
-# To be raised by one whenever the same inputs give other numbers.
-ALGORITHM_VERSION = 9
+from fenics_gears.numbers_version import NUMBERS_VERSION
 
 COUNTS = ("unknowns", "condensed_unknowns")
 
@@ -38,7 +36,8 @@ def flank_compliance(
     similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
     coupled = _coupled(reach, discretisation.elastic_teeth)
     inputs = {
-        "version": ALGORITHM_VERSION,
+        "kind": "plane strain",
+        "version": NUMBERS_VERSION,
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "element": chosen.name,

@@ -13,6 +13,7 @@ from scipy import sparse
 from fenics_gears.elasticity.petsc import PETSc
 from fenics_gears.errors import ComputationError
 
+LIBRARY = ctypes.CDLL(PETSc.__file__)
 # Right-hand sides solved at once; more take memory and save no time.
 COLUMNS_AT_ONCE = 64
 
@@ -123,6 +124,6 @@ def _handle(petsc_object):
 
 
 def _call(name: str, *arguments) -> None:
-    error = getattr(ctypes.CDLL(PETSc.__file__), name)(*arguments)
+    error = getattr(LIBRARY, name)(*arguments)
     if error:
         raise ComputationError(f"{name} failed with PETSc error {error}")

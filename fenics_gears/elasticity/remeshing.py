@@ -13,10 +13,8 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.system.job import Job, together
-
-# To be raised by one whenever the same inputs give other numbers.
-ALGORITHM_VERSION = 3
 
 
 @dataclass(frozen=True)
@@ -42,7 +40,7 @@ def remeshed_stiffness(
     positions done and in all, of this process. Raises ComputationError when a position fails.
     """
     key = content_key({
-        "remeshed": ALGORITHM_VERSION,
+        "remeshed": NUMBERS_VERSION,
         "gear": asdict(gear),
         "poissons_ratio": material.poissons_ratio,
         "element": discretisation.element,

@@ -39,7 +39,7 @@ class MeasuredCurves:
 class GearErrors:
     """Errors of one gear, mm, a value for each tooth; None for what the scene does not give. Those of the helix are over the gear's face width.
 
-    ``file``: the table that the values are from; ``profile_curves``, ``helix_curves``: the tables of measured curves, which are in ``measured_profile``
+    ``file``: the table that the values of its ``columns`` are from; ``profile_curves``, ``helix_curves``: the tables of measured curves, which are in ``measured_profile``
     and ``measured_helix``; ``problem``: the field that names a wrong table and what is wrong, in words, empty where nothing is.
     """
 
@@ -50,6 +50,7 @@ class GearErrors:
     helix_form: tuple[float, ...] | None = None
     waviness: Waviness | None = None
     file: str | None = None
+    columns: tuple[str, ...] = ()
     profile_curves: str | None = None
     helix_curves: str | None = None
     measured_profile: MeasuredCurves | None = None

@@ -183,6 +183,13 @@ def allowed_in(section: type[BaseModel], name: str) -> Allowed | None:
     return extra["allowed"] if extra else None
 
 
+def section_within(section: type[BaseModel], name: str) -> type[BaseModel] | None:
+    """The schema of a section within a section; None where the name is a plain field."""
+    annotation = section.model_fields[name].annotation
+    kinds = (annotation, *getattr(annotation, "__args__", ()))
+    return next((kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)), None)
+
+
 def quantity(
     lowest: str,
     highest: str,

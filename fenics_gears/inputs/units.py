@@ -169,6 +169,15 @@ def names_by_kind() -> dict[str, list[str]]:
     return found
 
 
+def own_unit(kind: str) -> str:
+    """The unit of the program for a kind of quantity.
+
+    >>> own_unit("a torque")
+    'N mm'
+    """
+    return next(unit for unit, each in _KINDS.items() if each == kind)
+
+
 def _tidy(written: str) -> str:
     """A unit in plain letters: "µm" as "um", "min⁻¹" as "min^-1"."""
     return _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written).translate(_SPELLINGS).strip()

@@ -37,14 +37,18 @@ WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
 OVER_FACE = "the flanks are resolved over the face"
 OVER_FACE_WITH_LOAD = "the flanks are resolved over the face and loaded"
 OVER_FACE_WITH_FIELDS = "as `transverse_load_factor`, and contact fields are stored"
+WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`)"
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
 
 RESULT_ATTRIBUTES = (
     ResultAttribute("title", "", "the scene's title"),
-    ResultAttribute("scene", "", "the text of the scene; saved as a file it can be run again"),
+    ResultAttribute("scene", "", "the text of the scene that was run; saved as a file it can be run again"),
     ResultAttribute("scene_name", "", "the name of the scene's file"),
+    ResultAttribute("scene_folder", "", "the folder from which files are looked for that the scene names", WITH_FILES),
+    ResultAttribute("scene_files", "", "a line for each of these files: a hash of what was read from it, and its name", WITH_FILES),
     ResultAttribute("fenics_gears_version", "", "version of this program"),
+    ResultAttribute("numbers_version", "", "version of its numbers: two results of the same scene may differ where these do"),
     ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
     ResultAttribute("stopped", "", "why the run is not complete: `interrupted`, `failed`, or `not ended` (killed or still running, read from `run.nc.part`)", "`complete` is 0"),
     ResultAttribute("warnings", "", "warnings, one on each line"),

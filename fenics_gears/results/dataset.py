@@ -16,7 +16,9 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
+from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.results.attributes import RUNG
+from fenics_gears.results.carried_scene import scene_attributes
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.results.extrema import Extrema, largest_pair_force, peak_to_peak
@@ -124,9 +126,9 @@ def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int
     scene = recorder.model.scene
     attributes = {
         "title": scene.title,
-        "scene": scene.text,
-        "scene_name": scene.name,
+        **scene_attributes(scene),
         "fenics_gears_version": fenics_gears.__version__,
+        "numbers_version": NUMBERS_VERSION,
         "complete": int(not march.interrupted),
         "steps": march.steps,
         # Pictures show the last cycles of a steady run, all of one that never repeats.

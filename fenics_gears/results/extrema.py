@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from math import ceil, isfinite
 
 import numpy as np
@@ -63,13 +64,15 @@ class Extrema:
         whole = isfinite(self._period) and len(self._steps) > self._period
         # Solved in the first period, so that the same cycles give the same bits however many are run.
         self._first, self._whole = int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0, whole
-        self._error, self._same = transmission_error, SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
         self._sought = SOUGHT if cycle.face is None else SOUGHT_OVER_FACE
         self.found_by = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
         if self.found_by == SOLVED:
-            self._between = BetweenSteps(cycle, model.equations_of_motion, self._marched)
+            # Not a method of this object: with a circle of references all operators would stay until Python looks for garbage.
+            same = SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
+            marched = partial(_is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf)
+            self._between = BetweenSteps(cycle, model.equations_of_motion, marched)
 
     def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
         """The largest value of a curve (s,); `of`: its value at a position."""
@@ -89,9 +92,6 @@ class Extrema:
     def transmission_error(self, record: Record) -> float:
         """The transmission error, rad, at a position."""
         return float(self._model.transmission_error(record.state.position))
-
-    def _marched(self, record: Record) -> bool:
-        return not self._quasi_static or abs(self.transmission_error(record) - self._error[self._place(record.step)]) <= self._same
 
     def _place(self, step: float) -> int:
         """Place of a step of the period among all steps."""
@@ -119,6 +119,11 @@ class Extrema:
             return self._steps.astype(float), curve
         steps, values = self._steps[-self._period - 1 :] - self._first, curve[-self._period - 1 :]
         return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate((values[-2:-1], values, values[1:2]))
+
+
+def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: float, record: Record) -> bool:
+    """Whether a position has the transmission error (s,) of the march at its step, of which step 0 has the place `first`; any has where `same` is infinite."""
+    return same == np.inf or abs(float(model.transmission_error(record.state.position)) - transmission_error[int(record.step) + first]) <= same
 
 
 def peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:

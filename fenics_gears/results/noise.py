@@ -10,11 +10,11 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.results.carried_scene import carried_scene
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.results.key_numbers import MICROMETRE
 from fenics_gears.results.settled import of_settled
 from fenics_gears.results.spectrum import FLAT_TOP, NO_WINDOW, WINDOWS, OrderLines, level, order_lines, sidebands
-from fenics_gears.scene.read import scene_from_text
 
 SIGNALS = {"transmission_error": ("um", "transmission error along the line of action"), "mesh_force": ("N", "mesh force")}
 # Of the largest force. Without inertia and friction the load alone sets the mesh force; what varies of it then is round-off.
@@ -30,7 +30,7 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
     window: one of `WINDOWS`; None: none, over whole hunting tooth periods or else whole mesh cycles, and the flat top for a ramp. Raises ComputationError for
     a record too short to have mesh orders apart.
     """
-    gears = scene_from_text(str(result.attrs["scene"])).gears
+    gears = carried_scene(result).gears
     ramp = "mesh_frequency" in result
     run = result if ramp else of_settled(result)
     cycles = float(np.ptp(run["mesh_phase"].values)) if run.sizes["time"] > 1 else 0.0

@@ -5,7 +5,8 @@ A section that the scene does not name is ``None``: that effect is not simulated
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 from fenics_gears.dynamics.drivetrain_data import Bearings, Damping, Inertia, Shafts
 from fenics_gears.dynamics.torque_ripple_data import TorqueRipple
@@ -101,10 +102,11 @@ class Output:
 
 @dataclass(frozen=True)
 class Scene:
-    """All input of a run, and the text it was read from.
+    """All input of a run. Its `text` always says what its data are, also of a scene that ``dataclasses.replace`` changed.
 
     One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an effect that the scene does
-    not name is None; `derived`: what the scene leaves out of gears and load. (Elastic teeth are an effect too: they are there where `gears` have a material.)
+    not name is None; `derived`: what the scene leaves out of gears and load; `written`: the text that it was read from, before any change; `folder`:
+    from which files are looked for that it names. (Elastic teeth are an effect too: they are there where `gears` have a material.)
     """
 
     title: str
@@ -113,7 +115,6 @@ class Scene:
     motion: Motion
     accuracy: Accuracy = Accuracy()
     output: Output = Output()
-    text: str = ""
     name: str = "scene"
     derived: tuple[Derived, ...] = ()
     body_meshes: BodyMeshes | None = None
@@ -133,6 +134,15 @@ class Scene:
     torque_ripple: TorqueRipple | None = None
     speed_ramp: SpeedRamp | None = None
     profile_modifications: ProfileModifications | None = None
+    written: str = field(default="", compare=False, repr=False)
+    folder: str = field(default="", compare=False, repr=False)
+
+    @cached_property
+    def text(self) -> str:
+        """The scene file that gives these data: as it was read where nothing was changed since, else written anew (``scene.write``)."""
+        from fenics_gears.scene.write import text_of
+
+        return text_of(self)
 
     @property
     def mesh_frequencies(self) -> tuple[float, float]:

@@ -118,18 +118,22 @@ def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
     gears, derived = gear_pair_data(checked.gears)
     motion = _motion(checked)
     load, of_load = load_data(checked.load, checked.gears, motion)
-    return data.Scene(
+    scene = data.Scene(
         title=checked.title or name,
         gears=gears,
         load=load,
         motion=motion,
         accuracy=same_names(data.Accuracy, checked.accuracy),
         output=data.Output(checked.output.root_stress, contact_fields=checked.output.contact_fields is not False),
-        text=text,
         name=name,
         derived=(*derived, *of_load),
+        written=text,
+        folder=str(directory.absolute()),
         **{effect.section: effect.from_text(getattr(checked, effect.section), directory) for effect in top_level()},
     )
+    # Known already; a scene that is made of this one has to find its own.
+    scene.__dict__["text"] = text
+    return scene
 
 
 def _motion(checked) -> data.Motion:

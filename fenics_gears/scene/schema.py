@@ -13,7 +13,7 @@ from pydantic import BaseModel, Field, create_model
 
 from fenics_gears.effects import top_level
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.inputs.fields import Allowed, Section, choice, quantity, refused, switch, text, whole_number
+from fenics_gears.inputs.fields import Allowed, Section, choice, quantity, refused, section_within, switch, text, whole_number
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.gear_schema import Gears
@@ -214,13 +214,6 @@ SceneText = create_model(
     __doc__="A whole scene file: the sections that are always there, and one optional section for each effect.",
     **{effect.section: (Optional[effect.text], None) for effect in top_level()},
 )
-
-
-def section_within(section: type[BaseModel], name: str) -> type[BaseModel] | None:
-    """The schema of a section within a section; None where the name is a plain field."""
-    annotation = section.model_fields[name].annotation
-    kinds = (annotation, *getattr(annotation, "__args__", ()))
-    return next((kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)), None)
 
 
 @functools.cache

@@ -15,13 +15,13 @@ import xarray as xr
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import GearPair, gear_pair
+from fenics_gears.results.carried_scene import carried_scene
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.units import factor, in_unit
 
-NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
+NO_SCENE = "The scene in this file is none that this version of the program can read, so that this section cannot be made; run the scene again."
 TOO_FEW = "Fewer than two steps are stored; a curve needs two."
 # Most mesh cycles side by side in a chart. Of longer records the last ones are shown, and all of them cycle by cycle.
 MOST_CYCLES = 4.0
@@ -190,7 +190,7 @@ def _with_ends(there: np.ndarray) -> np.ndarray:
 def scene_of(dataset: xr.Dataset) -> Scene | None:
     """The scene that a result was computed from; None where its text is no scene of this version."""
     try:
-        return scene_from_text(str(dataset.attrs.get("scene", "")))
+        return carried_scene(dataset)
     except GearsError:
         return None
 

@@ -15,6 +15,7 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.studies.combine import CaseRecord, record_of
 from fenics_gears.studies.study import Case, Study
 from fenics_gears.system.output import write_whole
@@ -93,16 +94,21 @@ def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
         yield
 
 
-def base_changed(study: Study, directory: Path) -> bool:
-    """Whether the study was last run here with another base scene; writes `study.json` with the present one.
+def changed_since(study: Study, directory: Path) -> str:
+    """A sentence where the study was last run here by a version of the program with other numbers, or with another base scene; else empty.
 
-    That file also lists which file holds which case.
+    Writes `study.json` with the present ones, which also lists which file holds which case.
     """
     path = directory / "study.json"
     try:
-        before = json.loads(path.read_text(encoding="utf-8")).get("base_scene")
+        index = json.loads(path.read_text(encoding="utf-8"))
+        before, numbers = index.get("base_scene"), index.get("numbers_version")
     except (OSError, ValueError, AttributeError):
-        before = None
-    index = {"title": study.title, "base_scene": study.base_key, "cases": {case.name: case.values for case in study.cases}}
+        before = numbers = None
+    index = {"title": study.title, "base_scene": study.base_key, "numbers_version": NUMBERS_VERSION, "cases": {case.name: case.values for case in study.cases}}
     write_whole(path, lambda aside: aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8"))
-    return before is not None and before != study.base_key
+    if before is None or before == study.base_key:
+        return ""
+    if numbers != NUMBERS_VERSION:
+        return "Results that are here are of a version of the program with other numbers; none of them is used, all cases are computed anew."
+    return "The base scene has changed since the last time."

@@ -8,7 +8,7 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fenics_gears.studies.case_files import base_changed, kept_records, sole_writer
+from fenics_gears.studies.case_files import changed_since, kept_records, sole_writer
 from fenics_gears.studies.combine import CaseRecord, combined, save_study
 from fenics_gears.studies.ranks import Alone, Together, ranks
 from fenics_gears.studies.study import Case, Study
@@ -59,7 +59,7 @@ def _run(study: Study, directory: Path, team: Alone | Together, progress: Progre
     outcome.kept = len(outcome.records)
     missing = [case for case in study.cases if case.index not in outcome.records]
     say = (lambda text: None) if quiet else (lambda text: print(text, file=sys.stderr, flush=True))
-    say(_opening(study, outcome.kept, len(missing), base_changed(study, directory), team.size))
+    say(_opening(study, outcome.kept, len(missing), changed_since(study, directory), team.size))
     with Interruption(progress) as interruption:
         try:
             condense_gears(missing, team, interruption)
@@ -71,11 +71,10 @@ def _run(study: Study, directory: Path, team: Alone | Together, progress: Progre
     return outcome
 
 
-def _opening(study: Study, kept: int, missing: int, changed: bool, size: int) -> str:
+def _opening(study: Study, kept: int, missing: int, changed: str, size: int) -> str:
     """One line on how many cases are there and to be computed."""
     of_it = f"{kept} kept, {missing} to be computed" if kept else f"{missing} to be computed"
-    since = " The base scene has changed since the last time." if changed else ""
-    return f"{study.title}: {len(study.cases)} cases, {of_it}" + (f", by {size} processes." if size > 1 else ".") + since
+    return f"{study.title}: {len(study.cases)} cases, {of_it}" + (f", by {size} processes." if size > 1 else ".") + (changed and f" {changed}")
 
 
 def condense_gears(missing: list[Case], team: Alone | Together, progress: Interruption) -> None:

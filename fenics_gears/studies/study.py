@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-import fenics_gears
 from fenics_gears.elasticity.cache import content_key
-from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
+from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.axis import Axis
 
@@ -64,8 +63,8 @@ class Study:
 
 
 def scene_key(scene: Scene) -> str:
-    """Hash of all that a scene's result depends on: its values, however they are written, and the program's version."""
+    """Hash of all that a scene's result depends on: its values, however they are written, and the version of the program's numbers."""
     said: dict[str, Any] = asdict(scene)
-    for words in ("title", "text", "name", "derived"):
+    for words in ("title", "name", "derived", "written", "folder"):
         del said[words]
-    return content_key({"scene": said, "program": fenics_gears.__version__, "elasticity": ALGORITHM_VERSION})
+    return content_key({"scene": said, "numbers": NUMBERS_VERSION})

@@ -48,7 +48,7 @@ def rack_pair(module: float, teeth: tuple[int, int], shifts=(0.0, 0.0), face_wid
 
 def pairs(paper: Scene) -> dict[str, Scene]:
     """The scenes by name, with the paper's shafts and bearings, and defaults for all settings."""
-    dynamic = replace(paper, accuracy=Accuracy(), motion=Motion(200.0, SETTLING, 1), text="")
+    dynamic = replace(paper, accuracy=Accuracy(), motion=Motion(200.0, SETTLING, 1))
     plain = _quasi_static(replace(dynamic, friction=None))
     material = paper.gears.material
     high = {"addendum": 1.35, "dedendum": 1.6, "rounding": 0.2}

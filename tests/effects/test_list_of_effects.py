@@ -28,7 +28,7 @@ def test_schema_data_and_list_know_the_same_sections():
     """Authority: identity; what is not one of the four sections that are always there, is an effect."""
     always = {"title", "gears", "load", "motion", "accuracy", "output"}
     assert set(SceneText.model_fields) - always == set(AT_THE_TOP)
-    assert {field.name for field in dataclasses.fields(Scene)} - always - {"text", "name", "derived"} == set(AT_THE_TOP)
+    assert {field.name for field in dataclasses.fields(Scene)} - always - {"name", "derived", "written", "folder"} == set(AT_THE_TOP)
 
 
 @pytest.mark.parametrize("section", ["shafts", "bearings", "damping", "friction"])

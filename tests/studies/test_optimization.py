@@ -203,7 +203,7 @@ def test_a_killed_search_repeats_nothing(folder):
         env={**environment(), "PYTHONPATH": str(CHECKOUT)}, cwd=CHECKOUT, capture_output=True, text=True, timeout=120,
     )  # fmt: skip
     assert killed.returncode == -signal.SIGKILL, killed.stderr
-    assert len(run_lines.kept(folder / "killed" / "runs")) == 5
+    assert len(run_lines.kept(folder / "killed" / "runs")[0]) == 5
     resumed = found(path, folder / "killed")
     assert (resumed.kept, resumed.computed) == (5, whole.computed - 5)
     keys = [line["key"] for line in lines(folder / "killed")]
@@ -224,7 +224,7 @@ def test_any_number_of_processes_gives_the_same_result(folder):
     designs = read(folder / "two" / "optimization.nc")
     assert designs[ERROR].values.tolist() == [each.goals[ERROR] for each in alone.tried]
     keys = [line["key"] for line in lines(folder / "two")]
-    assert len(keys) == len({*keys}) and {*run_lines.kept(folder / "alone" / "runs")} <= {*keys}
+    assert len(keys) == len({*keys}) and {*run_lines.kept(folder / "alone" / "runs")[0]} <= {*keys}
     assert {"search.png", "variables.png", "harris_map.png", "report.html", "best.toml", "designs.csv"} <= {each.name for each in (folder / "two").iterdir()}
     page = (folder / "two" / "report.html").read_text(encoding="utf-8")
     assert all(heading in page for heading in ("Summary", "Designs", "Each variable alone", "Harris map, before", "Harris map, chosen design"))
@@ -306,7 +306,16 @@ def test_a_cut_line_harms_no_other(tmp_path):
     with open(tmp_path / "0.jsonl", "ab") as file:
         file.write(b'{"key": "two", "numb')
     run_lines.append(tmp_path, {"key": "three"})
-    assert [*run_lines.kept(tmp_path)] == ["one", "three"]
+    found, others = run_lines.kept(tmp_path)
+    assert [*found] == ["one", "three"] and others == 0
+
+
+def test_lines_of_other_numbers_are_not_used(tmp_path, monkeypatch):
+    """Definition of the version: runs with other numbers are no runs of this program; they are counted."""
+    run_lines.append(tmp_path, {"key": "one"})
+    monkeypatch.setattr(run_lines, "NUMBERS_VERSION", run_lines.NUMBERS_VERSION + 1)
+    run_lines.append(tmp_path, {"key": "two"})
+    assert run_lines.kept(tmp_path) == ({"two": {"numbers_version": run_lines.NUMBERS_VERSION, "key": "two"}}, 1)
 
 
 REFUSED = {

@@ -12,14 +12,13 @@ from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.elasticity.face.cost import expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
-from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS, check_inputs
+from fenics_gears.elasticity.gear_compliance import COUNTS, check_inputs
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.system.job import Job, together
 
-# To be raised by one whenever the same inputs give other numbers.
-FACE_VERSION = 4
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
 ORDER = 2
 
@@ -38,7 +37,8 @@ def face_compliance(
     similar, scaled = gear.of_module_one, discretisation.in_modules_of(gear)
     farthest, both = reach.farthest, reach.across is not None
     inputs = {
-        "version": [ALGORITHM_VERSION, FACE_VERSION],
+        "kind": "over the face",
+        "version": NUMBERS_VERSION,
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "face": asdict(scaled),

@@ -12,16 +12,13 @@ import numpy as np
 from scipy import sparse
 
 from fenics_gears.elasticity.cache import Cache, kept
-from fenics_gears.elasticity.face.compliance import FACE_VERSION
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION
-from fenics_gears.elasticity.root_stress import ROWS_VERSION, RootStressRows
+from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+from fenics_gears.numbers_version import NUMBERS_VERSION
 
-# To be raised by one whenever the same inputs give other numbers.
-FACE_ROWS_VERSION = 2
 # Right-hand sides in memory at once.
 COLUMNS = 64
 
@@ -44,7 +41,7 @@ def face_root_stress_rows(
     averages = slice_averages(gear.module * scaled.sweep.heights, 2, *slices)
     inputs = {
         "kind": "root stress over the face",
-        "version": [ALGORITHM_VERSION, FACE_VERSION, ROWS_VERSION, FACE_ROWS_VERSION],
+        "version": NUMBERS_VERSION,
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "face": asdict(scaled),

@@ -18,7 +18,7 @@ from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of
 from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.elements import Element, element_named
-from fenics_gears.elasticity.gear_compliance import ALGORITHM_VERSION, COUNTS
+from fenics_gears.elasticity.gear_compliance import COUNTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.ring import definite_inverse, rotation
@@ -26,9 +26,7 @@ from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-
-# To be raised by one whenever the same inputs give other numbers, or other arrays.
-WHOLE_BODY_VERSION = 3
+from fenics_gears.numbers_version import NUMBERS_VERSION
 
 
 def whole_body_compliance(
@@ -41,7 +39,7 @@ def whole_body_compliance(
     chosen = element_named(element)
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)
     inputs = {
-        "version": [ALGORITHM_VERSION, WHOLE_BODY_VERSION],
+        "version": NUMBERS_VERSION,
         "whole body": _digest(mesh),
         "gear": asdict(gear),
         "poissons_ratio": material.poissons_ratio,

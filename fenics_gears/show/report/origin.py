@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+from collections.abc import Sequence
 from pathlib import Path
 
 import fenics_gears
@@ -28,9 +29,10 @@ def version_section(attributes: dict, file: Path) -> Section:
     return Section("versions", "Versions", blocks)
 
 
-def scene_section(text: str, heading: str = "Scene", name: str = "scene") -> Section:
-    """A file's text as it was read."""
-    return Section(name, heading, [Listing(text) if text.strip() else Words("The result has no scene's text.", warns=True)])
+def scene_section(text: str, heading: str = "Scene", name: str = "scene", remarks: Sequence[str] = ()) -> Section:
+    """A scene's or a study's text, after remarks on it."""
+    listing = Listing(text) if text.strip() else Words("The result has no scene's text.", warns=True)
+    return Section(name, heading, [*(Words(each, warns=True) for each in remarks), listing])
 
 
 def made_by() -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from fenics_gears.results.carried_scene import changed_files
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.show.report.curves import forces, motion, pressure, spectra
 from fenics_gears.show.report.effects import effects
@@ -31,7 +32,8 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
         progress.update(done, len(makers), make.__name__.replace("_", " "))
         sections.append(make(run))
     attributes = run.dataset.attrs
-    sections += [version_section(attributes, run.file), scene_section(str(attributes.get("scene", "")))]
+    remarks = [] if run.scene is None else changed_files(run.dataset, run.scene)
+    sections += [version_section(attributes, run.file), scene_section(str(attributes.get("scene", "")), remarks=remarks)]
     progress.update(len(makers), len(makers))
     title = " ".join(str(attributes.get("title", "")).split()) or run.file.stem
     subtitle = conditions(run.scene) if run.scene is not None else ""

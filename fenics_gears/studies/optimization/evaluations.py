@@ -63,12 +63,12 @@ class Evaluation:
 class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
-    `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here; `kept`: those that were there before.
+    `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here; `kept`: those that were there before, beside `others` of versions with other numbers.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self.directory, self._team, self._progress = design, directory, team, progress
-        self._lines = run_lines.kept(directory)
+        self._lines, self.others = run_lines.kept(directory)
         self.designs, self.kept, self.computed, self.seconds = (0, 0), len(self._lines), 0, 0.0
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
@@ -96,7 +96,7 @@ class Evaluator:
         # Fields over the flanks take memory and time, and only face load factors need them.
         if not any(name in OVER_FACE for name in self._names):
             scene = replace(scene, output=Output(scene.output.root_stress, contact_fields=False))
-        return Case(0, {}, replace(scene, text="", title="", name=self.design.name), scene_key(scene))
+        return Case(0, {}, scene, scene_key(scene))
 
     @functools.cached_property
     def _names(self) -> list[str]:

@@ -111,6 +111,7 @@ def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size:
     """One line on how much there is to do."""
     runs = len(design.loads.points) * count
     kept = f" {evaluator.kept} runs are kept from before." if evaluator.kept else ""
+    kept += f" {evaluator.others} runs of a version of the program with other numbers are not used." if evaluator.others else ""
     return f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each, and around them; {work.words(size)}.{kept}"
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.system.job import communicator
 
 FOLDER, ENDING = "runs", ".jsonl"
@@ -24,19 +25,22 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
     try:
         with open(file, "ab+", buffering=0) as out:
             torn = out.seek(0, os.SEEK_END) and (out.seek(-1, os.SEEK_END), out.read(1))[1] != b"\n"
-            out.write((b"\n" if torn else b"") + json.dumps(line, ensure_ascii=False).encode() + b"\n")
+            out.write((b"\n" if torn else b"") + json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False).encode() + b"\n")
     except OSError as error:
         raise ComputationError(f"{file}: a run could not be kept: {error.strerror or error}") from error
 
 
-def kept(directory: Path) -> dict[str, dict[str, Any]]:
-    """All whole lines by their `key`."""
-    found = {}
+def kept(directory: Path) -> tuple[dict[str, dict[str, Any]], int]:
+    """All whole lines by their `key`, and how many more there are of versions of the program with other numbers."""
+    found, others = {}, 0
     for file in sorted(directory.glob(f"*{ENDING}")):
         for text in file.read_bytes().split(b"\n"):
             try:
                 line = json.loads(text)
-                found[line["key"]] = line
-            except (ValueError, KeyError, TypeError):
+                if line.get("numbers_version") == NUMBERS_VERSION:
+                    found[line["key"]] = line
+                else:
+                    others += 1
+            except (ValueError, KeyError, TypeError, AttributeError):
                 continue
-    return found
+    return found, others

@@ -15,7 +15,7 @@ from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.results.validity import WINDOW_REACHED
-from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
 from fenics_gears.studies.accuracy.runs import run_sharing
@@ -68,7 +68,7 @@ def run(scene):
 def test_the_scene_is_the_one_meant(scene, paper_scene):
     """Identity with the scene made from the paper's."""
     expected = replace(teeth_alone(paper_scene), friction=None, accuracy=Accuracy(target=TARGET), motion=Motion(200.0, 1, 1))
-    assert replace(scene, text="", name="", title="") == replace(expected, text="", name="", title="")
+    assert replace(scene, name="", title="") == replace(expected, name="", title="")
 
 
 def test_the_true_error_is_within_the_target(scene, run):
@@ -96,11 +96,12 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
     assert np.array_equal(simulate(again).transmission_error.values, run.transmission_error.values)
 
 
-def test_a_scene_without_text_can_have_a_target(scene, monkeypatch):
-    """A scene made in Python; settings go to its data alone."""
+def test_a_scene_changed_in_python_can_have_a_target(scene, monkeypatch):
+    """The text that the result carries gives what was run, by its reader: the chosen settings, and what was changed."""
     monkeypatch.setattr("fenics_gears.studies.accuracy_target.choose.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, {"x": 0.05}, 1))
-    result = simulate(replace(scene, text=""))
-    assert result.attrs["scene"] == "" and result.attrs["element"] == "P1"
+    result = simulate(replace(scene, load=Load(0.9 * scene.load.wheel_torque)))
+    assert scene_from_text(result.attrs["scene"]) == replace(scene, name="scene", load=Load(0.9 * scene.load.wheel_torque), accuracy=Accuracy("P1", 0.25))
+    assert result.attrs["element"] == "P1"
 
 
 def test_a_tighter_target_takes_a_finer_mesh(scene, run):
@@ -138,7 +139,7 @@ def test_only_steps_with_a_past_have_an_error(scene):
 
 def test_test_runs_can_represent_the_slowest_vibration(paper_scene, scene):
     """Nyquist: at least two steps in a period, also with half the steps. Where no usual number has them, and without inertia, few do."""
-    slow = replace(paper_scene, accuracy=Accuracy(), text="", motion=Motion(5.0, 2, 1))
+    slow = replace(paper_scene, accuracy=Accuracy(), motion=Motion(5.0, 2, 1))
     fewest = TrialRuns(slow, lambda words: None).fewest_steps
     slowest = model_of(slow).vibrations[0].frequency
     assert 2.0 * slowest <= 5.0 * fewest / 2.0 < 4.0 * slowest

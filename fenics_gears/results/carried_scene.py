@@ -1,0 +1,51 @@
+"""The scene that a result carries: what of it stands in the result's attributes, and the scene again from these."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import xarray as xr
+
+from fenics_gears.effects import from_effects
+from fenics_gears.errors import SceneError
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.scene.write import NO_FILE
+
+LOGGER = logging.getLogger(__name__)
+
+
+def scene_attributes(scene: Scene) -> dict[str, str]:
+    """The text and the name of a scene; of one that names files also the folder from which they are looked for, and a hash of what was read from each."""
+    found, files = {"scene": scene.text, "scene_name": scene.name}, _files(scene)
+    if files:
+        found |= {"scene_folder": scene.folder, "scene_files": "\n".join(f"{digest} {name}" for name, digest in files.items())}
+    return found
+
+
+def carried_scene(result: xr.Dataset) -> Scene:
+    """The scene that was run; a warning is logged where files that it names are no longer what they were. Raises SceneError where its text is no scene of this version."""
+    text = str(result.attrs.get("scene", ""))
+    if text.startswith(NO_FILE):
+        raise SceneError(text.removeprefix("# ").rstrip())
+    scene = scene_from_text(text, str(result.attrs.get("scene_name") or "scene"), directory=Path(str(result.attrs.get("scene_folder", ""))))
+    for words in changed_files(result, scene):
+        LOGGER.warning("%s", words)
+    return scene
+
+
+def changed_files(result: xr.Dataset, scene: Scene) -> list[str]:
+    """Sentences on files that the scene of a result names and that are no longer what was read when it was run."""
+    now = _files(scene)
+    then = (line.partition(" ")[::2] for line in str(result.attrs.get("scene_files", "")).splitlines())
+    folder = result.attrs.get("scene_folder")
+    return [
+        f"{name}, which the scene names, is not what it was when the scene was run (looked for in {folder}). What is computed from it now is not of that run."
+        for digest, name in then
+        if now.get(name) != digest
+    ]
+
+
+def _files(scene: Scene) -> dict[str, str]:
+    return {name: digest for files in from_effects(scene, "files") for name, digest in files.items()}

@@ -1,0 +1,111 @@
+"""From the frozen dataclasses of ``scene.data`` to a scene file that gives the same data, bit for bit: the way back of ``scene.read``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from fenics_gears.effects import effects_on
+from fenics_gears.errors import GearsError
+from fenics_gears.geometry.gear_data import GearData, GearPairData, Web
+from fenics_gears.inputs.spelling import field_of, section_tree
+from fenics_gears.inputs.tree import GEARS
+from fenics_gears.inputs.written import as_toml
+from fenics_gears.scene import data, gear_schema, schema
+from fenics_gears.scene.read import parsed, scene_from_text
+
+NO_FILE = "# No scene file gives this scene, which was made or changed in Python"
+# What a scene is called, and where it was read; it has these data whatever they are.
+WORDS = ("title", "name", "derived", "written", "folder")
+
+
+def text_of(scene: data.Scene) -> str:
+    """The text of a scene file that gives a scene's data: sections stand as they were read where they give them, others are written from the data.
+
+    What no file gives, as where a mesh file that it names was overwritten since, has a text that says so, and that is no scene.
+    """
+    sections = section_trees(scene)
+    # As read, a section may follow from another one, as a load by its power does from the speed: then all are written.
+    why = ""
+    for tree in [sections] if not scene.written else [_as_read_where_the_same(scene, sections), sections]:
+        text = as_toml(tree)
+        why = why_another(scene, text)
+        if not why:
+            return text
+    return f"{NO_FILE}: {why}\n"
+
+
+def why_another(scene: data.Scene, text: str) -> str:
+    """Why a text does not give a scene's data, in words; empty where it does."""
+    try:
+        found = scene_from_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
+    except GearsError as error:
+        return " ".join(str(error).removesuffix("Nothing was computed or written.").split())
+    differing = [each.name for each in fields(scene) if each.name not in WORDS and getattr(found, each.name) != getattr(scene, each.name)]
+    return f"{', '.join(differing)} {'is' if len(differing) == 1 else 'are'} not what a file, and the files that it names, can say" if differing else ""
+
+
+def section_trees(scene: data.Scene) -> dict[str, Any]:
+    """All sections of a scene file, by their names, from the data alone."""
+    found = {"title": scene.title or None, "gears": _gears(scene.gears), "load": section_tree(scene.load, schema.Load), "motion": _motion(scene)}
+    found["accuracy"] = section_tree(scene.accuracy, schema.Accuracy) or None
+    found["output"] = section_tree(scene.output, schema.Output) or None
+    own = {effect.section: effect.as_section(getattr(scene, effect.section)) for effect in effects_on(scene) if not effect.within}
+    return {name: tree for name, tree in (found | own).items() if tree is not None}
+
+
+def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict[str, Any]:
+    """The sections, but as they were read where they gave the same data then."""
+    read = scene_from_text(scene.written, scene.name, directory=Path(scene.folder))
+    kept = {name: tree for name, tree in parsed(scene.written, scene.name).items() if getattr(read, name) == getattr(scene, name)}
+    # Left out then, and still.
+    return {name: kept.get(name, tree) for name, tree in (kept | sections).items() if name in kept or getattr(read, name) != getattr(scene, name)}
+
+
+def _gears(pair: GearPairData) -> dict[str, Any]:
+    """``[gears]``, with every figure of the drawing."""
+    section, own_width = gear_schema.Gears, any(getattr(pair, name).face_width is not None for name in GEARS)
+    found = section_tree(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
+    if pair.helix_angle:
+        found["pinion_hand"] = pair.pinion_hand
+    for name, width, offset in zip(GEARS, pair.face_widths, pair.axial_offsets):
+        found[name] = _gear(getattr(pair, name), width, own_width)
+        if offset:
+            found[name]["axial_offset"] = field_of(gear_schema.Gear, "axial_offset", offset)
+    return found
+
+
+def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
+    found = section_tree(gear, gear_schema.Gear, ("face_width", "web"))
+    if own_width:
+        found["face_width"] = field_of(gear_schema.Gear, "face_width", width)
+    if gear.protuberance:
+        found["rack"] = section_tree(gear, gear_schema.RackText)
+    if gear.web is not None:
+        found["web"] = _web(gear.web, width)
+    return found
+
+
+def _web(web: Web, face_width: float) -> dict[str, Any]:
+    product = web.share * face_width
+    # The quotient is rounded too: a number beside the product may be the one that gives the share.
+    near = (product, math.nextafter(product, math.inf), math.nextafter(product, -math.inf))
+    width = next((each for each in near if each / face_width == web.share), product)
+    sizes = {"rim_inner_diameter": 2.0 * web.rim_radius, "hub_diameter": 2.0 * web.hub_radius, "width": width}
+    return {name: field_of(gear_schema.WebText, name, size) for name, size in sizes.items()}
+
+
+def _motion(scene: data.Scene) -> dict[str, Any]:
+    motion, period = scene.motion, math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
+    found: dict[str, Any] = {"mesh_frequency": field_of(schema.Motion, "mesh_frequency", motion.mesh_frequency)} if motion.speed_given else {}
+    if not motion.fewer_where_too_large:
+        return found | {"mesh_cycles": motion.mesh_cycles, "recorded_cycles": motion.recorded_cycles}
+    # As many as fit are recorded of a ramp, of a whole hunting tooth period, and of one after a settling time.
+    if scene.speed_ramp is not None:
+        return found | {"mesh_cycles": motion.mesh_cycles}
+    if motion.mesh_cycles == period:
+        return found | {"mesh_cycles": data.HUNTING_TOOTH_PERIOD}
+    settling = (motion.mesh_cycles - max(period, data.LAST_CYCLES)) / motion.mesh_frequency
+    return found | {"settling_time": field_of(schema.Motion, "settling_time", settling)}

@@ -1,0 +1,63 @@
+"""Memory of a process that simulates different pairs one after the other: `python -m tests.benchmarks.long_life plane 100` (or `face 20`).
+
+Prints what the process holds after each tenth pair, and what of it is free in the allocator's heap (glibc's mallinfo2).
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from tests.benchmarks.growth.memory import resident
+
+from fenics_gears import build_scene, simulate
+from fenics_gears.elasticity.cache import Cache
+
+STEEL = {"youngs_modulus": "206 GPa", "poissons_ratio": 0.3}
+OVER_FACE = {"misalignment": {"in_plane": "10 um"}}
+
+
+def pair(number: int, over_face: bool):
+    """The scene of one of many pairs, none like another: their numbers of teeth, pressure angles and modules go round at different paces."""
+    gears = {
+        "module": f"{2.0 + 0.5 * (number % 5)} mm", "pressure_angle": f"{20 + number % 4} deg", "face_width": "16 mm", "material": STEEL,
+        "pinion": _gear(18 + number % 23), "wheel": _gear(31 + number % 37),
+    }  # fmt: skip
+    torque = {"wheel_torque": f"{100 + number} N m"}
+    return build_scene({"gears": gears, "load": torque, **(OVER_FACE if over_face else {})}, f"pair {number}")
+
+
+def _gear(teeth: int) -> dict:
+    return {"teeth": teeth, "profile_shift": 0.0, "bore_diameter": f"{0.8 * teeth} mm"}
+
+
+class _Mallinfo2(ctypes.Structure):
+    """mallinfo2(3)."""
+
+    _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")]
+
+
+def free_in_heap() -> int:
+    """Bytes that the allocator holds and nobody uses."""
+    mallinfo2 = ctypes.CDLL(None).mallinfo2
+    mallinfo2.restype = _Mallinfo2
+    return mallinfo2().fordblks
+
+
+def main() -> None:
+    """Print a line for each tenth of the pairs."""
+    over_face, count = sys.argv[1] == "face", int(sys.argv[2])
+    print(f"{'pairs':>6} {'MB':>8} {'free':>8} {'s':>8}")
+    with tempfile.TemporaryDirectory() as directory:
+        begun = time.process_time()
+        for number in range(count):
+            simulate(pair(number, over_face), cache=Cache(Path(directory), 2e9))
+            if number in (0, 1, 2, 4) or (number + 1) % 10 == 0:
+                print(f"{number + 1:6d} {resident() / 1e6:8.0f} {free_in_heap() / 1e6:8.0f} {time.process_time() - begun:8.1f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

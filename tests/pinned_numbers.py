@@ -1,0 +1,88 @@
+"""Numbers of a few small runs and of a condensed body, which stand in `pinned_numbers.json` beside the version that they are of.
+
+``python -m tests.pinned_numbers`` writes them anew, after a change of numbers that is meant and has raised `NUMBERS_VERSION`. Teeth have no finite elements,
+and the body's mesh is made here: gmsh meshes differ from version to version of gmsh.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from tests.annulus import annulus
+from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.helical import helical_scene, on_stand_in_bodies
+from tests.stand_in import stand_in_compliance
+
+from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.scene.read import load_scene
+from fenics_gears.simulation.elastic_route import mesh_cycle
+from fenics_gears.simulation.face_route import face_cycle
+from fenics_gears.simulation.simulate import simulate
+
+FILE = Path(__file__).with_suffix(".json")
+DEMO = Path(__file__).parents[1] / "demos" / "lundvall2004.toml"
+# Not extremes, which are sought up to a tolerance.
+ATTRIBUTES = ("mean_transmission_error", "mean_mesh_stiffness", "rms_transmission_error")
+SECTORS = 8
+
+
+def pinned() -> dict:
+    """The version, and the numbers by name."""
+    scene = coarse_scene(load_scene(DEMO), cycles=1)
+    runs = {
+        "quasi-static": simulate(frictionless(quasi_static(scene)), preparation=_in_the_plane),
+        "with friction": simulate(quasi_static(scene), preparation=_in_the_plane),
+        "in time": simulate(replace(scene, motion=replace(scene.motion, mesh_cycles=2)), preparation=_in_the_plane),
+        "over the face": simulate(helical_scene('[misalignment]\nin_plane = "6 um"\n'), preparation=_over_the_face),
+    }
+    found = {f"{name}: {number}": value for name, run in runs.items() for number, value in _numbers(run).items()}
+    return {"numbers_version": NUMBERS_VERSION, "numbers": found | _of_a_body()}
+
+
+def _numbers(run) -> dict[str, float]:
+    """Means over the steps of all that has a step, which is most of a result."""
+    curves = {name: float(np.abs(run[name].values).mean()) for name in ("transmission_error", "normal_force", "pair_normal_force", "contact_pressure", "rotation", "energy")}
+    return curves | {name: float(run.attrs[name]) for name in ATTRIBUTES}
+
+
+def _in_the_plane(model, progress, cache):
+    gears = tuple(stand_in_compliance(gear) for gear in (model.pair.pinion, model.pair.wheel))
+    return (), mesh_cycle(model, gears)
+
+
+def _over_the_face(model, progress, cache):
+    return (), face_cycle(model, *on_stand_in_bodies(model))
+
+
+def _of_a_body() -> dict[str, float]:
+    """Of a ring of sectors, its flank a part of the rim: means of the compliance's entries."""
+    whole, element = annulus(4, across=4, around=8 * SECTORS), ELEMENTS["Q2"]
+    angle = np.unwrap(np.arctan2(whole.points[:, 1], whole.points[:, 0]))
+    kept = np.flatnonzero(angle % (2 * np.pi) <= 2 * np.pi / SECTORS + 1e-9)
+    number = np.full(len(whole.points), -1)
+    number[kept] = np.arange(len(kept))
+    cells = number[whole.cells]
+    points, edges = whole.points[kept], {name: number[each] for name, each in whole.edges.items()}
+    edges = {name: each[(each >= 0).all(axis=1)] for name, each in edges.items()}
+    along = np.arange(5) * 9
+    cuts = {"lower cut": along, "upper cut": along + 8}
+    rings = {"hub": edges["hub"], "flank": edges["rim"][2:5]}
+    sector = BodyMesh(points, cells[(cells >= 0).all(axis=1)], rings | {name: np.stack([each[:-1], each[1:]], axis=-1) for name, each in cuts.items()})
+    blocks = ring_compliance(condensed_sector(sector, element, 0.3), SECTORS, 2)
+    return {f"body: teeth {offset} apart": float(np.abs(block).mean()) for offset, block in enumerate(blocks)}
+
+
+def main() -> None:
+    """Write the file."""
+    FILE.write_text(json.dumps(pinned(), indent=1) + "\n", encoding="utf-8")
+    print(FILE)
+
+
+if __name__ == "__main__":
+    main()
