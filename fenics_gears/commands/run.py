@@ -38,7 +38,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run a scene."""
-    scene, directory = checked_scene_and_directory(options)
+    scene, directory = checked_scene_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     # Every rank has now found the scene and the directory right, and none leaves the others waiting.
     comm = communicator()
     if comm is not None and comm.rank > 0:

@@ -28,6 +28,7 @@ from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import Progress
 
+RESULT, TABLE, BEST = "optimization.nc", "designs.csv", "best.toml"
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
 # Torques of the Harris map where the operating points have one, in parts of it.
@@ -77,7 +78,7 @@ def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = 
             return None
         design = load_design(path)
         directory = output or Path("results") / design.name
-        check_writable(directory)
+        check_writable(directory, RESULT, TABLE, BEST)
         optimiser()
         with sole_writer(directory, "runs"), Interruption(progress) as interruption:
             return _run(design, directory, team, interruption, quiet)
