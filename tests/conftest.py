@@ -14,6 +14,11 @@ if not IS_WORKER:
     os.environ["FENICS_GEARS_CACHE"] = tempfile.mkdtemp(prefix="fenics_gears_tests_")
 SUITE_CACHE = Path(os.environ["FENICS_GEARS_CACHE"])
 
+from fenics_gears.system import environment
+
+# As the command does: before numba is loaded, which another user of this checkout could not import otherwise.
+environment.prepare()
+
 import pytest
 from hypothesis import HealthCheck, settings
 from tests.stand_in import stand_in_compliance

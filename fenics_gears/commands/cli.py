@@ -2,7 +2,7 @@
 
 Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are kept,
 marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the
-program that reads the output closed the pipe.
+standard output could not be written, as when the program that reads it closed the pipe.
 """
 
 from __future__ import annotations
@@ -12,51 +12,81 @@ import gc
 import logging
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from fenics_gears import __version__
 from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, optimize, picture, plot, rate, report, run, study, tests
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
+from fenics_gears.system.console import prepare_streams
 from fenics_gears.system.memory import MEMORY_VARIABLE
+from fenics_gears.system.output import check_working_folder
+from fenics_gears.system.printable import printable
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (``sys.argv`` where none is given) and return the exit code."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
+    prepare_streams()
+    return _written(lambda: _in_words(lambda: _command(arguments)))
+
+
+def _command(arguments: list[str]) -> int:
     environment.prepare()
     # Libraries make a million objects that stay; Python's usual search for garbage among them takes a tenth of a short run.
     gc.set_threshold(200_000, 50, 100)
     if arguments[:1] == ["test"]:
         # pytest's options are not ours to parse.
-        return _reported(lambda: tests.run_tests(arguments[1:]))
+        return tests.run_tests(arguments[1:])
     options = _parser().parse_args(arguments)
     _configure_logging(options.verbose)
     if "memory" in options:
         os.environ[MEMORY_VARIABLE] = options.memory
-    return _reported(lambda: options.command(options))
+    # No command opens a window; matplotlib refuses to be loaded where the user's choice of one is misspelt.
+    os.environ["MPLBACKEND"] = "agg"
+    check_working_folder()
+    return options.command(options)
 
 
-def _reported(command) -> int:
+def _in_words(command: Callable[[], int]) -> int:
     """The command's exit code, with errors said in words."""
     try:
-        code = command()
-        sys.stdout.flush()
-        return code
+        return command()
     except GearsError as error:
-        print(error, file=sys.stderr)
+        print(printable(str(error)), file=sys.stderr)
         return error.exit_code
-    except BrokenPipeError:
-        # Nobody reads on, as in `gears check SCENE | head`; what Python writes when it ends goes nowhere too.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return NOBODY_READS
     except (KeyboardInterrupt, SystemError) as error:
         # Compiled code that Ctrl-C hits in the middle turns it into a SystemError.
         if not isinstance(error, KeyboardInterrupt) and not isinstance(error.__cause__, KeyboardInterrupt):
             raise
         print("Interrupted before there was anything to keep.", file=sys.stderr)
         return INTERRUPTED
+
+
+def _written(command: Callable[[], int]) -> int:
+    """The command's exit code, or NOBODY_READS where its output could not be written."""
+    try:
+        try:
+            return command()
+        finally:
+            sys.stdout.flush()
+    except OSError as error:
+        if not isinstance(error, BrokenPipeError):
+            if not _output_fails():
+                raise
+            print(f"The standard output cannot be written: {error.strerror}. Send it elsewhere, or free space.", file=sys.stderr)
+        # What Python still writes when it ends goes nowhere too.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return NOBODY_READS
+
+
+def _output_fails() -> bool:
+    try:
+        sys.stdout.flush()
+    except OSError:
+        return True
+    return False
 
 
 def _configure_logging(verbose: bool) -> None:

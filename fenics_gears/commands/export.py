@@ -27,7 +27,7 @@ def export(options: argparse.Namespace) -> int:
     output = options.output or file.parent / CURVES_FILE
     if output.suffix != ".csv":
         raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
-    check_writable(output.parent)
+    check_writable(output.parent, output.name)
     from fenics_gears.results.curves_table import save_curves
 
     dataset = loaded_run(file)

@@ -41,7 +41,7 @@ def _check_output(output: Path) -> None:
     """A scene is the user's own work: none is overwritten."""
     from fenics_gears.system.output import check_writable
 
-    check_writable(output.parent)
+    check_writable(output.parent, output.name)
     if output.suffix != ".toml":
         raise SceneError(f"{output}: a scene is a .toml file; give --output such a name.")
     if output.exists():

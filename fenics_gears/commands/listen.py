@@ -35,7 +35,7 @@ def listen(options: argparse.Namespace) -> int:
         raise SceneError(f"{output}: the sound is a .wav file; give --output such a name.")
     if not 0.1 <= options.seconds <= LONGEST:
         raise SceneError(f"--seconds {options.seconds:g}: allowed are 0.1 to {LONGEST:g} seconds.")
-    check_writable(output.parent)
+    check_writable(output.parent, output.name)
     result = loaded_run(file)
     full_scale = _checked(result, options)
     from fenics_gears.results.sound import save_sound, sound

@@ -19,6 +19,7 @@ from fenics_gears.commands.shared import (
     under_mpirun,
 )
 from fenics_gears.errors import ComputationError
+from fenics_gears.system.output import check_writable
 
 MOST_RUNS = 1000
 
@@ -67,6 +68,7 @@ def _run(options: argparse.Namespace, team) -> int:
     scene = checked_scene(options.scene)
     wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
     directory, outcomes = options.output or Path("results") / f"{scene.name}_map", {}
+    check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
     studies = wanted.studies
     if not options.quiet:
         print(f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core of an idle machine.", file=sys.stderr, flush=True)

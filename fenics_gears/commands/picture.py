@@ -96,7 +96,7 @@ def _check_outputs(options, output: Path | None) -> None:
 
     for path in (output, options.vtu, options.pvd):
         if path is not None:
-            check_writable(path.parent)
+            check_writable(path.parent, path.name)
     for path, suffix in ((options.vtu, ".vtu"), (options.pvd, ".pvd")):
         if path is not None and path.suffix != suffix:
             raise SceneError(f"{path}: --{suffix[1:]} writes a {suffix} file; give it such a name")

@@ -6,7 +6,9 @@ import argparse
 from pathlib import Path
 
 from fenics_gears.commands.shared import add_run_argument, loaded_run, plots, print_files, run_file
+from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 
+NOISE_FILES = "noise.png", "noise.nc"
 AUTOMATIC, WINDOWS = "auto", ("auto", "none", "hann", "flat-top")
 
 
@@ -29,7 +31,7 @@ def plot(options: argparse.Namespace) -> int:
 
     file = run_file(options.run)
     directory = options.output or file.parent
-    check_writable(directory)
+    check_writable(directory, *((*PICTURE_FILES, *FACE_PICTURE_FILES) if options.spectrum is None else NOISE_FILES))
     dataset = loaded_run(file)
     files = plots().draw_run(dataset, directory, shared=True) if options.spectrum is None else _noise(dataset, directory, options.spectrum)
     print_files(files, options.quiet)

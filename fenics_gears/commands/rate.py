@@ -57,7 +57,7 @@ def rate(options: argparse.Namespace) -> int:
     output = options.output or file.parent / FILE
     if output.suffix != ".csv":
         raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
-    check_writable(output.parent)
+    check_writable(output.parent, output.name)
     result = loaded_run(file)
     scene = carried_scene(result)
     rows = rating.rate(result, scene, _finish(options, scene))

@@ -77,9 +77,7 @@ def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
 def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
     from fenics_gears.system.output import check_writable
 
-    check_writable(output.parent)
-    if output.is_dir():
-        raise SceneError(f"{output} is a directory; the report is a file. Choose another one with --output FILE.")
+    check_writable(output.parent, output.name)
     if is_study and (options.effects or options.at is not None):
         raise SceneError("--effects and --at are for the report on a run; this is a study. Leave them out, or name one of its cases.")
 

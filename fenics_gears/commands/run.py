@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace, job: Job | None) -> int:
     """The stages of a run, on rank 0."""
-    scene, directory = checked_scene_and_directory(options)
+    scene, directory = checked_scene_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     from fenics_gears.results.journal import Place
     from fenics_gears.studies.simulate import simulate
 

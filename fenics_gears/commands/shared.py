@@ -15,6 +15,7 @@ from types import ModuleType
 from fenics_gears.errors import ComputationError, GeometryError, SceneError
 from fenics_gears.system.console import on_terminal
 from fenics_gears.system.memory import size_in_bytes
+from fenics_gears.system.printable import printable
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 # Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its numbers mean nothing.
@@ -111,13 +112,13 @@ def checked_scene(path: Path):
     return scene
 
 
-def checked_scene_and_directory(options):
-    """The scene of a command's options, found right, and the directory to write into, found writable. Raises as `checked_scene` does."""
+def checked_scene_and_directory(options, *names: str):
+    """The scene of a command's options, found right, and the directory to write files of these names into, found writable. Raises as `checked_scene` does."""
     from fenics_gears.system.output import check_writable
 
     scene = checked_scene(options.scene)
     directory = options.output or Path("results") / scene.name
-    check_writable(directory)
+    check_writable(directory, *names)
     return scene, directory
 
 
@@ -189,4 +190,4 @@ def print_files(files: Iterable[Path], quiet: bool) -> None:
     """Print the files that a command wrote, a line each, unless `quiet`."""
     if not quiet:
         for file in files:
-            print(file)
+            print(printable(str(file)))

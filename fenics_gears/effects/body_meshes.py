@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import lcm
@@ -14,6 +15,7 @@ from fenics_gears.inputs.fields import Section, file_name
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import GEARS, Tree, table, value_at
 from fenics_gears.inputs.written import as_written
+from fenics_gears.system import user_file
 
 # A flank of elements this much longer than those the contact asks for does not resolve it.
 COARSE = 1.5
@@ -62,12 +64,14 @@ def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
 
 
 def _located(file: MeshFile, directory: Path) -> MeshFile:
-    path = (directory / file.path).resolve()
+    path = os.path.realpath(directory / file.path)
     try:
-        return replace(file, path=str(path), digest=hashlib.sha256(path.read_bytes()).hexdigest())
-    except OSError:
-        # `check` reports a missing file; a scene that is only looked at needs no mesh.
-        return replace(file, path=str(path))
+        user_file.check_file(path, user_file.LARGEST_MESH)
+        with open(path, "rb") as opened:
+            return replace(file, path=path, digest=hashlib.file_digest(opened, "sha256").hexdigest())
+    except (OSError, user_file.Unreadable):
+        # `check` says why; a scene that is only looked at needs no mesh.
+        return replace(file, path=path)
 
 
 def files(meshes: BodyMeshes) -> dict[str, str]:

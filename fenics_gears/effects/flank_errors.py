@@ -7,6 +7,7 @@ in the order in which they mesh, from the tooth of either gear that meshes first
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from hashlib import sha256
@@ -140,14 +141,14 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
     name = "file"
     try:
         if errors.file is not None:
-            found = files.deviations_in((directory / errors.file).resolve(), LISTS)
+            found = files.deviations_in(_found(directory, errors.file), LISTS)
             twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
             if twice is not None:
                 raise files.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
             errors = replace(errors, columns=tuple(found), **found)
         for name, (measured, along) in CURVES.items():
             if getattr(errors, name) is not None:
-                curves = files.curves_in((directory / getattr(errors, name)).resolve(), getattr(files, along))
+                curves = files.curves_in(_found(directory, getattr(errors, name)), getattr(files, along))
                 errors = replace(errors, **{measured: curves})
     except files.FileProblem as problem:
         return replace(errors, problem=(name, str(problem)))
@@ -161,6 +162,11 @@ def files(errors: FlankErrors) -> dict[str, str]:
         said = {"file": {name: getattr(own, name) for name in own.columns}} | {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
         found |= {getattr(own, name): sha256(repr(said[name]).encode()).hexdigest() for name in TABLES if getattr(own, name) is not None}
     return found
+
+
+def _found(directory: Path, name: str) -> Path:
+    # `Path.resolve` raises where a link leads to itself.
+    return Path(os.path.realpath(directory / name))
 
 
 def check(errors: FlankErrors, scene, pair) -> None:

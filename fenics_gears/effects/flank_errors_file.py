@@ -14,6 +14,7 @@ from fenics_gears.inputs import units
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.synonyms import meant
 from fenics_gears.inputs.written import as_written
+from fenics_gears.system import user_file
 
 TOOTH, DEVIATION = "tooth", "deviation"
 LENGTH, ANGLE = "a length", "an angle"
@@ -89,10 +90,11 @@ def _table(path: Path, kinds: Mapping[str, str], example: str) -> tuple[list[str
         raise FileProblem(f"{path}: has no teeth. Allowed: a first line such as `{example}` and a line for each {'tooth' if DEVIATION not in kinds else 'point'}.")
     number, heading = lines[0]
     separator = next((each for each in ";\t" if each in heading), ",")
-    columns = _columns(f"{path}:{number}", next(csv.reader([heading], delimiter=separator)), kinds, example)
+    columns = _columns(f"{path}:{number}", _cells(f"{path}:{number}", heading, separator), kinds, example)
     rows = []
     for number, line in lines[1:]:
-        place, cells = f"{path}:{number}", next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+        place = f"{path}:{number}"
+        cells = _cells(place, line, separator)
         if len(cells) != len(columns):
             hint = " The decimal sign is a point." if separator == "," and re.search(r"\d,\d", line) else ""
             raise FileProblem(f"{place}: has {len(cells)} columns, the first line {len(columns)}.{hint} Allowed: as many.")
@@ -105,14 +107,19 @@ def _table(path: Path, kinds: Mapping[str, str], example: str) -> tuple[list[str
 def _lines(path: Path) -> list[tuple[int, str]]:
     """Numbered lines that say something."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise FileProblem(f"{path}: there is no such file. It is looked for from the scene file's folder on.") from None
-    except UnicodeDecodeError:
-        raise FileProblem(f"{path}: is not a text in UTF-8. Allowed: a table of text (CSV), not a workbook.") from None
-    except (OSError, ValueError) as error:
-        raise FileProblem(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+        text = user_file.text_of(path, user_file.LARGEST_TABLE)
+    except user_file.Missing as problem:
+        raise FileProblem(f"{path}: {problem}. It is looked for from the scene file's folder on.") from None
+    except user_file.Unreadable as problem:
+        raise FileProblem(f"{path}: {problem}. Allowed: a table of text (CSV), not a workbook.") from None
     return [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip() and not line.lstrip().startswith("#")]
+
+
+def _cells(place: str, line: str, separator: str) -> list[str]:
+    try:
+        return next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+    except csv.Error as error:
+        raise FileProblem(f"{place}: is no line of a table: {error}. Allowed: cells parted by commas, semicolons or tabs.") from None
 
 
 def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], example: str) -> list[tuple[str, str]]:

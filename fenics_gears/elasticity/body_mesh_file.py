@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from fenics_gears.elasticity.gmsh_session import gmsh_model
+from fenics_gears.elasticity.mesh_content import LINE, mesh_content
 from fenics_gears.elasticity.mesh_data import BodyMesh, corner_areas, oriented
 from fenics_gears.errors import ComputationError, SceneError
 
-LINE = 1
 CORNERS_BY_TYPE = {2: 3, 3: 4}  # gmsh's numbers of straight-sided triangles and quadrilaterals
 TYPE_BY_CORNERS = {corners: number for number, corners in CORNERS_BY_TYPE.items()}
 # How far the points of a plane mesh may lie off one plane, in parts of the body's size.
@@ -24,33 +25,25 @@ def read_body_mesh(path) -> BodyMesh:
     """
     if not Path(path).is_file():
         raise SceneError(f"body mesh {path}: there is no such file")
-    with gmsh_model("body mesh") as gmsh:
-        try:
-            gmsh.merge(str(path))
-        except Exception as error:  # gmsh raises nothing more precise
-            raise SceneError(f"body mesh {path}: gmsh cannot read it ({error})") from error
-        tags, coordinates, _ = gmsh.model.mesh.getNodes()
-        if len(gmsh.model.mesh.getElementTypes(3)):
-            raise SceneError(f"body mesh {path}: has cells in space; a gear body is meshed in its plane")
-        index = np.full(int(np.max(tags, initial=0)) + 1, -1)
-        cell_types = gmsh.model.mesh.getElementTypes(2)
-        if len(cell_types) != 1 or cell_types[0] not in CORNERS_BY_TYPE:
-            raise SceneError(
-                f"body mesh {path}: has {_kinds(gmsh, cell_types)}; its cells must all be 3-node triangles or all 4-node quadrilaterals "
-                "(in gmsh Mesh.ElementOrder = 1)"
-            )
-        corners = CORNERS_BY_TYPE[cell_types[0]]
-        cells = np.asarray(gmsh.model.mesh.getElementsByType(cell_types[0])[1], dtype=int).reshape(-1, corners)
-        edges = {name: lines for name, lines in _named_lines(gmsh).items() if len(lines)}
-    used = np.unique(cells)
-    index[used] = np.arange(len(used))
-    position = np.empty((len(index), 3))
-    position[np.asarray(tags, dtype=int)] = np.asarray(coordinates).reshape(-1, 3)
-    points = position[used]
+    found = mesh_content(path)
+    if found.solids:
+        raise SceneError(f"body mesh {path}: has cells in space; a gear body is meshed in its plane")
+    if len(found.kinds) != 1 or found.kinds[0] not in CORNERS_BY_TYPE:
+        raise SceneError(
+            f"body mesh {path}: has {_kinds(found.kind_names)}; its cells must all be 3-node triangles or all 4-node quadrilaterals "
+            "(in gmsh Mesh.ElementOrder = 1)"
+        )
+    cells = found.cells.astype(int).reshape(-1, CORNERS_BY_TYPE[found.kinds[0]])
+    used, tags = np.unique(cells), found.tags.astype(int)
+    order = np.argsort(tags, kind="stable")
+    points = found.points[order][np.minimum(np.searchsorted(tags[order], used), len(tags) - 1)]
+    if not np.isin(used, tags).all() or not np.isfinite(points).all():
+        raise SceneError(f"body mesh {path}: is damaged: it has cells of nodes that are not in it, or that have no place. Write it again")
     _check_plane(points, path)
     points = np.ascontiguousarray(points[:, :2])
-    named = {name: index[lines] for name, lines in edges.items() if (index[lines] >= 0).all()}
-    return BodyMesh(points, _facing_one_way(points, index[cells], path), named)
+    named = {str(name): found.lines[found.curves == name] for name in dict.fromkeys(found.curves)}
+    edges = {name: np.searchsorted(used, lines) for name, lines in named.items() if np.isin(lines, used).all()}
+    return BodyMesh(points, _facing_one_way(points, np.searchsorted(used, cells), path), edges)
 
 
 def write_body_mesh(mesh: BodyMesh, path) -> None:
@@ -78,9 +71,8 @@ def write_body_mesh(mesh: BodyMesh, path) -> None:
         gmsh.write(str(path))
 
 
-def _kinds(gmsh, cell_types) -> str:
-    names = [gmsh.model.mesh.getElementProperties(kind)[0] for kind in cell_types]
-    return "cells of the kinds " + ", ".join(names) if names else "no plane cells"
+def _kinds(names: Sequence[str]) -> str:
+    return "cells of the kinds " + ", ".join(names) if len(names) else "no plane cells"
 
 
 def _check_plane(points: np.ndarray, path) -> None:
@@ -103,13 +95,3 @@ def _facing_one_way(points: np.ndarray, cells: np.ndarray, path) -> np.ndarray:
         return oriented(points, cells)
     except ComputationError as error:
         raise SceneError(f"body mesh {path}: {error}") from error
-
-
-def _named_lines(gmsh) -> dict[str, np.ndarray]:
-    """Node tags (k, 2) of the lines of each physical curve."""
-    named = {}
-    for dimension, group in gmsh.model.getPhysicalGroups(1):
-        entities = gmsh.model.getEntitiesForPhysicalGroup(dimension, group)
-        lines = [np.asarray(gmsh.model.mesh.getElementsByType(LINE, entity)[1], dtype=int) for entity in entities]
-        named[gmsh.model.getPhysicalName(dimension, group)] = np.concatenate(lines).reshape(-1, 2)
-    return named

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 Path = tuple[str, ...]
@@ -33,6 +33,22 @@ class Problem:
         if self.written is not None:
             field = f"{field} = {self.written}" if self.written else f"[{field}]"
         return f"{place}: {field}\n    {self.message}"
+
+
+# More mistakes than these are counted, not told: they are of a file that is no scene.
+MOST_TOLD = 20
+
+
+def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) -> str:
+    """The first mistakes of a file in the order of their lines, how many more there are, and that nothing came of it."""
+    entries = [problem.describe(source, lines) for problem in sorted(problems, key=lambda each: each.line(lines))[:MOST_TOLD]]
+    return counted(entries, len(problems), source)
+
+
+def counted(entries: Sequence[str], count: int, source: str) -> str:
+    """The same of mistakes in words, `count` of them in all."""
+    more = [f"... and {count - MOST_TOLD} more"] if count > MOST_TOLD else []
+    return "\n".join([*entries[:MOST_TOLD], *more, f"{count} mistake{'s' if count > 1 else ''} in {source}. Nothing was computed or written."])
 
 
 _NAME = r"(?:[A-Za-z0-9_-]+|\"[^\"]*\"|'[^']*')"

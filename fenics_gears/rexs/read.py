@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import struct
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -13,9 +14,9 @@ from xml.etree import ElementTree
 
 from fenics_gears.errors import SceneError
 from fenics_gears.rexs.model import Model, ModelError, model_of
+from fenics_gears.system import user_file
+from fenics_gears.system.user_file import LARGEST_REXS as LARGEST
 
-# The largest that is read, in bytes; models of whole gearboxes have some hundred kilobytes.
-LARGEST = 200_000_000
 ENDINGS = (".rexs", ".rexsj")
 PACKED = ".rexsz"
 
@@ -26,18 +27,16 @@ def read_model(path: Path) -> Model:
     Raises SceneError where it cannot be read or is none.
     """
     try:
-        with open(path, "rb") as file:
-            content = file.read(LARGEST + 1)
-        if zipfile.is_zipfile(io.BytesIO(content)):
+        content = user_file.content_of(path, LARGEST)
+        if _is_archive(content):
             return _model(_packed(content))
         if path.suffix == PACKED and _start(content) not in b"{[<":
             raise ModelError(f"is no ZIP archive, as {PACKED} files are, nor XML or JSON")
         return _model(content)
-    except FileNotFoundError:
-        raise SceneError(f"{path}: there is no such file. REXS files end in .rexs, .rexsj or .rexsz.") from None
-    except (OSError, ModelError) as error:
-        reason = f"cannot be read: {error.strerror or error}" if isinstance(error, OSError) else str(error)
-        raise SceneError(f"{path}: {reason}.\nNothing was written.") from None
+    except user_file.Missing as problem:
+        raise SceneError(f"{path}: {problem}. REXS files end in .rexs, .rexsj or .rexsz.") from None
+    except (user_file.Unreadable, ModelError) as problem:
+        raise SceneError(f"{path}: {problem}.\nNothing was written.") from None
 
 
 def _model(content: bytes) -> Model:
@@ -47,6 +46,14 @@ def _model(content: bytes) -> Model:
     if not start:
         raise ModelError("is empty")
     return model_of(_of_json(content) if start in b"{[" else _of_xml(content))
+
+
+def _is_archive(content: bytes) -> bool:
+    try:
+        return zipfile.is_zipfile(io.BytesIO(content))
+    except ValueError:
+        # It has an archive's end, whose figures are damaged.
+        return True
 
 
 def _start(content: bytes) -> bytes:
@@ -64,8 +71,11 @@ def _packed(content: bytes) -> bytes:
                 raise ModelError(f"is a ZIP archive that must hold one .rexs or .rexsj file, but holds: {names}")
             with archive.open(models[0]) as file:
                 return file.read(LARGEST + 1)
-    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError) as error:
-        raise ModelError(f"is a ZIP archive that cannot be unpacked: {error}") from None
+    except ModelError:
+        raise
+    # Damage reaches the library as errors of many types: of places before the file's beginning, and of names that are no text.
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, EOFError, ValueError, OSError, struct.error) as error:
+        raise ModelError(f"is a ZIP archive that cannot be unpacked: {error}. Unpack it by another program, and name the file in it") from None
 
 
 def _of_json(content: bytes) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +13,14 @@ from fenics_gears.effects import top_level
 from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import Problem, line_numbers
-from fenics_gears.inputs.written import WrittenFloat, as_toml
+from fenics_gears.inputs.problem import Problem, line_numbers, listed
+from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.scene import data
 from fenics_gears.scene.drawing import gear_pair_data, load_data, with_material_sections
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
+from fenics_gears.system import user_file
+from fenics_gears.system.printable import control_character, printable
 
 
 def load_scene(path: str | os.PathLike) -> data.Scene:
@@ -27,27 +29,45 @@ def load_scene(path: str | os.PathLike) -> data.Scene:
     Raises SceneError, naming every mistake at once, where the file cannot be read or is wrong.
     """
     path = Path(path)
-    return scene_from_text(text_of(path, "scene"), path.stem, source=str(path), directory=path.parent)
+    return scene_from_text(text_of(path, "scene"), name_of(path), source=str(path), directory=path.parent)
 
 
 def text_of(path: Path, kind: str) -> str:
     """The text of a file that should be a "scene" or a "study". Raises SceneError where it cannot be read."""
     try:
-        return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise SceneError(f"{path}: there is no such file{_nearest_file(path)}") from None
-    except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: is not a text in UTF-8 (byte {error.start}); a {kind} is a TOML file") from None
-    except (OSError, ValueError) as error:
-        raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+        return user_file.text_of(path, user_file.LARGEST_SCENE)
+    except user_file.Missing as problem:
+        raise SceneError(f"{path}: {problem}{_nearest_file(path)}") from None
+    except user_file.Unreadable as problem:
+        raise SceneError(f"{path}: {problem}; a {kind} is a TOML file") from None
+
+
+def name_of(path: Path) -> str:
+    """What a scene or a study is called by its file: the file's name without the ending, as a text that can be printed and stored."""
+    return printable(path.stem)
 
 
 def parsed(text: str, source: str) -> dict[str, Any]:
     """What a TOML text holds, its numbers as they were written, and a material's name as its section. Raises SceneError, which calls the text `source`."""
     try:
-        return with_material_sections(tomllib.loads(text, parse_float=WrittenFloat))
+        tree = with_material_sections(tomllib.loads(text, parse_float=WrittenFloat))
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
+    if problems := list(_unprintable((), tree)):
+        raise SceneError(listed(problems, line_numbers(text), source))
+    return tree
+
+
+def _unprintable(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
+    """Texts with control characters, which a terminal would obey and a file of results could not hold."""
+    if isinstance(value, Mapping):
+        for name, inner in value.items():
+            yield from _unprintable((*path, name), inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _unprintable(path, inner)
+    elif isinstance(value, str) and (character := control_character(value)):
+        yield Problem(path, as_written(value), f"has the control character {character}. Allowed: characters that can be printed, tabs and new lines.")
 
 
 def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: str | os.PathLike = ".") -> data.Scene:
@@ -85,7 +105,7 @@ def scene_from_text(
     checked, problems = problems_of_schema(tree)
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
-        raise SceneError(_message(problems, line_numbers(text), source, with_lines))
+        raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
     try:
         return checked_scene(checked, text, name, directory)
     except GeometryError as error:
@@ -96,13 +116,6 @@ def _why_no_toml(error: Exception) -> str:
     if isinstance(error, tomllib.TOMLDecodeError):
         return str(error)
     return "it is nested too deeply" if isinstance(error, RecursionError) else "a number in it has thousands of digits"
-
-
-def _message(problems: list[Problem], lines: dict[tuple[str, ...], int], source: str, with_lines: bool) -> str:
-    count = "1 mistake" if len(problems) == 1 else f"{len(problems)} mistakes"
-    ordered = sorted(problems, key=lambda each: each.line(lines))
-    entries = [problem.describe(source, lines if with_lines else {}) for problem in ordered]
-    return "\n".join([*entries, f"{count} in {source}. Nothing was computed or written."])
 
 
 def _nearest_file(path: Path) -> str:

@@ -7,7 +7,6 @@ import fcntl
 import json
 import logging
 import os
-import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -18,7 +17,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.studies.combine import CaseRecord, record_of
 from fenics_gears.studies.study import Case, Study
-from fenics_gears.system.output import write_whole
+from fenics_gears.system.output import remove_left_over, write_whole
 
 LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"
@@ -89,8 +88,8 @@ def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
             LOGGER.debug("%s: no locks on this file system: %s", directory, error)
         for left in (directory / "cases").glob(".*.part"):
             left.unlink(missing_ok=True)
-        for left in directory.rglob(".unfinished-*"):
-            shutil.rmtree(left, ignore_errors=True)
+        for written in (directory, directory / inside):
+            remove_left_over(written)
         yield
 
 

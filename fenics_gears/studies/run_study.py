@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fenics_gears.studies.case_files import changed_since, kept_records, sole_writer
-from fenics_gears.studies.combine import CaseRecord, combined, save_study
+from fenics_gears.studies.combine import STUDY_FILE, CaseRecord, combined, save_study
 from fenics_gears.studies.ranks import Alone, Together, ranks
 from fenics_gears.studies.study import Case, Study
 from fenics_gears.studies.study_file import load_study
@@ -48,7 +48,7 @@ def run_study(path: Path, output: Path | None, progress: Progress, quiet: bool =
 
 def run_with(team: Alone | Together, study: Study, directory: Path, progress: Progress, quiet: bool = False) -> Outcome:
     """Run what is missing of a study in its directory, with the processes of rank 0's team. Raises ComputationError where the directory cannot be used."""
-    check_writable(directory)
+    check_writable(directory, STUDY_FILE, "study.json")
     with sole_writer(directory):
         return _run(study, directory, team, progress, quiet)
 

@@ -11,12 +11,12 @@ from typing import Any
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import Problem, line_numbers
+from fenics_gears.inputs.problem import Problem, counted, line_numbers
 from fenics_gears.inputs.written import as_toml, as_written
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
-from fenics_gears.scene.read import checked_scene, load_scene, parsed, text_of
+from fenics_gears.scene.read import checked_scene, load_scene, name_of, parsed, text_of
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
@@ -25,7 +25,6 @@ from fenics_gears.studies.study import Case, Study, scene_key
 KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
-MOST_MISTAKES = 10
 # Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
 
@@ -68,12 +67,8 @@ class Mistakes:
 
     def check(self) -> None:
         """Raise SceneError with all mistakes, if there are any."""
-        if not self._said:
-            return
-        entries = list(self._said)
-        shown = entries[:MOST_MISTAKES] + ([f"... and {len(entries) - MOST_MISTAKES} more"] if len(entries) > MOST_MISTAKES else [])
-        count = "1 mistake" if len(entries) == 1 else f"{len(entries)} mistakes"
-        raise SceneError("\n".join([*shown, f"{count} in {self._source}. Nothing was computed or written."]))
+        if self._said:
+            raise SceneError(counted(list(self._said), len(self._said), self._source))
 
 
 def load_study(path: str | Path) -> Study:
@@ -105,8 +100,8 @@ def study_of(tree: Mapping[str, Any], path: Path, text: str, source: str, lines:
     cases = _cases(path, scene_file.parent, changes, scene_tree, mistakes)
     mistakes.check()
     return Study(
-        name=path.stem,
-        title=tree.get("title", path.stem),
+        name=name_of(path),
+        title=tree.get("title", name_of(path)),
         combine=changes.combine,
         axes=changes.axes,
         cases=cases,
@@ -243,7 +238,7 @@ def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[st
     points = list(changes.points())
     for index, point in enumerate(points):
         values = {axis.dotted: label(value) for axis, value in zip(changes.axes, point)}
-        scene, problems = scene_of_tree(f"{path.stem}-{index:04d}", changes.apply(scene_tree, point), directory)
+        scene, problems = scene_of_tree(f"{name_of(path)}-{index:04d}", changes.apply(scene_tree, point), directory)
         for problem in problems:
             wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
         if scene is None:

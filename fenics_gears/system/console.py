@@ -1,14 +1,53 @@
-"""Tables for people: drawn by rich on a terminal, plain aligned lines elsewhere."""
+"""Tables for people: drawn by rich on a terminal, plain aligned lines elsewhere; and streams that take any text."""
 
 from __future__ import annotations
 
+import io
+import os
 import sys
 from collections.abc import Sequence
 from typing import Any, TextIO
 
 from fenics_gears.system.environment import on_terminal_of_its_own
+from fenics_gears.system.printable import printable
 
 Row = tuple[str, Any, str]
+
+
+class NeverFull(io.FileIO):
+    """A stream for words about a computation, which goes on where they cannot be written; a reader that has gone ends it."""
+
+    def write(self, content) -> int:
+        """Write what there is room for; say that it was all."""
+        try:
+            super().write(content)
+        except BrokenPipeError:
+            raise
+        except OSError:
+            pass
+        return len(content)
+
+
+def prepare_streams() -> None:
+    """Make the standard streams take any text: what their encoding lacks is replaced, and what is closed takes all and keeps nothing."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            _open_nowhere(number, name)
+    if sys.stderr is sys.__stderr__:
+        raw = NeverFull(sys.stderr.fileno(), "w", closefd=False)
+        sys.stderr = io.TextIOWrapper(io.BufferedWriter(raw), sys.stderr.encoding, "replace", line_buffering=True, write_through=True)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
+def _open_nowhere(number: int, name: str) -> None:
+    """Open a closed standard stream. A file that is opened later must not get its number, to which libraries print."""
+    opened = os.open(os.devnull, os.O_RDWR)
+    if opened != number:
+        os.dup2(opened, number)
+        os.close(opened)
+    setattr(sys, name, open(number, "r" if name == "stdin" else "w", closefd=False))
 
 
 def on_terminal(stream: TextIO) -> bool:
@@ -28,6 +67,7 @@ def print_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[
 
 def _print(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], left: int) -> None:
     """Print a table whose first columns, `left` of them, begin at the left and the others end at the right."""
+    heading, rows = printable(heading), [[printable(cell) for cell in row] for row in rows]
     columns = list(zip(*headings, *rows))
     if on_terminal(sys.stdout):
         _print_rich(heading, [column[: len(headings)] for column in columns], rows, left)

@@ -3,24 +3,58 @@
 from __future__ import annotations
 
 import contextlib
+import glob
 import os
+import shutil
+import socket
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from fenics_gears.errors import ComputationError, SceneError
 
+# The beginning of names of directories that hold files while they are written; machine and process follow.
+UNFINISHED = ".unfinished-"
 
-def check_writable(directory: Path) -> None:
-    """Refuse before the computation a directory in which no result could be written; creates nothing.
+
+def check_working_folder() -> None:
+    """Raise SceneError where the working folder, from which names of files count, has been removed."""
+    try:
+        os.getcwd()
+    except OSError:
+        raise SceneError("The working folder has been removed. Change into one that exists (cd), and give the command again.") from None
+
+
+def check_writable(directory: Path, *names: str) -> None:
+    """Refuse before the computation a directory in which no result of these names could be written; creates nothing.
 
     Raises SceneError.
     """
-    existing = next(parent for parent in (directory.absolute(), *directory.absolute().parents) if parent.exists())
+    try:
+        _check_directory(directory)
+        for name in names:
+            if (directory / name).exists() and not (directory / name).is_file():
+                raise SceneError(f"{directory / name} is no file; the result needs this name. Remove it, or choose another directory with --output DIR.")
+    except OSError as error:
+        raise SceneError(f"{directory} cannot be written to: {error.strerror or error}. Choose another directory with --output DIR.") from None
+
+
+def _check_directory(directory: Path) -> None:
+    existing = next(parent for parent in (directory.absolute(), *directory.absolute().parents) if _is_there(parent))
     if not existing.is_dir():
         raise SceneError(f"{existing} is a file; the result needs a directory. Choose another one with --output DIR.")
     if not os.access(existing, os.W_OK | os.X_OK):
         raise SceneError(f"{existing} cannot be written to. Choose another directory with --output DIR.")
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        path.stat()
+        return True
+    except (FileNotFoundError, NotADirectoryError):
+        if path.is_symlink():
+            raise SceneError(f"{path} is a link to {os.readlink(path)}, which is not there. Remove it, or choose another directory with --output DIR.") from None
+        return False
 
 
 @contextlib.contextmanager
@@ -32,14 +66,43 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
     """
     try:
         directory.mkdir(parents=True, exist_ok=True)
+        remove_left_over(directory)
         # Beside the final names, because a rename is atomic only within a file system.
-        with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=directory) as aside:
+        with tempfile.TemporaryDirectory(prefix=f"{UNFINISHED}{_machine()}-{os.getpid()}-", dir=directory) as aside:
             yield Path(aside)
             for file in sorted(Path(aside).iterdir()):
                 os.replace(file, directory / file.name)
                 written.append(directory / file.name)
     except OSError as error:
         raise ComputationError(f"{directory}: the result could not be written: {error.strerror or error}") from error
+
+
+def remove_left_over(directory: Path) -> None:
+    """Remove from a directory, not from those in it, what processes of this machine were writing when they were killed."""
+    for left in directory.glob(f"{UNFINISHED}{glob.escape(_machine())}-*"):
+        process = left.name[len(UNFINISHED) + len(_machine()) + 1 :].partition("-")[0]
+        if process.isdecimal() and not _is_alive(int(process)):
+            shutil.rmtree(left, ignore_errors=True)
+
+
+def _machine() -> str:
+    """Where a process number is one of its own: the machine, and of a container its own count of processes."""
+    try:
+        count = os.stat("/proc/self/ns/pid").st_ino
+    except OSError:
+        count = 0
+    return f"{socket.gethostname()}-{count}"
+
+
+def _is_alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        # Somebody else's.
+        return True
+    return True
 
 
 def write_whole(file: Path, write: Callable[[Path], object]) -> Path:

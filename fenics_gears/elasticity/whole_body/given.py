@@ -10,6 +10,7 @@ from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.whole_body.outline import WholeBody, whole_body
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.system import user_file
 
 
 @lru_cache(maxsize=8)
@@ -19,16 +20,25 @@ def given_body(path: str, digest: str, gear: Gear, element: str, field: str) -> 
     Raises SceneError where the file is not there, is no mesh, not of this gear, or of other cells than the element has.
     """
     if not digest:
-        there = Path(path).parent
-        near = sorted(each.name for each in there.glob("*.msh")) if there.is_dir() else []
-        listed = f" Meshes beside it: {', '.join(near)}." if near else ""
-        raise SceneError(f"{field}: there is no such file, or it cannot be read.{listed} Nothing was computed or written.")
+        raise SceneError(f"{field}: {_why_not_read(Path(path))} Nothing was computed or written.")
     try:
         mesh = read_body_mesh(path)
         _check_cells(mesh.cells.shape[1], element)
         return whole_body(mesh, gear, "the mesh")
     except SceneError as error:
         raise SceneError(f"{field}: {_without_path(str(error), path)}\nNothing was computed or written.") from None
+
+
+def _why_not_read(path: Path) -> str:
+    try:
+        user_file.check_file(path, user_file.LARGEST_MESH)
+    except user_file.Missing:
+        pass
+    except user_file.Unreadable as problem:
+        return f"{problem}."
+    near = sorted(each.name for each in path.parent.glob("*.msh")) if path.parent.is_dir() else []
+    listed = f" Meshes beside it: {', '.join(near)}." if near else ""
+    return f"there is no such file, or it cannot be read.{listed}"
 
 
 def _check_cells(corners: int, element: str) -> None:

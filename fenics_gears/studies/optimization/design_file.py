@@ -12,7 +12,7 @@ from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_toleran
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import parsed, text_of
+from fenics_gears.scene.read import name_of, parsed, text_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.optimization.conditions import FROM_ZERO, samples, scattered, value_of
 from fenics_gears.studies.optimization.design import Design, Scatter
@@ -39,7 +39,7 @@ def load_design(path: str | Path) -> Design:
     varied = {variable.path[0] for variable in variables}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
     scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
-    design = Design(path.stem, tree.get("title", path.stem), scene_tree, before_tree, directory, variables, loads, goals, tolerances, bounds, search, text)
+    design = Design(name_of(path), tree.get("title", name_of(path)), scene_tree, before_tree, directory, variables, loads, goals, tolerances, bounds, search, text)
     scene = _checked_ranges(design, sections)
     design = _with_class(design, scene, tolerance_class)
     _check_scatter(design, sections)

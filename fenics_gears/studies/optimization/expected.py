@@ -17,7 +17,7 @@ from fenics_gears.system.progress import seconds_in_words
 
 MOST_HOURS = 8.0
 # Seconds of a run beside its march: the result with its extremes between steps (measured on the paper's pair).
-RESULT = 0.04
+TIME_OF_A_RESULT = 0.04
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
 # Torques of the Harris map where the operating points have one, in parts of it.
@@ -59,7 +59,7 @@ def expected_work(design: Design, kept: int) -> Work:
     costs = [expected_cost(model_of(case.scene)) for case in cases]
     marching, building, condensing = (sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs) for name in ("marching", "building", "condensing"))
     shared = len({operators_key(model_of(case.scene)) for case in cases}) == 1
-    each = RESULT + marching - (building if shared else 0.0)
+    each = TIME_OF_A_RESULT + marching - (building if shared else 0.0)
     bodies = 1 if len(gear_tasks(cases)) == len(gear_tasks(cases[:1])) else designs
     return Work(runs, runs * each + (bodies * condensing if runs else 0.0))
 

@@ -28,6 +28,7 @@ from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import Progress
 
+RESULT, TABLE, BEST = "optimization.nc", "designs.csv", "best.toml"
 NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_ripple")
 
 
@@ -73,7 +74,7 @@ def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = 
             return None
         design = load_design(path)
         directory = output or Path("results") / design.name
-        check_writable(directory)
+        check_writable(directory, RESULT, TABLE, BEST)
         optimiser()
         with sole_writer(directory, "runs"), Interruption(progress) as interruption:
             return _run(design, directory, team, interruption, quiet, any_time)

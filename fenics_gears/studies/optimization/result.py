@@ -16,10 +16,8 @@ from fenics_gears.results.files import save
 from fenics_gears.scene.schema import known_paths
 from fenics_gears.studies import fields
 from fenics_gears.studies.optimization.design import QUANTILE
-from fenics_gears.studies.optimization.optimize import Outcome
+from fenics_gears.studies.optimization.optimize import BEST, RESULT, TABLE, Outcome
 from fenics_gears.system.output import write_whole
-
-RESULT, TABLE, BEST = "optimization.nc", "designs.csv", "best.toml"
 
 
 def write_result(outcome: Outcome) -> list[Path]:

@@ -1,0 +1,99 @@
+"""What gmsh finds in a mesh file, read by a process of its own: one wrong digit in a file can end the process that reads it, or ask for all memory.
+
+`python -m fenics_gears.elasticity.mesh_content FILE` is that process: it writes the arrays to the standard output.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import resource
+import signal
+import subprocess
+import sys
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+
+from fenics_gears.elasticity.gmsh_session import gmsh_model
+from fenics_gears.errors import SceneError
+
+LINE = 1  # gmsh's number of a straight line
+# What reading may take, bytes and seconds: for gmsh itself, and for each byte of the file, many times what a whole file takes.
+MEMORY, MEMORY_PER_BYTE = 8e9, 100.0
+SECONDS, SECONDS_PER_BYTE = 60.0, 1e-6
+
+
+@dataclass(frozen=True)
+class MeshContent:
+    """Nodes by their `tags` with `points` (n, 3); the numbers and names of the `kinds` of plane cells, and the `cells` of the first; whether there are `solids`.
+
+    lines: node tags (k, 2) of all lines of physical curves, `curves` the name of each one's curve.
+    """
+
+    tags: np.ndarray
+    points: np.ndarray
+    kinds: np.ndarray
+    kind_names: np.ndarray
+    cells: np.ndarray
+    solids: np.ndarray
+    lines: np.ndarray
+    curves: np.ndarray
+
+
+def mesh_content(path: Path) -> MeshContent:
+    """The content of a gmsh file. Raises SceneError where gmsh cannot read it."""
+    path, size = Path(os.path.abspath(path)), os.path.getsize(path)
+    program = Path(__file__).parents[2]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(program), *filter(None, [os.environ.get("PYTHONPATH")])])}
+    # gmsh takes names in UTF-8 only: the folder's may be another.
+    call = [sys.executable, "-P", "-m", "fenics_gears.elasticity.mesh_content", path.name, str(int(MEMORY + MEMORY_PER_BYTE * size))]
+    try:
+        done = subprocess.run(call, cwd=path.parent, env=environment, capture_output=True, timeout=SECONDS + SECONDS_PER_BYTE * size)
+    except subprocess.TimeoutExpired as late:
+        raise SceneError(f"body mesh {path}: gmsh has not read it after {late.timeout:.0f} s; it is damaged. Write it again") from None
+    if done.returncode:
+        raise SceneError(f"body mesh {path}: gmsh cannot read it ({_reason(done)})")
+    with np.load(io.BytesIO(done.stdout), allow_pickle=False) as arrays:
+        return MeshContent(*(arrays[each.name] for each in fields(MeshContent)))
+
+
+def _reason(done: subprocess.CompletedProcess) -> str:
+    if done.returncode < 0:
+        return f"it ends gmsh by {signal.Signals(-done.returncode).name}: the file is damaged; write it again"
+    said = done.stderr.decode(errors="replace").strip().splitlines()
+    return said[-1] if said else "the file is damaged; write it again"
+
+
+def _read(name: str) -> MeshContent:
+    """The content, read here."""
+    with gmsh_model("body mesh") as gmsh:
+        gmsh.merge(name)
+        mesh = gmsh.model.mesh
+        tags, points, _ = mesh.getNodes()
+        kinds = mesh.getElementTypes(2)
+        cells = mesh.getElementsByType(kinds[0])[1] if len(kinds) else []
+        lines, curves = [np.empty((0, 2), dtype=int)], []
+        for dimension, group in gmsh.model.getPhysicalGroups(1):
+            for entity in gmsh.model.getEntitiesForPhysicalGroup(dimension, group):
+                own = np.asarray(mesh.getElementsByType(LINE, entity)[1], dtype=int).reshape(-1, 2)
+                lines.append(own)
+                curves += [gmsh.model.getPhysicalName(dimension, group)] * len(own)
+        names = [mesh.getElementProperties(kind)[0] for kind in kinds]
+        solids = len(mesh.getElementTypes(3)) > 0
+    arrays = (tags, np.reshape(points, (-1, 3)), kinds, np.array(names, dtype=str), cells, solids, np.concatenate(lines), np.array(curves, dtype=str))
+    return MeshContent(*map(np.asarray, arrays))
+
+
+if __name__ == "__main__":
+    resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[2]),) * 2)
+    # No file of a memory that is only damage.
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    try:
+        content = _read(sys.argv[1])
+    except Exception as error:  # gmsh raises nothing more precise
+        sys.exit(str(error) or type(error).__name__)
+    packed = io.BytesIO()
+    np.savez(packed, **vars(content))
+    sys.stdout.buffer.write(packed.getvalue())
