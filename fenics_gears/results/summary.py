@@ -17,6 +17,8 @@ KILO = 1e3
 # Lengths (um) that are round-off of positions.
 ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
+# Where pressure stands apart from the peak contact pressure, as it does not converge there.
+APART = {"edge": "tip edges", "kink": "kinks of relief"}
 
 # The stages of a run whose wall time the result carries, and what they are called.
 STAGES = {
@@ -107,7 +109,12 @@ def _pressure(attributes) -> list[Row]:
         return []
     place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
-    return [("peak contact pressure, without tip edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+    apart = [name for name in APART if f"peak_{name}_pressure" in attributes]
+    label = "peak contact pressure" + (f", without {' and '.join(APART[name] for name in apart)}" if apart else "")
+    rows = [(label, f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+    if "peak_kink_pressure" in attributes:
+        rows.append(("pressure at kinks of relief", f"{attributes['peak_kink_pressure']:.4g} MPa, more on a finer mesh", ""))
+    return rows
 
 
 def _power(attributes) -> list[Row]:

@@ -15,6 +15,7 @@ from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects.relief import PARABOLIC
+from fenics_gears.geometry.relief_data import RootRelief, TipRelief
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
-        of_flanks += [*_sharp_edge(recorder.model.scene, watched), *_undercut_edge(watched)]
+        of_flanks += [*_sharp_edge(recorder.model.scene, watched), *_undercut_edge(watched), *_kink(recorder.model.scene, result.attrs)]
     if cycle.face is not None:
         # Imported here: plane scenes have none.
         from fenics_gears.results.face_variables import warnings_of_face
@@ -171,6 +172,26 @@ def _undercut_edge(watched: Watched) -> list[str]:
                 f"with the mesh, forces and transmission error do; [root_relief.{gear}] takes the load off the edge"
             )
     return found
+
+
+def _kink(scene: Scene, numbers: Mapping) -> list[str]:
+    """More pressure at the kink where a linear relief starts than elsewhere: linear elasticity has infinite pressure there."""
+    largest, elsewhere = numbers.get("peak_kink_pressure", 0.0), numbers.get("peak_contact_pressure", 0.0)
+    if largest <= elsewhere:
+        return []
+    linear = {section: _linear(getattr(scene, section)) for section in ("tip_relief", "root_relief")}
+    starts = " or ".join(f"the linear {section.replace('_', ' ')} of the {' or the '.join(gears)}" for section, gears in linear.items() if gears)
+    remedies = ", ".join(f'{section}.shape = "{PARABOLIC}"' for section, gears in linear.items() if gears)
+    return [
+        f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the mesh; forces and transmission error do. "
+        f"The peak contact pressure, {elsewhere:.4g} MPa, is without it; {remedies} starts without a kink"
+    ]
+
+
+def _linear(reliefs: TipRelief | RootRelief | None) -> list[str]:
+    """The gears whose relief is linear."""
+    own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
+    return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]
 
 
 def _off_the_edge(scene: Scene, gears: list[str]) -> str:
