@@ -76,7 +76,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("peak_contact_pressure_pair", "1", "number of the tooth pair with the peak contact pressure", WITH_PRESSURE),
     ResultAttribute("peak_contact_pressure_flank", "", "flanks with the peak contact pressure: `drive` or `coast`", WITH_PRESSURE),
     ResultAttribute("peak_contact_pressure_diameter", "mm", "diameter on the pinion at the peak contact pressure", WITH_PRESSURE),
-    ResultAttribute("peak_edge_pressure", "MPa", "maximum of `largest_edge_pressure`; it does not converge as the mesh is refined", "a pair is in contact at an edge or within a Hertz half-width of one"),
+    ResultAttribute("peak_edge_pressure", "MPa", "maximum of `largest_edge_pressure`; it does not converge as the mesh is refined", "a pair is in contact at an edge or within two Hertz half-widths of one"),
     ResultAttribute("peak_kink_pressure", "MPa", "maximum of `largest_kink_pressure`; it does not converge as the mesh is refined", "a pair is in contact within a Hertz half-width of the kink of a linear relief"),
     ResultAttribute("overlap_ratio", "1", "overlap ratio of the common face; 0 for spur gears", OVER_FACE),
     ResultAttribute("total_contact_ratio", "1", "transverse contact ratio plus overlap ratio", OVER_FACE),
