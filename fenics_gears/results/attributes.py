@@ -86,7 +86,7 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("input_power", "W", "mean power of the driving gear", "a load and a speed"),
     ResultAttribute("friction_loss", "1", "friction loss between the flanks divided by the work of the driving gear", WITH_FRICTION),
     ResultAttribute("friction_power", "W", "mean power of the friction loss between the flanks", "`[friction]`, a load and a speed"),
-    ResultAttribute("mesh_efficiency", "1", "efficiency of the mesh, 1 - `friction_loss`, without losses of bearings, oil and damping", WITH_FRICTION),
+    ResultAttribute("mesh_efficiency", "1", "efficiency of the mesh, 1 - `friction_loss`, without losses of bearings, oil and damping", WITH_FRICTION + ", and teeth that are neither wedged nor locked"),
     ResultAttribute("contact_loss_count", "1", "number of contact losses of the drive flanks in the settled steps"),
     ResultAttribute("contact_loss_first", "s", "time of the first contact loss", AFTER_LOSS),
     ResultAttribute("contact_loss_longest", "s", "duration of the longest contact loss", AFTER_LOSS),

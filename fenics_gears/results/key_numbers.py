@@ -134,8 +134,17 @@ def _power(counted: xr.Dataset, timed: bool) -> dict[str, float]:
     power, loss = drive / seconds / WATT, counted.attrs.get("friction_loss")
     found = {"input_power": power} if timed else {}
     if loss is not None:
-        found |= {"mesh_efficiency": 1.0 - loss} | ({"friction_power": loss * power} if timed else {})
+        found |= {"friction_power": loss * power} if timed else {}
+        # What wedges the teeth is not the load, and the friction that it makes is no loss of the load's power.
+        found |= {"mesh_efficiency": 1.0 - loss} if loss < 1.0 and not wedged(counted).any() else {}
     return found
+
+
+def wedged(curves: xr.Dataset) -> np.ndarray:
+    """Steps (time,) at which drive and coast flanks press at once."""
+    if "coast_normal_force" not in curves:
+        return np.zeros(curves.sizes["time"], dtype=bool)
+    return np.minimum(curves["normal_force"].values, curves["coast_normal_force"].values) > NO_FORCE
 
 
 def path_point_values(

@@ -73,10 +73,12 @@ def _harmonics(attributes) -> list[Row]:
 
 
 def _stiffness(attributes) -> list[Row]:
-    if "mean_mesh_stiffness" not in attributes:
+    """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
+    if "mean_mesh_stiffness_tangent" not in attributes:
         return []
     one = f", one pair {attributes['single_pair_stiffness']:.4g} at most" if "single_pair_stiffness" in attributes else ""
-    return [("mesh stiffness", f"{attributes['mean_mesh_stiffness']:.4g} N/(mm um) on average{one}", "")]
+    secant = f"{attributes['mean_mesh_stiffness']:.4g}{one}"
+    return [("mesh stiffness, tangent", f"{attributes['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average; force over deflection {secant}", "")]
 
 
 def _pair_force(attributes) -> list[Row]:
@@ -121,9 +123,10 @@ def _power(attributes) -> list[Row]:
     rows = []
     if "input_power" in attributes:
         rows.append(("input power", f"{attributes['input_power'] / KILO:.4g} kW", ""))
-    if "mesh_efficiency" in attributes:
+    if "friction_loss" in attributes:
         watts = f"{attributes['friction_power']:.4g} W = " if "friction_power" in attributes else ""
-        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%}, efficiency of the mesh {attributes['mesh_efficiency']:.3%}", ""))
+        efficiency = f"efficiency of the mesh {attributes['mesh_efficiency']:.3%}" if "mesh_efficiency" in attributes else "of wedged or locked teeth, which have no efficiency"
+        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%}, {efficiency}", ""))
     return rows
 
 
