@@ -88,7 +88,7 @@ FACE_VARIABLES: tuple[ResultVariable, ...] = (
 # What only contact that is spread over nodes has.
 OVER_CONTACT_NODES = tuple(
     f"{side}contact_{name}" for side in ("", "coast_") for name in ("pressure", "traction", "offset", "roll_angle")
-) + ("largest_contact_pressure", "largest_contact_pressure_pair", "largest_contact_pressure_roll_angle", "largest_edge_pressure")
+) + ("largest_contact_pressure", "largest_contact_pressure_pair", "largest_contact_pressure_roll_angle", "largest_edge_pressure", "largest_kink_pressure")
 
 
 def effect_named(section: str) -> Effect:
@@ -126,7 +126,8 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     if not scene.motion.speed_given:
         left_out = (*left_out, "sliding_speed")
-    return tuple(each for each in found if each.name not in left_out)
+    # Two effects may have a variable in common.
+    return tuple(dict.fromkeys(each for each in found if each.name not in left_out))
 
 
 def common_period(scene) -> float:

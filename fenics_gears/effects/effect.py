@@ -57,7 +57,7 @@ class Effect:
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None for that of equal teeth.
     ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
     ``files(data)``: the names of these files, each with a hash of what was read from it.
-    ``check(data, scene, pair)``: raises SceneError where those files are wrong.
+    ``check(data, scene, pair)``: raises SceneError where those files are wrong, or the effect is not for this load and speed.
     ``warnings(data, model)``: sentences that a user should read before the run.
     ``watched(data, cycle, steps)``: values of consecutive steps (``dynamics.steps.Steps``) that the effect's findings need, name to values (steps,).
     ``findings(data, watched)``: sentences on where a run violates what the effect assumes, from the watched values of all steps.

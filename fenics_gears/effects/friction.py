@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, Optional
 
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
+from fenics_gears.errors import SceneError
 from fenics_gears.inputs.fields import Section, allowed_in, choice, number, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.tree import Tree, quantity_at, table
@@ -39,7 +40,8 @@ class FrictionText(Section):
     formula: Optional[Literal["Schlenk", "Benedict and Kelley"]] = choice(
         "Schlenk",
         "Benedict and Kelley",
-        meaning="formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2, mineral oil), or that of Benedict and Kelley (1961), averaged over the path of contact",
+        meaning="formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2, mineral oil), for pitch line speeds from 1 m/s, those above 50 m/s counted as 50, and line loads below 150 N/mm as 150; "
+        "or that of Benedict and Kelley (1961), averaged over the path of contact, for mixed lubrication",
         otherwise="`coefficient`",
     )
     viscosity: Optional[float] = quantity("0.1 mPa s", "100 Pa s", "13 mPa s", meaning="dynamic viscosity of the oil at its temperature in the mesh, for `formula`", otherwise="required with `formula`")
@@ -70,16 +72,19 @@ def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
 
 
 def coefficient_of(friction: Friction | None, scene, pair) -> float:
-    """The coefficient of a scene's friction; 0 without friction."""
+    """The coefficient of a scene's friction; 0 without friction. Raises SceneError for a formula that is not for the scene's load and speed."""
     if friction is None:
         return 0.0
     if friction.formula is None:
         return friction.coefficient
-    from fenics_gears.geometry.friction_formulas import FORMULAS
+    from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange
 
     force = abs(scene.load.wheel_torque) / pair.wheel.base_radius
     speed = 60.0 * scene.motion.mesh_frequency / pair.pinion.teeth
-    return FORMULAS[friction.formula](pair, force, speed, friction.viscosity * 1e9, friction.roughness * 1e3)
+    try:
+        return FORMULAS[friction.formula](pair, force, speed, friction.viscosity * 1e9, friction.roughness * 1e3)
+    except OutOfRange as error:
+        raise SceneError(f"friction.formula = {as_written(friction.formula)}: {error}\nNothing was computed or written.") from None
 
 
 EFFECT = Effect(
@@ -97,6 +102,7 @@ EFFECT = Effect(
         ResultVariable("work_friction", "N mm", "energy lost to friction between the flanks"),
     ),
     rules=coefficient_or_formula,
+    check=coefficient_of,
     # Between rigid flanks the pairs' shares of the force, and with them the friction, are not determined.
     needs=("tooth_elasticity",),
 )

@@ -39,7 +39,8 @@ class LeadModificationText(Section):
         "-100 mm",
         "100 mm",
         "8 um",
-        meaning="helix slope modification, removed in proportion to the distance from the left end: so much at the right end; a negative one the other way round",
+        meaning="helix slope modification: material removed in proportion to the distance from the left end of the gear's own face, nothing there and so much at the right end; a negative one removes "
+        "nothing at the right end. Unlike a misalignment it removes half its amount on average, which shows in the mean transmission error",
         otherwise="no helix slope modification",
     )
     end_relief: Optional[EndReliefText] = None

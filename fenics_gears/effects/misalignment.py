@@ -17,7 +17,8 @@ def _deviation(example: str, meaning: str):
 
 
 class MisalignmentText(Section):
-    """``[misalignment]``: departure of the wheel's axis from parallel, as lengths over the common face width. ISO/TR 10064-3 has such deviations in the plane
+    """``[misalignment]``: departure of the wheel's axis from parallel, as lengths over the common face width: it turns about the pitch point in the middle of the
+    common face, so that half an amount opens one end and half closes the other. ISO/TR 10064-3 has such deviations in the plane
     of both axes and perpendicular to it; these are in the plane of action and perpendicular to it. The right end is the one from which the pinion is seen to
     turn counter-clockwise."""
 
@@ -25,7 +26,8 @@ class MisalignmentText(Section):
         "12 um", "in the plane of action: positive where the right end of the wheel's axis moves away from the pinion along the line of action"
     )
     out_of_plane: Optional[float] = _deviation(
-        "0 um", "perpendicular to the plane of action: positive where the right end of the wheel's axis moves towards the side of the pinion's axis"
+        "0 um", "perpendicular to the plane of action: positive where the right end of the wheel's axis moves towards the side of the pinion's axis; opens nothing between drive flanks, "
+        "whose contact points it moves in the plane of the flanks, but something between coast flanks"
     )
 
 

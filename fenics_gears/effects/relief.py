@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any, Literal, Optional
 
-from fenics_gears.effects.effect import own_or_shared
+from fenics_gears.effects.effect import ResultVariable, own_or_shared
 from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief
 from fenics_gears.inputs import units
 from fenics_gears.inputs.fields import Measured, Section, choice, either, number, quantity
@@ -14,8 +14,9 @@ from fenics_gears.inputs.spelling import quantity_text, section_tree
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
 
-# Steps of a block, those that press a node hardest, whose pressure is looked at.
-STEPS_JUDGED = 4
+AT_KINK = ResultVariable(
+    "largest_kink_pressure", "MPa", "largest pressure within a Hertz half-width of the kink where a linear relief starts; it does not converge as the mesh is refined"
+)
 
 
 def start_field(word: str, word_meaning: str) -> Any:
@@ -147,38 +148,3 @@ def _alike(tree: Tree) -> bool:
     """Whether both gears have the same teeth, so that a diameter is the same place of both."""
     _, pinion, wheel = with_gears(tree, "gears").values()
     return {**pinion, "bore_diameter": None} == {**wheel, "bore_diameter": None}
-
-
-def kinks_watched(section: str, removal: Callable, reliefs, cycle, steps) -> dict[str, Any]:
-    """The largest pressure (MPa) of consecutive steps, and the gear (1 or 2, 0 for neither) on whose kink of a linear relief it is.
-
-    Both (steps,), zero but for the first step: they are of the steps that press a node hardest.
-    """
-    curves = zip(GEARS, removal(reliefs, cycle.pair))
-    kinks = {gear: curve.start_roll_angle for gear, curve in curves if curve is not None and curve.power == 1 and curve.depth > 0.0}
-    if not kinks or not cycle.traits.has_pressure:
-        return {}
-    import numpy as np
-
-    from fenics_gears.contact.kink_pressure import kink_at_the_peak
-
-    hardest = [steps.record(int(place)) for place in np.argsort(steps.largest_forces, kind="stable")[-STEPS_JUDGED:]]
-    gear, pressure = kink_at_the_peak(cycle, [(record.position.operator, record.solution.forces) for record in hardest], kinks)
-    first = np.zeros((2, len(steps)))
-    first[:, 0] = pressure, 0 if gear is None else 1 + GEARS.index(gear)
-    return {f"{section} pressure": first[0], f"{section} kink": first[1]}
-
-
-def kink_findings(section: str, reliefs, watched: Mapping[str, Any]) -> list[str]:
-    """A sentence where contact presses hardest on the kink with which a linear relief starts."""
-    pressure = watched.get(f"{section} pressure")
-    if pressure is None or not len(pressure):
-        return []
-    hardest = int(pressure.argmax())
-    kink = int(watched[f"{section} kink"][hardest])
-    if not kink:
-        return []
-    return [
-        f"the largest pressure, {pressure[hardest]:.4g} MPa, is on the kink where the {GEARS[kink - 1]}'s linear {section.replace('_', ' ')} starts: it does not "
-        f'converge with the mesh there; forces and transmission error do. {section}.shape = "{PARABOLIC}" starts without a kink'
-    ]

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import RootReliefOfGearText, kink_findings, kinks_watched, of_gear, rules, write
+from fenics_gears.effects.relief import AT_KINK, RootReliefOfGearText, of_gear, rules, write
 from fenics_gears.geometry.relief_data import RootRelief
 
 
@@ -40,6 +40,5 @@ EFFECT = Effect(
     write=partial(write, RootReliefOfGearText, "LPSTC"),
     rules=partial(rules, "root_relief", "LPSTC"),
     removal=removal,
-    watched=partial(kinks_watched, "root_relief", removal),
-    findings=partial(kink_findings, "root_relief"),
+    variables=(AT_KINK,),
 )

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import TipReliefOfGearText, kink_findings, kinks_watched, of_gear, rules, write
+from fenics_gears.effects.relief import AT_KINK, TipReliefOfGearText, of_gear, rules, write
 from fenics_gears.geometry.relief_data import TipRelief
 
 
@@ -40,6 +40,5 @@ EFFECT = Effect(
     write=partial(write, TipReliefOfGearText, "HPSTC"),
     rules=partial(rules, "tip_relief", "HPSTC"),
     removal=removal,
-    watched=partial(kinks_watched, "tip_relief", removal),
-    findings=partial(kink_findings, "tip_relief"),
+    variables=(AT_KINK,),
 )

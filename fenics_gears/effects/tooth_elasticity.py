@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Literal, Optional
 
 from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
@@ -24,8 +24,15 @@ def _poissons_ratio(otherwise: str):
 
 
 def _name(otherwise: str):
-    listed = "; ".join(f"{name} {material.youngs_modulus / 1e3:g} GPa, {material.poissons_ratio:g}" for name, (material, _) in MATERIALS.items())
+    listed = "; ".join(
+        f"{name} {each.youngs_modulus / 1e3:g} GPa, {each.poissons_ratio:g}" + (f", yield strength {each.yield_strength:g} MPa" if each.yield_strength else "")
+        for name, (each, _) in MATERIALS.items()
+    )
     return choice(*MATERIALS, meaning=f"material by name, also written `material = \"steel\"` in the section above: {listed}", otherwise=otherwise)
+
+
+def _yield_strength(otherwise: str):
+    return quantity("1 kPa", "1e3 GPa", "650 MPa", meaning="yield strength, above which a stress is remarked; nothing else follows from it", otherwise=otherwise)
 
 
 class MaterialText(Section):
@@ -34,6 +41,7 @@ class MaterialText(Section):
     name: Optional[Literal[tuple(MATERIALS)]] = _name("both constants are required")
     youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`")
     poissons_ratio: Optional[float] = _poissons_ratio("that of the `name`")
+    yield_strength: Optional[float] = _yield_strength("that of the `name`, if it has one")
 
 
 class OwnMaterialText(Section):
@@ -42,6 +50,7 @@ class OwnMaterialText(Section):
     name: Optional[Literal[tuple(MATERIALS)]] = _name("from `[gears.material]`")
     youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`, or from `[gears.material]`")
     poissons_ratio: Optional[float] = _poissons_ratio("that of the `name`, or from `[gears.material]`")
+    yield_strength: Optional[float] = _yield_strength("that of the `name`, if it has one; from `[gears.material]` where this section names no other material")
 
 
 def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | None:
@@ -50,7 +59,18 @@ def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | Non
         return None
     there = [text for text in texts if text is not None]
     stated = [each for text in there for each in (text, MATERIALS[text.name][0] if text.name is not None else text)]
-    return Material(*(next(float(value) for each in stated if (value := getattr(each, constant)) is not None) for constant in CONSTANTS))
+    constants = (next(float(value) for each in stated if (value := getattr(each, constant)) is not None) for constant in CONSTANTS)
+    return Material(*constants, _yield_strength_of(there))
+
+
+def _yield_strength_of(texts: Sequence[MaterialText | OwnMaterialText]) -> float | None:
+    """That of the first section which has one or is of another material than those behind it."""
+    for text in texts:
+        if text.yield_strength is not None:
+            return float(text.yield_strength)
+        if text.name is not None or text.youngs_modulus is not None:
+            return None if text.name is None else MATERIALS[text.name][0].yield_strength
+    return None
 
 
 def materials_are_complete(tree: Tree) -> Iterator[Problem]:
@@ -90,10 +110,10 @@ EFFECT = Effect(
         ResultVariable("mesh_stiffness", "N/mm", "mesh stiffness: mesh force divided by the deflection of the flanks"),
         ResultVariable("mesh_stiffness_tangent", "N/mm", "tangent mesh stiffness: change of the mesh force divided by the change of the deflection"),
         ResultVariable("loaded_pairs", "1", "number of loaded tooth pairs"),
-        ResultVariable("largest_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, without pairs in contact at the edge of a tip or of an undercut flank"),
+        ResultVariable("largest_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, without what is at edges and kinks"),
         ResultVariable("largest_contact_pressure_pair", "1", "number of the tooth pair with the largest contact pressure; 0 if none is in contact"),
         ResultVariable("largest_contact_pressure_roll_angle", "rad", "roll angle on the pinion's flank at the largest contact pressure"),
-        ResultVariable("largest_edge_pressure", "MPa", "largest pressure of pairs in contact at the edge of a tip or of an undercut flank; it does not converge as the mesh is refined"),
+        ResultVariable("largest_edge_pressure", "MPa", "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, or of pairs that press with one; it does not converge as the mesh is refined"),
         ResultVariable("contact_pressure", "MPa", "contact pressure at the node, not averaged", dims=OF_NODES),
         ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion", dims=OF_NODES),
         ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES),

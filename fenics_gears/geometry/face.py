@@ -55,25 +55,23 @@ def coast_face_opening(pair: GearPair, misalignment: Misalignment, z, position) 
     double = 2.0 * pair.operating_pressure_angle
     cosine, sine = np.cos(double), np.sin(double)
     # In the mirror, the line of centres being the mirror's line: the misalignment as it is seen there, and the other hand.
-    seen = Misalignment(
-        -cosine * misalignment.in_plane - sine * misalignment.out_of_plane, -sine * misalignment.in_plane + cosine * misalignment.out_of_plane
-    )
+    seen = Misalignment(-cosine * misalignment.in_plane - sine * misalignment.out_of_plane)
     return misalignment_opening(pair, seen, z, position, -pair.slope)
 
 
 def misalignment_opening(pair: GearPair, misalignment: Misalignment, z, position, slope: float | None = None) -> np.ndarray:
     """Gap (mm, along the line of action) by a tilted axis of the wheel, at places z on the face and positions (mm from T1) of the contact.
 
-    The wheel turns by small angles about the point of its axis in the middle of the common face. This displaces the point of contact, which is
-    (position - T1T2, rb2, z) from there, along the contact normal (c, 0, -c tau) by
+    The wheel turns by small angles about the pitch point in the middle of the common face, so that neither end comes nearer on the whole: about a point of its
+    axis, or about an end of the face, all gaps of a helical pair would open or close alike besides, which only turns the wheel. The point of contact,
+    (position - pitch point, 0, z) from there, moves along the contact normal (c, 0, -c tau) by
 
-    * c (z + tau (position - T1T2)) for an angle of 1 in the plane of action: the axis moves by z along the line of action,
-    * c tau rb2 for an angle of 1 out of it: the point of contact, rb2 off the axis, moves along the axis. This is the same at all z, and zero for a spur pair.
+    * c (z + tau (position - pitch point)) for an angle of 1 in the plane of action,
+    * nothing for an angle out of it: it moves in the plane of the flanks.
 
-    Both angles are the scene's amounts over the common face width. Terms of second order (an angle times the flanks' own curvature) are left out.
+    The angle is the scene's amount over the common face width. Terms of second order (an angle times the flanks' own curvature) are left out.
     `slope`: of the lines of contact, the pair's unless given.
     """
     slope = pair.slope if slope is None else slope
-    leaning = slope * (np.asarray(position, dtype=float) - pair.line_of_action_length)
-    in_plane, out_of_plane = misalignment.in_plane / pair.face_width, misalignment.out_of_plane / pair.face_width
-    return in_plane * (np.asarray(z, dtype=float) + leaning) + out_of_plane * slope * pair.wheel.base_radius
+    leaning = slope * (np.asarray(position, dtype=float) - pair.pitch_point)
+    return misalignment.in_plane / pair.face_width * (np.asarray(z, dtype=float) + leaning)

@@ -3,7 +3,8 @@
 A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part, from the start of
 active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value from one end to the
 other, form is one wave over that length, as wide as its value. Slope and form of the helix are the like along the face of the gear, and are only there
-where flanks have one. A measured curve stands in place of both; its mean over the used part is taken off.
+where flanks have one. A measured curve stands in place of both. It is zero at the V point of the profile or at mid-width of the helix: there the measuring machine's
+own zero has no meaning, since the pitch deviation says where the flank stands. Curves may be given zero mean instead.
 """
 
 from __future__ import annotations
@@ -12,10 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, MeasuredCurve, MeasuredCurves, Waviness
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_error_data import MEAN, FlankErrors, GearErrors, MeasuredCurve, MeasuredCurves, Waviness
 from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.written import as_written
 
 PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(5)  # each has random numbers of its own, so that giving one leaves the others as they are
 
@@ -71,6 +74,9 @@ def flank_deviations(errors: FlankErrors, pair: GearPair, middles: tuple[float, 
 def _of_gear(
     gear: Gear, own: GearErrors, errors: FlankErrors, number: int, start: float, face: tuple[float, float] | None
 ) -> FlankDeviations:
+    if own.problem:
+        name, problem = own.problem
+        raise SceneError(f"flank_errors.{('pinion', 'wheel')[number]}.{name} = {as_written(getattr(own, name))}: {problem}")
     tolerance = None
     if errors.tolerance_class is not None:
         tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, errors.tolerance_class)
@@ -86,7 +92,7 @@ def _of_gear(
     def along_face(width: float, middle: float) -> HelixDeviations:
         if own.measured_helix is not None:
             level = np.zeros(gear.teeth)
-            return HelixDeviations(level, level, width, middle, _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width)))
+            return HelixDeviations(level, level, width, middle, _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width), None if own.anchor == MEAN else 0.0))
         allowed = None if tolerance is None else helix_tolerance(2.0 * gear.reference_radius, width, errors.tolerance_class)
         slope = values(own.helix_slope, lambda limits: allowed.slope * draws(HELIX_SLOPE))
         return HelixDeviations(slope, values(own.helix_form, lambda limits: allowed.form * draws(HELIX_FORM)), width, middle)
@@ -102,16 +108,27 @@ def _of_gear(
         waviness=own.waviness,
         active_profile=active_profile,
         helix=None if face is None else along_face(*face),
-        curves=_curves(own.measured_profile, gear, active_profile) if measured else None,
+        curves=_curves(own.measured_profile, gear, active_profile, None if own.anchor == MEAN else v_roll_angle(gear)) if measured else None,
     )
 
 
-def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float]) -> np.ndarray:
-    """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm), less their mean; a tooth that was not measured has the mean curve."""
+def v_roll_angle(gear: Gear) -> float:
+    """Roll angle (rad) of the V point, on the cylinder of diameter d + 2 x m (ISO 21771), a module below the tip of a tooth that is not shortened."""
+    radius = gear.reference_radius + gear.profile_shift * gear.module
+    return float(np.sqrt(max((radius / gear.base_radius) ** 2 - 1.0, 0.0)))
+
+
+def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zero: float | None) -> np.ndarray:
+    """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm); a tooth that was not measured has the mean curve.
+
+    `zero`: where each curve is zero, or the end next to it; None: in its mean.
+    """
     at = np.linspace(*ends, CURVE_POINTS)
     found = {each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves}
     mean = np.mean(list(found.values()), axis=0)
     curves = np.array([found.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
+    if zero is not None:
+        return curves - np.array([np.interp(zero, at, curve) for curve in curves])[:, None]
     return curves - (curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1]))[:, None] / (CURVE_POINTS - 1)
 
 

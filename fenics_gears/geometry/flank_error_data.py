@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+# Where a measured curve is zero.
+REFERENCE_POINT, MEAN = "reference point", "mean"
+
 
 @dataclass(frozen=True)
 class Waviness:
@@ -40,7 +43,7 @@ class GearErrors:
     """Errors of one gear, mm, a value for each tooth; None for what the scene does not give. Those of the helix are over the gear's face width.
 
     ``file``: the table that the values of its ``columns`` are from; ``profile_curves``, ``helix_curves``: the tables of measured curves, which are in ``measured_profile``
-    and ``measured_helix``; ``problem``: the field that names a wrong table and what is wrong, in words, empty where nothing is.
+    and ``measured_helix``, and ``anchor`` says where these are zero; ``problem``: the field that names a wrong table and what is wrong, in words, empty where nothing is.
     """
 
     pitch: tuple[float, ...] | None = None
@@ -55,6 +58,7 @@ class GearErrors:
     helix_curves: str | None = None
     measured_profile: MeasuredCurves | None = None
     measured_helix: MeasuredCurves | None = None
+    anchor: str = REFERENCE_POINT
     problem: tuple[str, str] | tuple[()] = ()
 
 

@@ -10,10 +10,11 @@ RACKS = {"ISO 53 A": (1.0, 1.25, 0.38), "ISO 53 B": (1.0, 1.25, 0.3), "ISO 53 C"
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elasticity; Young's modulus in MPa."""
+    """Isotropic linear elasticity; Young's modulus in MPa, and the yield strength (MPa) up to which it holds, None where that is not known."""
 
     youngs_modulus: float
     poissons_ratio: float
+    yield_strength: float | None = None
 
 
 @dataclass(frozen=True)

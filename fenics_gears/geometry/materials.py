@@ -1,4 +1,8 @@
-"""Gear materials by name: Young's modulus, MPa, Poisson's ratio, and where they are from."""
+"""Gear materials by name: Young's modulus, MPa, Poisson's ratio, yield strength, MPa, of named grades, and where they are from.
+
+The least yield strengths are of quenched and tempered steel more than 40 and up to 100 mm thick. Other names stand for many grades, and those of case-hardened steels would
+be the core's: their flanks bear about twice as much.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,9 @@ _ISO_6336 = "ISO 6336-2, table of the elasticity factor"
 _PLASTICS = "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I: short term, room temperature"
 MATERIALS: dict[str, tuple[Material, str]] = {
     "steel": (Material(206e3, 0.3), "ISO 6336-1"),
+    "C45 QT": (Material(206e3, 0.3, 370.0), "ISO 6336-1; yield strength EN ISO 683-1"),
+    "42CrMo4 QT": (Material(206e3, 0.3, 650.0), "ISO 6336-1; yield strength EN ISO 683-2"),
+    "34CrNiMo6 QT": (Material(206e3, 0.3, 800.0), "ISO 6336-1; yield strength EN ISO 683-2"),
     "cast steel": (Material(202e3, 0.3), _ISO_6336),
     "ductile cast iron": (Material(173e3, 0.3), _ISO_6336),
     "grey cast iron": (Material(118e3, 0.3), _ISO_6336),

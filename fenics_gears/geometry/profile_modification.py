@@ -6,6 +6,7 @@ ISO 21771 has both, as C_alpha and C_Halpha, over the usable flank; here they ar
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +21,8 @@ class ProfileCurve:
     modification: ProfileModification
     start_roll_angle: float
     end_roll_angle: float
+    # Crowning and slope join the involute at its ends alone.
+    kinks: ClassVar[tuple[float, ...]] = ()
 
     def __call__(self, roll_angle) -> np.ndarray:
         """Removal (mm, not negative) at roll angles (rad, any shape)."""

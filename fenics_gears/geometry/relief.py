@@ -30,6 +30,11 @@ class ReliefCurve:
         length = self.end_roll_angle - self.start_roll_angle
         return self.depth * np.maximum((np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / length, 0.0) ** self.power
 
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Roll angle (rad) of the start where the relief is linear."""
+        return (self.start_roll_angle,) if self.power == 1 and self.depth > 0.0 else ()
+
 
 @dataclass(frozen=True)
 class _Side:

@@ -44,13 +44,13 @@ def dataset(recorder: Recorder, march: March) -> xr.Dataset:
     )
     result.attrs.update(_attributes(recorder, march, result, counted.first))
     counted_steps = of_settled(result)
-    attributes = _numbers(recorder, march, result, counted_steps)
+    result.attrs.update(_numbers(recorder, march, result, counted_steps))
     found = [counted.warning] if counted.warning else []
     found += warnings_of(recorder, march, result)
     found += [*warnings_of_energy(model.scene, result, recorder.cycle.steps, shown_steps(result)), *_undetermined_shares(result)]
     for sentences in from_effects(model.scene, "findings", recorder.watched):
         found += sentences
-    result.attrs.update(attributes, warnings="\n".join(found))
+    result.attrs["warnings"] = "\n".join(found)
     return result
 
 

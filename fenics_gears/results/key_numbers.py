@@ -20,7 +20,7 @@ HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARM
 # The numbers that a study takes of each case, where it has them.
 STUDIED = (
     *HARMONIC_NAMES, "rms_transmission_error", "rms_normal_force", "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
-    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "largest_root_stress_pinion",
+    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "peak_kink_pressure", "largest_root_stress_pinion",
     "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
     "overlap_ratio", "total_contact_ratio", "face_load_factor", "face_load_factor_at_pitch_cylinder", "transverse_load_factor",
 )  # fmt: skip
@@ -85,9 +85,9 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
     pressure = settled["largest_contact_pressure"].values
     place = first_largest(pressure)
     found: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
-    edge = float(settled["largest_edge_pressure"].max())
-    if edge:
-        found["peak_edge_pressure"] = edge
+    for name in ("edge", "kink"):
+        if f"largest_{name}_pressure" in settled and settled[f"largest_{name}_pressure"].values.any():
+            found[f"peak_{name}_pressure"] = float(settled[f"largest_{name}_pressure"].max())
     if pressure[place] <= NO_FORCE / pair.face_width**2:
         return {"peak_contact_pressure": 0.0}
 
@@ -134,8 +134,17 @@ def _power(counted: xr.Dataset, timed: bool) -> dict[str, float]:
     power, loss = drive / seconds / WATT, counted.attrs.get("friction_loss")
     found = {"input_power": power} if timed else {}
     if loss is not None:
-        found |= {"mesh_efficiency": 1.0 - loss} | ({"friction_power": loss * power} if timed else {})
+        found |= {"friction_power": loss * power} if timed else {}
+        # What wedges the teeth is not the load, and the friction that it makes is no loss of the load's power.
+        found |= {"mesh_efficiency": 1.0 - loss} if loss < 1.0 and not wedged(counted).any() else {}
     return found
+
+
+def wedged(curves: xr.Dataset) -> np.ndarray:
+    """Steps (time,) at which drive and coast flanks press at once."""
+    if "coast_normal_force" not in curves:
+        return np.zeros(curves.sizes["time"], dtype=bool)
+    return np.minimum(curves["normal_force"].values, curves["coast_normal_force"].values) > NO_FORCE
 
 
 def path_point_values(

@@ -19,6 +19,7 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import sizes, stored_arrays
+from fenics_gears.results.beside_edges import EdgesAndKinks
 from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.kept import InMemory, Kept
@@ -60,7 +61,7 @@ class Recorder:
         self._waiting: list[Steps] = []
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
-        self._layouts = known_layouts(cycle)
+        self._layouts, self._singular = known_layouts(cycle), EdgesAndKinks(model)
 
     def _room_for(self, journal: Place | None) -> InMemory:
         room = self.stored, self.model.steps + 1, self.model.contact_steps
@@ -117,7 +118,7 @@ class Recorder:
 
                 fields |= face_variables(nodes)
                 values |= in_transverse_plane(values, nodes)
-            values |= pressure_curves(nodes, fields)
+            values |= pressure_curves(nodes, fields, self._singular)
         if self.stress is not None:
             fields |= self.stress.values(nodes)
         for found in from_effects(scene, "watched", cycle, block):

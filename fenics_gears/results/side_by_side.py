@@ -8,12 +8,14 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES, COORDINATES, ContactOperator, displacement_jacobian, node_slices, over_nodes, per_node
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.window import flank_ends
 from fenics_gears.dynamics.steps import Steps
+from fenics_gears.geometry.pair import GearPair
 
 
 class Layout:
@@ -21,7 +23,7 @@ class Layout:
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive flank; `at_end`:
     whether it stands on an end of the window; `on_edge` (4, n): on the edge of the pinion's and of the wheel's tip, and on the edge at the form circle
-    of either where it is undercut; `rows_of_normals` (6, n) and
+    of either where it is undercut; `arcs` (2, n): where it touches the pinion's and the wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and
     `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm; over a face (12, n), with
     the axial force, N, and the moments about x and y, N mm, of both gears after these.
     """
@@ -42,7 +44,9 @@ class Layout:
 
             self.area, self.slice = areas(pairs, operator.face), node_slices_of_face(pairs)
             self.at_end |= _at_inner_end(cycle, pairs, self.offsets)
-        self.on_edge = _on_edges(cycle, pairs, counts) if cycle.traits.has_pressure else None
+        self.on_edge = self.arcs = None
+        if cycle.traits.has_pressure:
+            self.on_edge, self.arcs = _on_edges(cycle, pairs, counts), _arcs(cycle.pair, pairs)
         rows, nodes = _reaction_rows(operator, tangential), operator.nodes
         self.rows_of_normals, self.rows_of_tangents = rows[:, :nodes], rows[:, nodes:]
 
@@ -75,6 +79,16 @@ def _on_edges(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
             continue
         found[2, last] = cut[0] and above[0] <= above[1] and above[0] < half
         found[3, first] = cut[1] and below[1] >= below[0] and below[1] > -half
+    return found
+
+
+def _arcs(gears: GearPair, pairs) -> np.ndarray:
+    """Arcs (2, n) of contact nodes along both flanks; not a number off the line of action, where corners touch."""
+    found = np.full((2, sum(len(pair.offsets) for pair in pairs)), np.nan)
+    for pair, nodes in zip(pairs, node_slices(pairs)):
+        if pair.place.line is None:
+            for row, radius, roll, side in zip(found, (gears.pinion.base_radius, gears.wheel.base_radius), pair.place.contact_rolls, (-1.0, 1.0)):
+                row[nodes] = 0.5 * radius * roll_angle_at_height(radius, roll, radius + side * pair.offsets) ** 2
     return found
 
 

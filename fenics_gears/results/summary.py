@@ -17,6 +17,8 @@ KILO = 1e3
 # Lengths (um) that are round-off of positions.
 ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
+# Where pressure stands apart from the peak contact pressure, as it does not converge there.
+APART = {"edge": "tip edges", "kink": "kinks of relief"}
 
 # The stages of a run whose wall time the result carries, and what they are called.
 STAGES = {
@@ -71,10 +73,12 @@ def _harmonics(attributes) -> list[Row]:
 
 
 def _stiffness(attributes) -> list[Row]:
-    if "mean_mesh_stiffness" not in attributes:
+    """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
+    if "mean_mesh_stiffness_tangent" not in attributes:
         return []
     one = f", one pair {attributes['single_pair_stiffness']:.4g} at most" if "single_pair_stiffness" in attributes else ""
-    return [("mesh stiffness", f"{attributes['mean_mesh_stiffness']:.4g} N/(mm um) on average{one}", "")]
+    secant = f"{attributes['mean_mesh_stiffness']:.4g}{one}"
+    return [("mesh stiffness, tangent", f"{attributes['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average; force over deflection {secant}", "")]
 
 
 def _pair_force(attributes) -> list[Row]:
@@ -107,16 +111,22 @@ def _pressure(attributes) -> list[Row]:
         return []
     place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
-    return [("peak contact pressure, without tip edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+    apart = [name for name in APART if f"peak_{name}_pressure" in attributes]
+    label = "peak contact pressure" + (f", without {' and '.join(APART[name] for name in apart)}" if apart else "")
+    rows = [(label, f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+    if "peak_kink_pressure" in attributes:
+        rows.append(("pressure at kinks of relief", f"{attributes['peak_kink_pressure']:.4g} MPa, more on a finer mesh", ""))
+    return rows
 
 
 def _power(attributes) -> list[Row]:
     rows = []
     if "input_power" in attributes:
         rows.append(("input power", f"{attributes['input_power'] / KILO:.4g} kW", ""))
-    if "mesh_efficiency" in attributes:
+    if "friction_loss" in attributes:
         watts = f"{attributes['friction_power']:.4g} W = " if "friction_power" in attributes else ""
-        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%}, efficiency of the mesh {attributes['mesh_efficiency']:.3%}", ""))
+        efficiency = f"efficiency of the mesh {attributes['mesh_efficiency']:.3%}" if "mesh_efficiency" in attributes else "of wedged or locked teeth, which have no efficiency"
+        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%}, {efficiency}", ""))
     return rows
 
 

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects.relief import PARABOLIC
+from fenics_gears.geometry.relief_data import RootRelief, TipRelief
+from fenics_gears.results.key_numbers import wedged
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ LARGEST_ROTATION = 0.05
 # Work that the time stepping itself does at changes of contact within a mesh cycle, in parts of the largest energy, above which there is a warning.
 # The sharp edges of unrelieved tips alone take 3 to 4 %.
 NOTABLE_WORK = 0.1
+# Peak pressure of a line contact over yield strength, at which the material below begins to yield by Tresca's criterion (Johnson, Contact Mechanics, 1985, eq. 6.4).
+LINE_CONTACT = 1.67
 # Warnings with these words come first: the numbers of the run are wrong.
 NO_MEANING = "the result has no meaning"
 FEWER_THAN_THE_PERIOD = "of the common period"
@@ -64,7 +67,8 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
-        of_flanks += [*_sharp_edge(recorder.model.scene, watched), *_undercut_edge(watched)]
+        of_flanks += _yielding(recorder.model.scene, result.attrs)
+        of_flanks += [*_sharp_edge(recorder.model.scene, watched), *_undercut_edge(watched), *_kink(recorder.model.scene, result.attrs)]
     if cycle.face is not None:
         # Imported here: plane scenes have none.
         from fenics_gears.results.face_variables import warnings_of_face
@@ -136,8 +140,7 @@ def _wedged(cycle: Cycle, result: xr.Dataset) -> list[str]:
     """Teeth pressed on both sides at once, since run-out, errors or deflection need more than the backlash; the load does not explain these forces."""
     if not cycle.coast_flanks:
         return []
-    coast = result["coast_normal_force"].values
-    both = np.minimum(result["normal_force"].values, coast) > NO_FORCE
+    coast, both = result["coast_normal_force"].values, wedged(result)
     if not both.any():
         return []
     return [
@@ -171,6 +174,44 @@ def _undercut_edge(watched: Watched) -> list[str]:
                 f"with the mesh, forces and transmission error do; [root_relief.{gear}] takes the load off the edge"
             )
     return found
+
+
+def _yielding(scene: Scene, numbers: Mapping) -> list[str]:
+    """Stresses above what the materials bear without yielding, where their yield strength is known."""
+    found, pressure = [], numbers.get("peak_contact_pressure", 0.0)
+    for gear, material in zip(("pinion", "wheel"), scene.gears.materials):
+        strength = material.yield_strength
+        if strength is None:
+            continue
+        limit, root = LINE_CONTACT * strength, numbers.get(f"largest_root_stress_{gear}", 0.0)
+        if pressure > limit:
+            found.append(
+                f"the peak contact pressure, {pressure:.4g} MPa, is above what the {gear}'s material bears below the flank without yielding, {limit:.4g} MPa: "
+                f"{LINE_CONTACT:g} times its yield strength of {strength:g} MPa (Johnson, Contact Mechanics, 1985, eq. 6.4); the model is elastic"
+            )
+        if root > strength:
+            found.append(f"the largest root stress of the {gear}, {root:.4g} MPa, is above its yield strength of {strength:g} MPa; the model is elastic")
+    return found
+
+
+def _kink(scene: Scene, numbers: Mapping) -> list[str]:
+    """More pressure at the kink where a linear relief starts than elsewhere: linear elasticity has infinite pressure there."""
+    largest, elsewhere = numbers.get("peak_kink_pressure", 0.0), numbers.get("peak_contact_pressure", 0.0)
+    if largest <= elsewhere:
+        return []
+    linear = {section: _linear(getattr(scene, section)) for section in ("tip_relief", "root_relief")}
+    starts = " or ".join(f"the linear {section.replace('_', ' ')} of the {' or the '.join(gears)}" for section, gears in linear.items() if gears)
+    remedies = ", ".join(f'{section}.shape = "{PARABOLIC}"' for section, gears in linear.items() if gears)
+    return [
+        f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the mesh; forces and transmission error do. "
+        f"The peak contact pressure, {elsewhere:.4g} MPa, is without it; {remedies} starts without a kink"
+    ]
+
+
+def _linear(reliefs: TipRelief | RootRelief | None) -> list[str]:
+    """The gears whose relief is linear."""
+    own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
+    return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]
 
 
 def _off_the_edge(scene: Scene, gears: list[str]) -> str:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING
 
+import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import March, Marcher
+from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.errors import ComputationError
 from fenics_gears.model.cost import expected_cost, too_large
@@ -85,7 +87,20 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
         return Marcher(cycle, model.equations_of_motion).run(model.steps, 1, progress.update, recorder.take, judged)
     except ContactNotConverged as failure:
         failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed")
+        failure.reason += _varying_load(model, failure.step)
         raise
+
+
+def _varying_load(model: Model, step: float) -> str:
+    """That effects load the gears by more than the torque does at a step without solution, in words; empty where they do not."""
+    names = " and ".join(f"[{each.section}]" for each in effects_on(model.scene) if each.load is not None)
+    if not names:
+        return ""
+    torque, varying = (float(np.abs(load).max()) for load in (model.drivetrain.load, sum(load(step) for load in model.loads)))
+    if varying <= torque:
+        return ""
+    ways = "a longer ramp (motion.mesh_cycles), ends of [speed_ramp] nearer to each other" if model.scene.speed_ramp is not None else "smaller amplitudes"
+    return f". The torque loads the teeth with {torque:.4g} N, {names} with {varying:.4g} N, which can pull them apart or wedge them. Allowed: {ways} or a higher torque"
 
 
 def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Progress) -> xr.Dataset:

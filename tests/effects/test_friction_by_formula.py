@@ -3,6 +3,7 @@
 import pytest
 from tests.effects.examples import text_of
 
+from fenics_gears.commands.shared import checked_scene
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.friction_formulas import schlenk
 from fenics_gears.model.model import model_of
@@ -27,6 +28,41 @@ def test_the_model_has_the_formula_s_coefficient():
     assert model.friction_coefficient == pytest.approx(schlenk(model.pair, force, 400.0 * 60.0 / 16, 13.0, 0.4), rel=1e-12)
     assert model.equations_of_motion.friction == model.friction_coefficient
     assert model_of(with_friction("coefficient = 0.07\n")).friction_coefficient == 0.07
+
+
+FAST_AND_LIGHT = """
+[gears]
+module = "1 mm"
+pressure_angle = "20 deg"
+face_width = "7 mm"
+material = "grey cast iron"
+[gears.pinion]
+teeth = 20
+profile_shift = 0.1334
+bore_diameter = "10 mm"
+[gears.wheel]
+teeth = 55
+profile_shift = 0.0598
+bore_diameter = "20 mm"
+[load]
+wheel_torque = "0.001 N m"
+[motion]
+mesh_frequency = "4000 Hz"
+[friction]
+formula = "Benedict and Kelley"
+viscosity = "100 mPa s"
+roughness = "0.8 um"
+"""
+
+
+def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
+    """Authority: Benedict and Kelley's logarithm, which is negative where a full film carries (the coefficient was -0.06); ISO/TR 13989-2 for Schlenk's slowest gears."""
+    (tmp_path / "light.toml").write_text(FAST_AND_LIGHT, encoding="utf-8")
+    with pytest.raises(SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'):
+        checked_scene(tmp_path / "light.toml")
+    (tmp_path / "slow.toml").write_text(FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"), encoding="utf-8")
+    with pytest.raises(SceneError, match=r'^friction.formula = "Schlenk": .* from 1 to 50 m/s .* this pair has 0.3'):
+        checked_scene(tmp_path / "slow.toml")
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,11 @@
 """Measured profiles and helices of single teeth from tables: read as they stand, felt as they are, and refused with line and remedy."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.effects.examples import text_of
 from tests.stand_in import stand_in_compliance
 
@@ -12,11 +14,13 @@ from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects.flank_errors import located
+from fenics_gears.effects.flank_errors_tables import located
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
+from fenics_gears.geometry.flank_error_data import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
+from fenics_gears.geometry.relief_data import Relief, TipRelief
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.simulate import simulate
 
 DEMOS = Path(__file__).parents[2] / "demos"
 STEPS = 20
@@ -33,14 +37,14 @@ def drive_flanks(paper_pair):
 def curve(teeth, places, deviation, heading="roll_length (mm)"):
     """A table of curves; `deviation`: um at a tooth and the points' share of the way."""
     share = np.linspace(0.0, 1.0, len(places))
-    rows = [f"{tooth}, {place!r}, {deviation(tooth, at)!r}" for tooth in teeth for place, at in zip(places.tolist(), share.tolist())]
+    rows = [f"{tooth}, {place!r}, {float(deviation(tooth, at))!r}" for tooth in teeth for place, at in zip(places.tolist(), share.tolist())]
     return "\n".join([f"tooth, {heading}, deviation (um)", *rows])
 
 
-def measured(tmp_path, text, gear="pinion", name="profile_curves"):
+def measured(tmp_path, text, gear="pinion", name="profile_curves", anchor=MEAN):
     """Errors of one gear with curves from a table."""
     (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
-    return located(FlankErrors(**{gear: GearErrors(**{name: "curves.csv"})}), tmp_path)
+    return located(FlankErrors(**{gear: GearErrors(**{name: "curves.csv", "anchor": anchor})}), tmp_path)
 
 
 def places_of(pair, gear, along, points=400):
@@ -58,7 +62,7 @@ def places_of(pair, gear, along, points=400):
 @pytest.mark.parametrize("gear", ["pinion", "wheel"])
 def test_a_measured_curve_is_the_deviation_it_shows(drive_flanks, paper_pair, tmp_path, gear, along):
     """Identity: curves that show a slope and a form make the gaps of the lists, within the error of 200 straight pieces, at most pi^2/(4 200^2)
-    of the form from the table and as much again from its points; the zero line of a curve has no meaning."""
+    of the form from the table and as much again from its points; with their mean at zero, as slope and form have it."""
     number = ("pinion", "wheel").index(gear)
     teeth = (16, 24)[number]
     slopes, forms = 1e-3 * np.arange(1.0, teeth + 1.0), 2e-3 * np.cos(np.arange(teeth))
@@ -93,6 +97,43 @@ def test_teeth_without_a_curve_have_the_mean_of_the_measured_ones(paper_pair, tm
     assert slope == pytest.approx([4e-3, 1e-3, 1e-3, 1e-3, -2e-3, *[1e-3] * 11], abs=1e-12)
     assert form == pytest.approx(0.0, abs=1e-12) and found.curves.mean(axis=1) == pytest.approx(0.0, abs=1e-15)
     assert true.curves is None and not found.slope.any()
+
+
+def relieved(at):
+    """Tip relief, um, that starts at 0.7 of the way."""
+    return -40.0 * max(at - 0.7, 0.0)
+
+
+def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
+    """Authority: what tip relief is, material removed at the tip alone; the V cylinder of ISO 21771, of diameter d + 2 x m, is below it."""
+    text = curve((1, 2), places_of(paper_pair, 0, "diameter (mm)"), lambda tooth, at: 5.0 + (relieved(at) if tooth == 1 else 0.0), "diameter (mm)")
+    found = flank_deviations(measured(tmp_path, text, anchor=REFERENCE_POINT), paper_pair)[0]
+    start, end = found.active_profile
+    share = (np.sqrt(((36.0 + 0.196 * 4.5) / paper_pair.pinion.base_radius) ** 2 - 1.0) - start) / (end - start)
+    below = np.linspace(0.0, 1.0, 201) < 0.6
+    assert 0.3 < share < 0.6 and np.abs(found.curves[:, below]).max() < 1e-15
+    assert found.curves[:2, -1] == pytest.approx([-12e-3, 0.0], abs=1e-15)
+    mean = flank_deviations(measured(tmp_path, text), paper_pair)[0]
+    assert mean.curves[0, 60] == pytest.approx(40e-3 * 0.5 * 0.3**2, rel=2e-3)
+
+
+def test_relief_as_curves_is_that_relief(paper_scene, paper_pair, tmp_path):
+    """Identity: the same relief as `[tip_relief]` and as curves of all teeth of the pinion gives the same transmission error, but for the 200 straight pieces of a curve."""
+    places = places_of(paper_pair, 0, "roll_angle (deg)", 1001)
+    start = 0.7 * places[-1] + 0.3 * places[0]
+    errors = measured(tmp_path, curve(range(1, 17), places, lambda tooth, at: relieved(at), "roll_angle (deg)"), anchor=REFERENCE_POINT)
+    scene = frictionless(teeth_alone(coarse_scene(paper_scene, 1)))
+    by_relief = TipRelief(Relief(12e-3, np.radians(start)), None)
+    true, relieved_teeth, as_curves = (simulate(replace(scene, **more)).transmission_error.values for more in ({}, {"tip_relief": by_relief}, {"flank_errors": errors}))
+    assert np.abs(relieved_teeth - true).max() > 0.1 * np.abs(true).max()
+    assert as_curves == pytest.approx(relieved_teeth, rel=2e-4)
+
+
+def test_an_entry_that_is_no_number_is_never_taken_as_zero(paper_pair, tmp_path):
+    """House rule on errors: what numpy 2 writes with `!r` is refused where the errors are used, too."""
+    text = curve((1,), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: 1.5).replace("1.5", "np.float64(1.5)")
+    with pytest.raises(SceneError, match=r"flank_errors.pinion.profile_curves = .*curves.csv:2: deviation = .*np.float64"):
+        flank_deviations(measured(tmp_path, text), paper_pair)
 
 
 def test_a_class_draws_no_profiles_beside_curves(paper_pair, tmp_path):

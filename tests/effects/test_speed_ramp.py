@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from tests.coarse import COARSE, frictionless
 from tests.frozen_gears import GRID, frozen_marcher
 
+from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
@@ -26,7 +27,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables
-from fenics_gears.scene.data import Motion
+from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
@@ -273,3 +274,10 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene):
     model = model_of(paper_scene)
     assert isinstance(model.clock, SteadyClock) and model.loads == ()
     assert not {variable.name for variable in effect_named("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
+
+
+def test_a_ramp_that_pulls_the_flanks_apart_is_named(paper_scene):
+    """Mechanics: a falling speed decelerates the wheel by more than its torque does, and nothing holds the flanks together at the start."""
+    scene = replace(coarse(frictionless(paper_scene), 2, start=5000.0), speed_ramp=SpeedRamp(500.0), load=Load(500.0), damping=None, shafts=None, bearings=None)
+    with pytest.raises(ContactNotConverged, match=r"pulls the flanks apart.*\[speed_ramp\] with .* N, .*motion.mesh_cycles"):
+        simulate(scene)

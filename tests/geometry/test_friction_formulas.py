@@ -1,6 +1,6 @@
 """Coefficients of friction by formula."""
 
-from math import log10, radians
+from math import cos, log10, pi, radians
 
 import pytest
 
@@ -24,6 +24,13 @@ def test_schlenk_is_another_program_s(fzg_c):
 def test_below_150_newtons_a_millimetre_it_does_not_rise(fzg_c):
     """ISO/TR 14179-2: the line load counts from 150 N/mm."""
     assert schlenk(fzg_c, 100.0, 1500.0, 13.0, 0.4) == schlenk(fzg_c, 140.0 * 14.0, 1500.0, 13.0, 0.4) < schlenk(fzg_c, 300.0 * 14.0, 1500.0, 13.0, 0.4)
+
+
+def test_above_50_metres_a_second_it_does_not_fall(fzg_c):
+    """ISO/TR 14179-2: the pitch line speed counts up to 50 m/s."""
+    a_metre_a_second = 60e3 / (2.0 * pi * fzg_c.pinion.base_radius / cos(fzg_c.operating_pressure_angle))
+    by_speed = [schlenk(fzg_c, 5912.1, speed * a_metre_a_second, 13.0, 0.4) for speed in (49.0, 50.0, 80.0)]
+    assert by_speed[0] > by_speed[1] == pytest.approx(by_speed[2], rel=1e-12)
 
 
 def test_benedict_and_kelley_is_the_published_formula(fzg_c):

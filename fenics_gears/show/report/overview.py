@@ -56,9 +56,11 @@ def _tiles(run: Run) -> Iterator[Tile]:
         )
     if "friction_loss" in attributes:
         lost = f"{digits(attributes['friction_power'])} W of {digits(1e-3 * attributes['input_power'])} kW" if "friction_power" in attributes else ""
-        yield Tile("Friction loss", f"{100.0 * attributes['friction_loss']:.3g}", "%", lost)
-    if "mean_mesh_stiffness" in attributes:
-        yield Tile("Mesh stiffness, mean", digits(attributes["mean_mesh_stiffness"]), "N/(mm µm)", "force over deflection")
+        words = lost if "mesh_efficiency" in attributes else "of wedged or locked teeth, which have no efficiency"
+        yield Tile("Friction loss", f"{100.0 * attributes['friction_loss']:.3g}", "%", words)
+    if "mean_mesh_stiffness_tangent" in attributes:
+        secant = f"tangent, for dynamics; force over deflection {digits(attributes['mean_mesh_stiffness'])}"
+        yield Tile("Mesh stiffness, mean", digits(attributes["mean_mesh_stiffness_tangent"]), "N/(mm µm)", secant)
     if run.pair is not None:
         overlap = f"{run.pair.total_contact_ratio:.3f} with overlap ratio {run.pair.overlap_ratio:.3f}" if run.pair.overlap_ratio else ""
         yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}", "", overlap)

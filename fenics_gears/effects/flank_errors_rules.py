@@ -1,0 +1,105 @@
+"""What is wrong between the fields of ``[flank_errors]``. Not an effect by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fenics_gears.effects.flank_errors_sections import CURVES, HELIX, LISTS
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.tree import (
+    GEARS,
+    NOT_IN_THE_PLANE,
+    Tree,
+    over_the_face,
+    quantity_at,
+    quantity_in,
+    table,
+    teeth_in,
+    too_large_for_the_module,
+    value_at,
+)
+from fenics_gears.inputs.written import as_written
+
+# Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
+PITCH_ROUNDING = 0.05e-3
+# Reference diameters, modules and face widths (mm) that the tolerances of ISO 1328-1:2013 are for.
+DIAMETERS, MODULES, WIDTHS = (5.0, 15e3), (0.5, 70.0), (4.0, 1200.0)
+
+
+def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
+    """There are errors; lists have a value for each tooth; pitches close over a turn; the tolerance class is for gears of this size."""
+    errors = table(tree, "flank_errors")
+    if errors is None:
+        return
+    if "seed" in errors and "tolerance_class" not in errors:
+        message = "is missing. Allowed: a class from 1 to 11; without one the seed draws nothing."
+        yield Problem(("flank_errors", "tolerance_class"), None, message)
+    if "tolerance_class" in errors:
+        yield from _class_is_for_the_gears(tree, errors)
+    elif not any(table(errors, gear) for gear in GEARS):
+        message = "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list or a file. For true flanks, leave the section out."
+        yield Problem(("flank_errors",), "", message)
+    for gear in GEARS:
+        own = table(errors, gear) or {}
+        yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
+        yield from _errors_are_small(tree, own, gear)
+        if "anchor" in own and not any(name in own for name in CURVES):
+            message = f"has no curves to hold. Allowed: beside {' or '.join(CURVES)}; leave anchor out."
+            yield Problem(("flank_errors", gear, "anchor"), as_written(own["anchor"]), message)
+        if not over_the_face(tree):
+            in_space = (*HELIX, "helix_curves")
+            yield from (Problem(("flank_errors", gear, name), as_written(own[name]), NOT_IN_THE_PLANE) for name in in_space if name in own)
+
+
+def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
+    """Deviations are small against the tooth, whose place and shape stay what they are."""
+    values = {(name,): errors.get(name) for name in LISTS}
+    values["waviness", "amplitude"] = value_at(errors, "waviness", "amplitude")
+    for path, written in values.items():
+        yield from too_large_for_the_module(tree, ("flank_errors", gear, *path), written)
+
+
+def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Iterator[Problem]:
+    for name in LISTS:
+        values = errors.get(name)
+        if not isinstance(values, list) or teeth is None or not values:
+            continue
+        path = ("flank_errors", gear, name)
+        if len(values) != teeth:
+            message = f"has {len(values)} values, but the {gear} has {teeth} teeth. Allowed: a value for each tooth."
+            yield Problem(path, as_written(values), message)
+        elif name == "pitch":
+            yield from _pitches_close(values, path)
+
+
+def _pitches_close(values: list, path: tuple[str, ...]) -> Iterator[Problem]:
+    """The single pitch deviations of a whole turn sum to zero; the last tooth would not meet the first otherwise."""
+    numbers = [quantity_in(value) for value in values]
+    if None in numbers:
+        return
+    total = sum(numbers)
+    if not abs(total) <= PITCH_ROUNDING * len(numbers):
+        yield Problem(path, as_written(values), not_closed(total))
+
+
+def not_closed(total: float) -> str:
+    return f"sums to {1e3 * total:.4g} um over the whole turn. Allowed: pitch deviations that sum to zero, rounding to 0.1 um apart."
+
+
+def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
+    module = quantity_at(tree, "gears", "module")
+    path, written = ("flank_errors", "tolerance_class"), as_written(errors["tolerance_class"])
+    if module is None:
+        return
+    if not MODULES[0] <= module <= MODULES[1]:
+        message = f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists of errors instead."
+        yield Problem(path, written, message)
+    for gear in GEARS:
+        width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
+        if over_the_face(tree) and width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
+            message = f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed: lists of errors instead."
+            yield Problem(path, written, message)
+        diameter = module * (teeth_in(tree, gear) or 100)
+        if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
+            message = f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of errors instead."
+            yield Problem(path, written, message)

@@ -1,0 +1,122 @@
+"""Tables that a scene's flank errors name: found, and compared with their gears. Not an effect by itself."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from hashlib import sha256
+from pathlib import Path
+
+from fenics_gears.effects.flank_errors_rules import PITCH_ROUNDING, not_closed
+from fenics_gears.effects.flank_errors_sections import CURVES, HELIX, LISTS, REPLACED, TABLES
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
+from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, NOT_IN_THE_PLANE
+from fenics_gears.inputs.written import as_written
+
+# Share of the active profile, or of the face, that a curve must cover.
+LEAST_MEASURED = 0.8
+
+
+def located(errors: FlankErrors, directory: Path) -> FlankErrors:
+    """The errors with those that stand in tables, found from a directory on."""
+    return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
+
+
+def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
+    if not any(getattr(errors, name) for name in TABLES):
+        return errors
+    from fenics_gears.effects import flank_errors_file as files
+
+    # `check` reports what is wrong; a scene that is only looked at needs no table.
+    name = "file"
+    try:
+        if errors.file is not None:
+            found = files.deviations_in(_found(directory, errors.file), LISTS)
+            twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
+            if twice is not None:
+                raise files.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
+            errors = replace(errors, columns=tuple(found), **found)
+        for name, (measured, along) in CURVES.items():
+            if getattr(errors, name) is not None:
+                curves = files.curves_in(_found(directory, getattr(errors, name)), getattr(files, along))
+                errors = replace(errors, **{measured: curves})
+    except files.FileProblem as problem:
+        return replace(errors, problem=(name, str(problem)))
+    return errors
+
+
+def _found(directory: Path, name: str) -> Path:
+    # `Path.resolve` raises where a link leads to itself.
+    return Path(os.path.realpath(directory / name))
+
+
+def files(errors: FlankErrors) -> dict[str, str]:
+    """Names of the tables, with a hash of what they say."""
+    found = {}
+    for own in (errors.pinion, errors.wheel):
+        said = {"file": {name: getattr(own, name) for name in own.columns}}
+        said |= {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
+        found |= {getattr(own, name): sha256(repr(said[name]).encode()).hexdigest() for name in TABLES if getattr(own, name) is not None}
+    return found
+
+
+def check(errors: FlankErrors, scene, pair) -> None:
+    """Raise SceneError for a table that is wrong or not of its gear."""
+    for gear in GEARS:
+        own = getattr(errors, gear)
+        name, problem = own.problem or _problem_of_tables(own, scene, pair, gear)
+        if problem:
+            raise SceneError(f"flank_errors.{gear}.{name} = {as_written(getattr(own, name))}: {problem}\nNothing was computed or written.")
+        in_table = [name for name in HELIX if own.file is not None and getattr(own, name) is not None]
+        if in_table and not scene.three_dimensional:
+            raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]} {NOT_IN_THE_PLANE}\nNothing was computed or written.")
+
+
+def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str, str]:
+    """The field that names a table which does not fit the gear, and why; empty where all fit."""
+    teeth, module = getattr(pair, gear).teeth, scene.gears.module
+    problem = "" if errors.file is None else _problem_of_table(errors, teeth, module, gear)
+    if problem:
+        return "file", problem
+    from fenics_gears.geometry.flank_deviations import measured_share
+
+    for name, (measured, _) in CURVES.items():
+        curves = getattr(errors, measured)
+        if curves is None:
+            continue
+        for replaced in REPLACED[name]:
+            if getattr(errors, replaced) is not None:
+                return name, f"stands beside {replaced}, which the curves replace. Leave one of the two out."
+        for curve in curves.curves:
+            if curve.tooth > teeth:
+                return name, f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1 to {teeth}, counted as they mesh."
+            worst = max(abs(each) for each in curve.deviations)
+            if worst > LARGEST_ERROR * module:
+                return name, f"has a deviation of {worst:.4g} mm on tooth {curve.tooth}, too large for a module of {module:g} mm. Allowed: up to {LARGEST_ERROR * module:g} mm."
+            share = measured_share(curve, curves.along, pair, gear)
+            if share < LEAST_MEASURED:
+                whole = "active profile" if measured == "measured_profile" else "face"
+                return name, (
+                    f"measures {100.0 * share:.0f} % of the {whole} of tooth {curve.tooth}. Allowed: at least {100.0 * LEAST_MEASURED:.0f} %; beyond its ends a curve is continued level."
+                )
+    return "", ""
+
+
+def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) -> str:
+    """What does not fit the gear, by the rules of lists; empty where all does."""
+    for name in LISTS:
+        values = getattr(errors, name)
+        if values is None:
+            continue
+        if len(values) != teeth:
+            return f"has {len(values)} teeth, but the {gear} has {teeth}. Allowed: a line for each tooth."
+        worst = max(range(teeth), key=lambda tooth: abs(values[tooth]))
+        if abs(values[worst]) > LARGEST_ERROR * module:
+            return (
+                f"{name} of tooth {worst + 1} is {values[worst]:.4g} mm, too large an error of manufacture for a module of {module:g} mm. "
+                f"Allowed: up to {LARGEST_ERROR * module:g} mm."
+            )
+        if name == "pitch" and not abs(sum(values)) <= PITCH_ROUNDING * teeth:
+            return f"pitch {not_closed(sum(values))} The table has single pitch deviations, not cumulative ones."
+    return ""
