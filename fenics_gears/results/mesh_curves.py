@@ -45,7 +45,7 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curv
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
     Pairs that press with the sharp edge of a tip, or of an undercut involute, are left out and have a largest pressure of their own: linear elasticity has infinite pressure
-    there, and the number grows as contact nodes come closer.
+    there, and the number grows as contact nodes come closer. So are slices near the ends of the face.
     """
     pressed_edge = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE)
     highest, rolls, at_edge = [], [], []
@@ -60,6 +60,10 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curv
         rolls.append(_together(np.take_along_axis(place, node, -1)[..., 0]))
         at_edge.append(_together(by_part(pressed_edge & (nodes.drive == drive)) > 0))
     pressure, edge = np.concatenate(highest, axis=1), np.concatenate(at_edge, axis=1)
+    if nodes.cycle.face is not None:
+        from fenics_gears.results.face_ends import in_end_zone
+
+        edge |= np.tile(in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions), edge.shape[1] // nodes.cycle.face.slices)
     repeated = np.repeat(nodes.pair_number, highest[0].shape[1] // nodes.pair_number.shape[1], axis=1)
     numbers = np.concatenate([repeated] * len(highest), axis=1)
     off_edge = np.where(edge, 0.0, pressure)

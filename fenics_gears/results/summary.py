@@ -95,8 +95,10 @@ def _face(attributes) -> list[Row]:
         return []
     rows = [("contact ratio", f"{attributes['total_contact_ratio']:.4g} in all, overlap ratio {attributes['overlap_ratio']:.4g}", "")]
     if "face_load_factor" in attributes:
-        pitch = f", {attributes['face_load_factor_at_pitch_cylinder']:.3f} along the pitch cylinder" if "face_load_factor_at_pitch_cylinder" in attributes else ""
-        rows.append(("face load factor K_Hbeta", f"{attributes['face_load_factor']:.3f}{pitch}", ""))
+        rows.append(("face load factor K_Hbeta", f"{attributes['face_load_factor']:.3f}, of the line load averaged over the mesh cycle", ""))
+    if "largest_line_load_factor" in attributes:
+        edges = f", {attributes['edge_line_load_factor']:.3f} at edges" if "edge_line_load_factor" in attributes else ""
+        rows.append(("largest line load over even one", f"{attributes['largest_line_load_factor']:.3f} away from edges{edges}", ""))
     if "transverse_load_factor" in attributes:
         rows.append(("transverse load factor K_Halpha", f"{attributes['transverse_load_factor']:.3f}", ""))
     return rows
@@ -107,7 +109,7 @@ def _pressure(attributes) -> list[Row]:
         return []
     place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
-    return [("peak contact pressure, without tip edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
+    return [("peak contact pressure, without edges" if "peak_edge_pressure" in attributes else "peak contact pressure", f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
 
 
 def _power(attributes) -> list[Row]:

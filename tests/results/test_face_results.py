@@ -12,7 +12,7 @@ from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import answer
 from fenics_gears.studies.combine import record_of
 
-OF_FACE = {"overlap_ratio", "total_contact_ratio", "face_load_factor", "face_load_factor_at_pitch_cylinder", "transverse_load_factor"}
+OF_FACE = {"overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor"}
 
 
 def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
