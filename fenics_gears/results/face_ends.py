@@ -45,14 +45,12 @@ def slice_ends(result: xr.Dataset) -> np.ndarray:
     return np.append(z - 0.5 * widths, z[-1] + 0.5 * widths[-1])
 
 
-def at_inner_ends(values: np.ndarray, positions: np.ndarray, pair: GearPair) -> np.ndarray:
-    """Values (..., k) without the end zones, of values (..., S) of slices at positions (S,), mm: those of the slices between the zones, and at the zones' inner
-    ends straight between slices. Their largest does not depend on where the outermost slice happens to stand."""
-    low, high = inner_face(pair)
-    inside = positions[~in_end_zone(pair, positions)]
-    places = np.unique([low, *inside, high])
-    after = np.clip(np.searchsorted(positions, places), 1, len(positions) - 1) if len(positions) > 1 else np.zeros(len(places), dtype=int)
-    before = np.maximum(after - 1, 0)
-    apart = positions[after] - positions[before]
-    share = np.clip(np.divide(places - positions[before], apart, out=np.zeros(len(places)), where=apart > 0.0), 0.0, 1.0)
-    return (1.0 - share) * values[..., before] + share * values[..., after]
+def windows(result: xr.Dataset, pair: GearPair) -> np.ndarray:
+    """Shares (k, S) of the slices in windows of the face as long as an end zone is deep, outside the end zones: all windows over which the mean of values of
+    slices can be largest.
+
+    What differs from slice to slice within a layer of the bodies is not resolved; its mean over such a window is.
+    """
+    ends, (low, high), length = slice_ends(result), inner_face(pair), end_depth(pair)
+    starts = np.unique(np.clip(np.concatenate([ends, ends - length, [low, high]]), low, high - length))
+    return np.diff(np.clip(ends, starts[:, None], starts[:, None] + length), axis=1) / length

@@ -12,7 +12,7 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.results.face_ends import at_inner_ends, end_depth, in_end_zone, slice_widths
+from fenics_gears.results.face_ends import end_depth, in_end_zone, slice_widths, windows
 from fenics_gears.results.pairs import carrying_side
 
 # Mesh cycles beside a phase at which the lines of contact change.
@@ -42,12 +42,12 @@ def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
 
 
 def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the line load averaged over whole mesh cycles: largest, without the ends of the face, over the mean; nothing of less than a cycle."""
+    """Of the line load averaged over whole mesh cycles: its largest mean over a window, over that of the whole face; nothing of less than a cycle."""
     load, widths = mean_line_load(settled, side), slice_widths(settled)
     if load is None or not load.any():
         return {}
     mean = float(load @ widths / widths.sum())
-    return {"face_load_factor": float(at_inner_ends(load, settled["face_position"].values, pair).max()) / mean}
+    return {"face_load_factor": float((windows(settled, pair) @ load).max()) / mean}
 
 
 def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
@@ -63,12 +63,12 @@ def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
 
 
 def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the largest line load of one tooth pair at any stored step, away from edges and at edges: over the line load that the mesh's force of that step
+    """Of the largest line load of one tooth pair at any stored step, the mean over a window away from edges, and of a slice at edges: over the line load that the mesh's force of that step
     makes if it spreads evenly along the lines of contact of rigid gears when they are shortest."""
     loads, z = line_loads(settled, side), settled["face_position"].values
     force = (loads @ slice_widths(settled)).sum(axis=1)
-    ended = _line_ends(settled, pair, side, z)
-    away = np.where(at_inner_ends(ended.astype(float), z, pair) > 0.0, 0.0, at_inner_ends(loads, z, pair))
+    ended, shares = _line_ends(settled, pair, side, z), windows(settled, pair)
+    away = np.where(ended @ (shares > BESIDE).T, 0.0, loads @ shares.T)
     edges = np.where(ended | in_end_zone(pair, z), loads, 0.0)
     found = {}
     for name, values in (("largest_line_load_factor", away), ("edge_line_load_factor", edges)):

@@ -11,7 +11,7 @@ from fenics_gears.show.run import Run
 from fenics_gears.show.units import factor
 
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
-EDGE_NOTE = " The pressure at a tip's edge does not converge with the mesh."
+EDGE_NOTE = " The pressure at an edge does not converge with the mesh."
 SIDES = {"": "drive flanks", "coast_": "coast flanks"}
 # A tip that enters or leaves contact presses with its edge; these few cells would leave one colour for all others.
 COMMON_SHARE, CLIPPED = 98.0, 1.2  # per cent of the cells that the colours span; times that, from which they end there
@@ -29,8 +29,8 @@ def has_pressure(run: Run) -> bool:
 
 
 def largest_pressures(run: Run) -> list[Chart]:
-    """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with a tip's edge; none of results without them."""
-    names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at tips' edges"}
+    """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with an edge; none of results without them."""
+    names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at edges"}
     if "largest_edge_pressure" in run.dataset and not run.dataset["largest_edge_pressure"].any():
         del names["largest_edge_pressure"]
     note = "Averaged over five contact nodes." + (EDGE_NOTE if names.keys() <= set(run.dataset) and len(names) > 1 else "")
@@ -76,7 +76,7 @@ def _peaks(run: Run) -> str:
     if "peak_contact_pressure" not in attributes:
         return ""
     words = f"The peak contact pressure of the settled run, averaged over five nodes, is {attributes['peak_contact_pressure']:.4g} MPa"
-    edge = f" off the flanks' edges and {attributes['peak_edge_pressure']:.4g} MPa at tips' edges" if "peak_edge_pressure" in attributes else ""
+    edge = f" off the flanks' edges and {attributes['peak_edge_pressure']:.4g} MPa at edges" if "peak_edge_pressure" in attributes else ""
     return f"{words}{edge}."
 
 

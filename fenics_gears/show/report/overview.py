@@ -79,7 +79,7 @@ def _where(attributes) -> str:
     if "peak_contact_pressure_diameter" not in attributes:
         return "over five contact nodes"
     at = f"at diameter {attributes['peak_contact_pressure_diameter']:.4g} mm of the pinion"
-    return at + ("; more at tips' edges, see the warnings" if "peak_edge_pressure" in attributes else "")
+    return at + (f"; {digits(attributes['peak_edge_pressure'])} MPa at edges" if "peak_edge_pressure" in attributes else "")
 
 
 def _rows(run: Run) -> list[tuple[str, object, str]]:
