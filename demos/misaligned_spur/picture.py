@@ -18,7 +18,7 @@ def picture(results: dict) -> Figure:
     for panel, shape in zip(axes, shapes):
         found = {misalignment: result for (name, misalignment), result in results.items() if name == shape}
         for colour, (misalignment, result) in zip(PALETTE, found.items()):
-            forces = result.line_load.sum("face_position").values
+            forces = (result.line_load * result.face_slice_width).sum("face_position").values
             alone = forces.max(axis=1).argmax()
             panel.plot(result.face_position, result.line_load.values[alone, forces[alone].argmax()], color=colour, label=f"{1e3 * misalignment:g} µm")
         panel.set_title(f"flanks: {shape}")

@@ -43,8 +43,8 @@ def _print(report, files) -> None:
     from fenics_gears.system.console import print_rows, print_table
 
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
-    print_table(title, [table.HEADINGS, table.UNITS], table.table_rows(report))
-    print_table("Combinations of settings, and cheaper models; * on the Pareto front", [table.WHOLE_HEADINGS, table.WHOLE_UNITS], table.whole_rows(report))
+    print_table(title, table.headings(report), table.table_rows(report))
+    print_table("Combinations of settings, and cheaper models; * on the Pareto front", table.whole_headings(report), table.whole_rows(report))
     print_rows("Result", [("", table.in_one_sentence(report), "")])
     print_rows("Remarks", [("", remark, "") for remark in (*table.remarks(report), table.timed(report))])
     if report.failures:

@@ -60,10 +60,12 @@ def rate(options: argparse.Namespace) -> int:
     check_writable(output.parent, output.name)
     result = loaded_run(file)
     scene = carried_scene(result)
-    rows = rating.rate(result, scene, _finish(options, scene))
+    finish = _finish(options, scene)
+    rows = rating.rate(result, scene, finish)
     write_whole(output, lambda path: _save(rows, path))
     if not options.quiet:
         _show(rows)
+        print(rating.of_misalignment(scene, finish))
         print(output)
     return 0
 

@@ -113,7 +113,7 @@ EFFECT = Effect(
         ResultVariable("largest_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, without what is at edges and kinks"),
         ResultVariable("largest_contact_pressure_pair", "1", "number of the tooth pair with the largest contact pressure; 0 if none is in contact"),
         ResultVariable("largest_contact_pressure_roll_angle", "rad", "roll angle on the pinion's flank at the largest contact pressure"),
-        ResultVariable("largest_edge_pressure", "MPa", "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, or of pairs that press with one; it does not converge as the mesh is refined"),
+        ResultVariable("largest_edge_pressure", "MPa", "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, of pairs that press with one, or in three dimensions near the ends of the face; it does not converge as the mesh is refined"),
         ResultVariable("contact_pressure", "MPa", "contact pressure at the node, not averaged", dims=OF_NODES),
         ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion", dims=OF_NODES),
         ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES),

@@ -83,14 +83,20 @@ def _dynamic(operation: Operation, finish: Finish, deviations: _Deviations) -> f
 
 
 def _face(operation: Operation, finish: Finish, dynamic: float) -> float:
-    """K_Hbeta by method C, section 7.6, of the manufacturing misalignment alone: helix slopes of both gears within their class, f_sh = 0."""
-    pair = operation.pair
-    slopes = [helix_tolerance(2.0 * gear.reference_radius, operation.face_width, finish.tolerance_class).slope for gear in (pair.pinion, pair.wheel)]
-    misalignment = 1e3 * hypot(*slopes)
+    """K_Hbeta by method C, section 7.6, of `mesh_misalignment`."""
+    misalignment = mesh_misalignment(operation, finish)
     left = misalignment - min(0.15 * misalignment, 6.0)
     line_load = finish.application_factor * dynamic * operation.tangential_force / operation.face_width
     unevenness = 0.5 * left * 0.85 * operation.mesh_stiffness / line_load
     return 1.0 + unevenness if unevenness < 1.0 else 2.0 * sqrt(unevenness)
+
+
+def mesh_misalignment(operation: Operation, finish: Finish) -> float:
+    """F_betax (um) over the face, from manufacture alone (f_sh = 0): the scene's own, else helix slopes of both gears within their class."""
+    if operation.misalignment is not None:
+        return abs(operation.misalignment)
+    gears = operation.pair.pinion, operation.pair.wheel
+    return 1e3 * hypot(*(helix_tolerance(2.0 * gear.reference_radius, operation.face_width, finish.tolerance_class).slope for gear in gears))
 
 
 def _transverse(operation: Operation, finish: Finish, deviations: _Deviations, before: float) -> float:

@@ -48,4 +48,8 @@ class EdgesAndKinks:
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width
             found[near & nodes.drive if place.kind == KINK else near] = place.kind
+        if nodes.cycle.face is not None:
+            from fenics_gears.results.face_ends import in_end_zone
+
+            found[in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions)[nodes.of("slice")]] = EDGE
         return found

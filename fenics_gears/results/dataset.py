@@ -103,6 +103,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
     if recorder.cycle.face is not None:
         words = "distance along the axes from the middle of the common face, towards the end from which the pinion is seen to turn counter-clockwise"
         coordinates["face_position"] = ("face_position", recorder.cycle.face.positions, {"units": "mm", "long_name": words})
+        coordinates["face_slice_width"] = ("face_position", recorder.cycle.face.widths, {"units": "mm", "long_name": "width of the slice along the axes"})
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
 
 

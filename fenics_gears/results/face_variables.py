@@ -44,12 +44,12 @@ def warnings_of_face(face: Face, result: xr.Dataset) -> list[str]:
     part = face.widths[touched].sum() / face.widths.sum()
     if not touched.any() or part >= NOTABLE_PART:
         return []
-    (low, high), (left, right) = ((at[0] - 0.5 * face.widths[0], at[-1] + 0.5 * face.widths[-1]) for at in (face.positions[touched], face.positions))
+    begins, ends = face.positions - 0.5 * face.widths, face.positions + 0.5 * face.widths
     one_sided = touched[0] != touched[-1]
     where = f"at its {'left' if touched[0] else 'right'} end, " if one_sided else ""
     remedy = "lower [misalignment], correct it by lead_modifications.pinion.helix_slope" if one_sided else "lower the crowning or the end relief"
     coarse = f"; {touched.sum()} of {face.slices} slices do not resolve how: raise accuracy.slices" if touched.sum() < FEWEST_TOUCHING else ""
     return [
-        f"the flanks touch over {part:.0%} of the face only, {where}from {low:.3g} to {high:.3g} mm of {left:.3g} to {right:.3g} mm: "
+        f"the flanks touch over {part:.0%} of the face only, {where}from {begins[touched][0]:.3g} to {ends[touched][-1]:.3g} mm of {begins[0]:.3g} to {ends[-1]:.3g} mm: "
         f"{remedy}, or raise the torque{coarse}"
     ]

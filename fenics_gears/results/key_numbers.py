@@ -22,7 +22,7 @@ STUDIED = (
     *HARMONIC_NAMES, "rms_transmission_error", "rms_normal_force", "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
     "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "peak_kink_pressure", "largest_root_stress_pinion",
     "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
-    "overlap_ratio", "total_contact_ratio", "face_load_factor", "face_load_factor_at_pitch_cylinder", "transverse_load_factor",
+    "overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor",
 )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
-"""How unevenly a mesh carries along the face and between its tooth pairs: load factors as ISO 6336-1 names them, read off the computed contact.
+"""How unevenly a mesh carries along the face and between its tooth pairs, read off the computed contact.
 
-The standard's methods B and C estimate them; these are its definitions (method A). None of them has the dynamic factor in it: each compares loads of
-the same step.
+Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A); its methods B and C estimate them. None of the factors has the
+dynamic factor in it: each compares loads of the same steps.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.face_ends import end_depth, in_end_zone, slice_widths, windows
 from fenics_gears.results.pairs import carrying_side
 
 # Mesh cycles beside a phase at which the lines of contact change.
@@ -21,7 +22,7 @@ BESIDE = 1e-9
 def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
     """Overlap and total contact ratio, and the load factors of the flanks that carry in the settled steps of a result; nothing of flanks without load.
 
-    Face load factors need contact fields, of which those of settled steps count.
+    Factors along the face need contact fields, of which those of settled steps count.
     """
     found = {"overlap_ratio": pair.overlap_ratio, "total_contact_ratio": pair.total_contact_ratio}
     side = carrying_side(counted)
@@ -31,9 +32,7 @@ def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
         found["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
     if counted.sizes.get("contact_time"):
         settled = counted.isel(contact_time=counted["contact_time"].values >= counted["time"].values[0])
-        loads = line_loads(settled, side)
-        factors = {"face_load_factor": uneven(loads.sum(axis=1)), "face_load_factor_at_pitch_cylinder": uneven(at_pitch_cylinder(settled, pair, side))}
-        found |= {name: float(each.max()) for name, each in factors.items() if each.size}
+        found |= _of_cycle(settled, pair, side) | _of_instants(settled, pair, side)
     return found
 
 
@@ -42,30 +41,64 @@ def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
     return result[f"{side}line_load"].transpose("contact_time", "slot", "face_position").values
 
 
-def uneven(loads: np.ndarray) -> np.ndarray:
-    """Largest over mean of line loads (rows, S) over slices of one width, of the rows with a load."""
-    mean = loads.mean(axis=1)
-    return loads[mean > 0.0].max(axis=1) / mean[mean > 0.0]
+def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
+    """Of the line load averaged over whole mesh cycles: its largest mean over a window, over that of the whole face; nothing of less than a cycle."""
+    load, widths = mean_line_load(settled, side), slice_widths(settled)
+    if load is None or not load.any():
+        return {}
+    mean = float(load @ widths / widths.sum())
+    return {"face_load_factor": float((windows(settled, pair) @ load).max()) / mean}
 
 
-def at_pitch_cylinder(result: xr.Dataset, pair: GearPair, side: str = "") -> np.ndarray:
-    """Line load (n, S), N/mm, in each slice when its contact passes the pitch point, the n-th time; straight between steps. `side`: of `carrying_side`.
+def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
+    """Line load (S,), N/mm, of all tooth pairs together on those flanks, mean over as many whole mesh cycles as are stored; None of less than one."""
+    phase = result["contact_mesh_phase"].values
+    cycles = np.floor(np.ptp(phase) + BESIDE)
+    if cycles < 1:
+        return None
+    counted = phase >= phase[-1] - cycles - BESIDE
+    between = np.diff(phase[counted])
+    parts = 0.5 * (np.append(between, 0.0) + np.append(0.0, between))
+    return np.tensordot(parts / parts.sum(), line_loads(result, side)[counted].sum(axis=1), axes=1)
 
-    Of a helical pair slices pass one after the other: each row is of one line along the flank, on the pitch cylinder.
+
+def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
+    """Of the largest line load of one tooth pair at any stored step, the mean over a window away from edges, and of a slice at edges: over the line load that the mesh's force of that step
+    makes if it spreads evenly along the lines of contact of rigid gears when they are shortest."""
+    loads, z = line_loads(settled, side), settled["face_position"].values
+    force = (loads @ slice_widths(settled)).sum(axis=1)
+    ended, shares = _line_ends(settled, pair, side, z), windows(settled, pair)
+    away = np.where(ended @ (shares > BESIDE).T, 0.0, loads @ shares.T)
+    edges = np.where(ended | in_end_zone(pair, z), loads, 0.0)
+    found = {}
+    for name, values in (("largest_line_load_factor", away), ("edge_line_load_factor", edges)):
+        if values.any():
+            step = np.unravel_index(values.argmax(), values.shape)[0]
+            found[name] = float(values.max()) * shortest_lines(pair) / float(force[step])
+    return found
+
+
+def at_edges(result: xr.Dataset, pair: GearPair, side: str) -> np.ndarray:
+    """Whether the contact of each tooth pair in each slice (n, slots, S) is near an end of the face, or where its line of contact ends on the flank."""
+    z = result["face_position"].values
+    return _line_ends(result, pair, side, z) | in_end_zone(pair, z)
+
+
+def _line_ends(result: xr.Dataset, pair: GearPair, side: str, z: np.ndarray) -> np.ndarray:
+    """Whether each tooth pair's line of contact ends at a tip or form circle near places z (mm) of the face (n, slots, len(z)), or has ended before them.
+
+    Near is the depth of the end zones, along the face. The line of a spur pair ends nowhere along the face.
     """
-    phase, slots = result["contact_mesh_phase"].values, result.sizes["slot"]
-    loads, first = line_loads(result, side), result["contact_pair_number"].attrs["number_at_phase_0"]
-    # Mesh cycles from the start of contact of the drive flanks in the middle of the face to the pitch point in each slice.
-    after = (passing(pair, pair.pitch_point, side) - pair.path_start - pair.slope * result["face_position"].values) / pair.base_pitch
-    passed = []
-    for slice_, since in enumerate(after):
-        numbers = np.arange(np.ceil(phase[0] - since - BESIDE), np.floor(phase[-1] - since + BESIDE) + 1).astype(int)
-        passed.append([np.interp(number + since, phase, loads[:, (number + first) % slots, slice_]) for number in numbers])
-    count = min(map(len, passed), default=0)
-    return np.transpose([each[:count] for each in passed])
+    numbers = result["contact_pair_number"]
+    since = result["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
+    position = pair.path_start + since[..., None] * pair.base_pitch + pair.slope * z
+    if side:
+        position = passing(pair, position, side)
+    near = end_depth(pair) * abs(pair.slope)
+    return (position < pair.path_start + near) | (position > pair.path_end - near)
 
 
-def passing(pair: GearPair, position: float, side: str) -> float:
+def passing(pair: GearPair, position, side: str):
     """Where the contact of a pair's drive flanks stands (mm from T1) when that of its flanks of `side` passes a position on their own line of action."""
     # There coast flanks go the other way.
     return pair.pinion.base_radius * coast_roll_angles(pair, 0.0)[0] - position if side else position
@@ -83,10 +116,20 @@ def contact_line_lengths(pair: GearPair, positions) -> np.ndarray:
 
 def largest_even_share(pair: GearPair) -> float:
     """Largest share of a tooth pair in the mesh's force if the line load were the same along all lines of contact, over a mesh cycle."""
+    lengths = _lengths_where_they_turn(pair)
+    return float((lengths.max(axis=1) / lengths.sum(axis=1)).max())
+
+
+def shortest_lines(pair: GearPair) -> float:
+    """Length (mm) along the axes of all lines of contact of rigid gears together, when they are shortest."""
+    return float(_lengths_where_they_turn(pair).sum(axis=1).min())
+
+
+def _lengths_where_they_turn(pair: GearPair) -> np.ndarray:
+    """Lengths (phases, pairs), mm, beside the phases at which a line begins or ends to reach an end of the face: between them lengths are linear and
+    shares monotonic."""
     lead = 0.5 * pair.face_width * abs(pair.slope)
-    # Between the phases at which a line begins or ends to reach an end of the face lengths are linear and shares monotonic.
     ends = [end + side * lead for end in (pair.path_start, pair.path_end) for side in (-1.0, 1.0)]
     phases = np.mod(np.array(ends) / pair.base_pitch, 1.0)[:, None] + [-BESIDE, BESIDE]
     reach = np.arange(np.floor(min(ends) / pair.base_pitch) - 1, np.ceil(max(ends) / pair.base_pitch) + 2)
-    lengths = contact_line_lengths(pair, pair.base_pitch * (phases.ravel()[:, None] + reach))
-    return float((lengths.max(axis=1) / lengths.sum(axis=1)).max())
+    return contact_line_lengths(pair, pair.base_pitch * (phases.ravel()[:, None] + reach))

@@ -46,7 +46,7 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
     What is beside an edge or a kink is left out and has a largest pressure of its own, as have pairs that press with the sharp edge of a tip, or of an undercut
-    involute: linear elasticity has infinite pressure there, and the number grows as contact nodes come closer.
+    involute, and slices near the ends of the face: linear elasticity has infinite pressure there, and the number grows as contact nodes come closer.
     """
     pressed_edge, beside = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE), singular.beside(nodes)
     largest, rolls = {kind: [] for kind in (NOTHING, KINK, EDGE)}, []

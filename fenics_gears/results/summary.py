@@ -18,7 +18,7 @@ KILO = 1e3
 ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
 # Where pressure stands apart from the peak contact pressure, as it does not converge there.
-APART = {"edge": "tip edges", "kink": "kinks of relief"}
+APART = {"edge": "edges", "kink": "kinks of relief"}
 
 # The stages of a run whose wall time the result carries, and what they are called.
 STAGES = {
@@ -99,8 +99,10 @@ def _face(attributes) -> list[Row]:
         return []
     rows = [("contact ratio", f"{attributes['total_contact_ratio']:.4g} in all, overlap ratio {attributes['overlap_ratio']:.4g}", "")]
     if "face_load_factor" in attributes:
-        pitch = f", {attributes['face_load_factor_at_pitch_cylinder']:.3f} along the pitch cylinder" if "face_load_factor_at_pitch_cylinder" in attributes else ""
-        rows.append(("face load factor K_Hbeta", f"{attributes['face_load_factor']:.3f}{pitch}", ""))
+        rows.append(("face load factor K_Hbeta", f"{attributes['face_load_factor']:.3f}, of the line load averaged over the mesh cycle", ""))
+    if "largest_line_load_factor" in attributes:
+        edges = f", {attributes['edge_line_load_factor']:.3f} at edges" if "edge_line_load_factor" in attributes else ""
+        rows.append(("largest line load over even one", f"{attributes['largest_line_load_factor']:.3f} away from edges{edges}", ""))
     if "transverse_load_factor" in attributes:
         rows.append(("transverse load factor K_Halpha", f"{attributes['transverse_load_factor']:.3f}", ""))
     return rows
@@ -183,8 +185,9 @@ def _estimated_error(attributes) -> list[Row]:
         f"{attributes['element']}, flank elements {attributes['flank_element_size']:.3g} mm, {attributes['contact_nodes']} contact nodes over "
         f"{attributes['contact_length']:.3g} mm, {attributes['steps_per_mesh_cycle']} steps per mesh cycle"
     )
+    judged = "T_E, T_EPP, line load" if "overlap_ratio" in attributes else "T_E and T_EPP"
     return [
-        ("estimated error of T_E and T_EPP", f"{attributes['estimated_error']:.2%}, target {attributes['target']:.3%}", ""),
+        (f"estimated error of {judged}", f"{attributes['estimated_error']:.2%}, target {attributes['target']:.3%}", ""),
         ("what limits it", f"{worst}: {parts[worst]:.2%}", ""),
         ("settings chosen", settings, f"by {attributes['target_runs']} runs"),
         *(("remark", remark, "") for remark in attributes["target_remarks"].splitlines()),

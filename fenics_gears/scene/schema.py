@@ -90,7 +90,7 @@ class Accuracy(Section):
         "0.05 %",
         "50 %",
         "1 %",
-        meaning="largest numerical error allowed in the curve and in the peak-to-peak value of the transmission error; test runs find the cheapest settings "
+        meaning="largest numerical error allowed in the curve and in the peak-to-peak value of the transmission error, in three dimensions also in line load and load factors; test runs find the cheapest settings "
         "of this section that keep it",
         otherwise="no test runs; each setting has its given or default value",
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
+from fenics_gears.results.face_ends import slice_ends
 from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import Chart, Curve, Field
 from fenics_gears.show.panels import DARK, GREY
@@ -53,7 +54,7 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     pair, name = run.pair, GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
-    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, slice_ends(run), limit)
+    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, slice_ends(run.dataset), limit)
     pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
     active = 2.0 * data.radius((contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear])
     face = np.array(pair.common_face)
@@ -64,13 +65,6 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
         ACROSS, f"Diameter on the {name} (mm)", x_range=pair.common_face, y_range=(2.0 * data.radius(ends[0]), 2.0 * data.radius(ends[1])),
         field=field, height=380, note=NOTE,
     )  # fmt: skip
-
-
-def slice_ends(run: Run) -> np.ndarray:
-    """Ends (S + 1,), mm, of the slices."""
-    z = run.dataset["face_position"].values
-    low, high = run.pair.common_face
-    return np.concatenate([[low], 0.5 * (z[1:] + z[:-1]), [high]])
 
 
 def _swept(run: Run, gear, rolls: np.ndarray, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:

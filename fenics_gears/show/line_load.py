@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.results.load_factors import at_pitch_cylinder, passing
+from fenics_gears.results.face_ends import inner_face, slice_ends
+from fenics_gears.results.load_factors import at_edges, mean_line_load, passing
 from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import MESH_CYCLES, TIME, Chart, Curve, Field
-from fenics_gears.show.contact_pattern import ACROSS, slice_ends
+from fenics_gears.show.contact_pattern import ACROSS
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.pressure import COLOURS
 from fenics_gears.show.run import Run
@@ -26,7 +27,7 @@ def line_loads(run: Run) -> list[Chart]:
     loads, phase = in_unit(part[name].transpose("contact_time", "slot", "face_position"), "N/mm"), part["contact_mesh_phase"].values
     if not loads.any():
         return []
-    slices, z = slice_ends(run), part["face_position"].values
+    slices, z = slice_ends(run.dataset), part["face_position"].values
     return [_of_mesh(side, loads, phase, slices), _of_pair(run, side, loads, phase, slices), _over_face(run, side, loads, z)]
 
 
@@ -66,22 +67,30 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
 
 
 def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
-    total, pitch = loads.sum(axis=1), at_pitch_cylinder(run.last_fields, run.pair, side)
-    worst = total.max(axis=1).argmax()
-    phase = run.last_fields["contact_mesh_phase"].values[worst]
-    curves = [(f"mesh at cycle {phase:.3g}", total[worst]), ("mesh, mean", total.mean(axis=0)), ("pair, largest", loads.max(axis=(0, 1)))]
-    curves += [("pair at pitch cylinder", pitch[pitch.max(axis=1).argmax()])] if len(pitch) else []
+    """What the three load factors are read off."""
+    part, total = run.last_fields, loads.sum(axis=1)
+    mean = mean_line_load(part, side)
+    away = np.where(at_edges(part, run.pair, side), 0.0, loads).max(axis=(0, 1))
+    curves = [
+        ("mesh, mean over the mesh cycle", total.mean(axis=0) if mean is None else mean),
+        ("tooth pair, largest away from edges", np.where(away > 0.0, away, np.nan)),
+        ("tooth pair, largest", loads.max(axis=(0, 1))),
+    ]
     drawn = [Curve(words, z, values, colour) for (words, values), colour in zip(curves, PALETTE)]
-    highest = 1.08 * float(max(values.max() for _, values in curves))
+    highest = 1.08 * float(max(np.nanmax(values) for _, values in curves))
+    ends = [
+        Curve("edge zone at either end" if first else "", np.full(2, place), np.array([0.0, highest]), DARK, "dot", 1.0, listed=first)
+        for place, first in zip(inner_face(run.pair), (True, False))
+    ]
     return Chart(
-        f"Line load along the face{_factors(run)}", drawn, ACROSS, TITLE, x_range=run.pair.common_face, y_range=(0.0, highest),
-        note="Of the mesh, its tooth pairs summed: when it is largest, and the mean over time. Of a tooth pair: the largest at each place, and when contact there passes the pitch point.",
+        f"Line load along the face{_factors(run)}", drawn + ends, ACROSS, TITLE, x_range=run.pair.common_face, y_range=(0.0, highest),
+        note="Of the mesh: tooth pairs summed. Of a tooth pair: the largest at each place at any time. Edges: the ends of the face, and tips and form circles where a line of contact ends.",
     )  # fmt: skip
 
 
 def _factors(run: Run) -> str:
     """The load factors of the settled run."""
-    names = {"face_load_factor": "face load factor", "face_load_factor_at_pitch_cylinder": "along the pitch cylinder"}
+    names = {"face_load_factor": "face load factor", "largest_line_load_factor": "largest line load over even one", "edge_line_load_factor": "at edges"}
     found = [f"{words} {run.dataset.attrs[name]:.3f}" for name, words in names.items() if name in run.dataset.attrs]
     return f": {', '.join(found)}" if found else ""
 

@@ -29,8 +29,8 @@ def has_pressure(run: Run) -> bool:
 
 
 def largest_pressures(run: Run) -> list[Chart]:
-    """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with a tip's edge; none of results without them."""
-    names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at tips' edges", "largest_kink_pressure": "at kinks of relief"}
+    """Largest contact pressure off the flanks' edges at every step, and those at edges and kinks; none of results without them."""
+    names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at edges", "largest_kink_pressure": "at kinks of relief"}
     names = {name: words for name, words in names.items() if name == "largest_contact_pressure" or name in run.dataset and run.dataset[name].any()}
     note = "Averaged over five contact nodes." + (APART_NOTE if len(names) > 1 else "")
     return of_variables(run, "Largest contact pressure", "Pressure", "MPa", names, note=note, height=300)
@@ -75,7 +75,7 @@ def _peaks(run: Run) -> str:
     if "peak_contact_pressure" not in attributes:
         return ""
     words = f"The peak contact pressure of the settled run, averaged over five nodes, is {attributes['peak_contact_pressure']:.4g} MPa"
-    places = {"edge": "at tips' edges", "kink": "at kinks of relief"}
+    places = {"edge": "at edges", "kink": "at kinks of relief"}
     apart = [f"{attributes[f'peak_{name}_pressure']:.4g} MPa {at}" for name, at in places.items() if f"peak_{name}_pressure" in attributes]
     return f"{words} away from edges and kinks, {' and '.join(apart)}." if apart else f"{words}."
 

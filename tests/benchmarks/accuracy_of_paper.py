@@ -45,10 +45,10 @@ def markers(name: str) -> tuple[str, str]:
 
 def section(name: str, report: AccuracyReport) -> str:
     """The sentence, the picture, both tables and the remarks."""
-    own = [("|".join(["", *cells, ""])) for cells in ((_with_units(table.HEADINGS, table.UNITS)), *table.table_rows(report))]
-    own.insert(1, "|---" * len(table.HEADINGS) + "|")
-    whole = [("|".join(["", *cells, ""])) for cells in (_with_units(table.WHOLE_HEADINGS, table.WHOLE_UNITS), *table.whole_rows(report))]
-    whole.insert(1, "|---" * len(table.WHOLE_HEADINGS) + "|")
+    own = [("|".join(["", *cells, ""])) for cells in ((_with_units(*table.headings(report))), *table.table_rows(report))]
+    own.insert(1, "|---" * len(table.headings(report)[0]) + "|")
+    whole = [("|".join(["", *cells, ""])) for cells in (_with_units(*table.whole_headings(report)), *table.whole_rows(report))]
+    whole.insert(1, "|---" * len(table.whole_headings(report)[0]) + "|")
     where = report.machine
     measured = (
         f"{table.timed(report)} {where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}."

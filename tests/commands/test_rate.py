@@ -4,9 +4,12 @@ import csv
 
 import pytest
 from tests.coarse import COARSE, coarse_scene
+from tests.hard_cases.invariants import run_of
+from tests.helical import CROWNED, helical_scene, on_stand_in_bodies
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
+from fenics_gears.model.model import model_of
 from fenics_gears.simulation.simulate import simulate
 
 
@@ -58,3 +61,21 @@ def test_a_run_without_speed_is_refused(tmp_path, capsys, paper_scene):
     results.save(result, tmp_path / "run.nc")
     assert main(["rate", str(tmp_path)]) == 2
     assert "a rating needs a speed" in capsys.readouterr().err
+
+
+def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
+    """By definition: the standard's F_betax is the scene's misalignment less the helix slope that corrects a part of it; without either that of the tolerance class, which
+    the aligned run has not."""
+    model = model_of(helical_scene())
+    result = run_of(model, on_stand_in_bodies(model)).result
+    # By hand, ISO 1328-1: slopes of 8.61 and 8.82 um.
+    for more, standard, computed, said in (
+        ('[misalignment]\nin_plane = "12 um"\n[lead_modifications.pinion]\nhelix_slope = "-5 um"\n', 7.0, 7.0, "is of the scene's misalignment and helix slopes"),
+        (CROWNED, 12.33, 0.0, "is of helix slopes of tolerance class 6 (method C), which this run has not"),
+    ):
+        results.save(result.assign_attrs(scene=helical_scene(more).text), tmp_path / "run.nc")
+        assert main(["rate", str(tmp_path)]) == 0
+        assert said in capsys.readouterr().out
+        with open(tmp_path / "rating.csv", encoding="utf-8") as file:
+            row = next(row for row in csv.DictReader(file) if row["quantity"].startswith("F_betax"))
+        assert (float(row["ISO 6336"]), float(row["this run"])) == pytest.approx((standard, computed), abs=0.01)

@@ -71,12 +71,21 @@ DIMENSIONS = {
     "fillet": '"drive", "coast": the two sides of a tooth',
 }
 OVER_THE_FACE = """The common face is divided into slices. Their middles are the coordinate `face_position`: the distance along the axes, mm, from the middle of the common face, towards the end from which
-the pinion is seen to turn counter-clockwise. Fields of contact nodes have the dimension `face_position` between `slot` and `contact_node`. Forces of tooth pairs and of the mesh are along the contact normal, which leans along
-the axes by the base helix angle. Further variables are those below, and the load factors of ISO 6336-1 are among the attributes, read off the computed contact of the flanks that carry (the coast flanks where the wheel drives) by the standard's definitions:
+the pinion is seen to turn counter-clockwise; `face_slice_width` is the width of each slice, mm. Fields of contact nodes have the dimension `face_position` between `slot` and `contact_node`. Forces of tooth pairs and of the
+mesh are along the contact normal, which leans along the axes by the base helix angle. Further variables are those below. Load factors are among the attributes, read off the computed contact of the flanks that carry (the coast
+flanks where the wheel drives), in the settled steps whose contact fields are stored. There are three along the face:
 
-* **`face_load_factor`**: at each stored settled step the line loads of all tooth pairs are summed at each place of the face; the largest sum is divided by their mean over the common face; the largest of all steps counts. Of helical
-  gears this is above 1 even if the line load is the same along all lines of contact, since at any time some places have more pairs in contact than others.
-* **`face_load_factor_at_pitch_cylinder`**: of one tooth pair, the line load that each place of the face has when its contact passes the pitch point, largest over mean. The same line load along all lines of contact gives 1.
+* **`face_load_factor`** says how unevenly the face is loaded on average: the line loads of all tooth pairs are summed and averaged over whole mesh cycles, and the largest along the face is divided by the mean. This is what stands
+  beside ISO's K_Hbeta.
+* **`largest_line_load_factor`** says how much more than its even share any place of a flank carries at any time: the largest line load of one tooth pair is divided by the line load that the mesh's force makes if it spreads evenly
+  along the lines of contact of rigid gears when these are shortest. An aligned spur pair whose pairs share evenly has 1. Below 1 the teeth, which bend, share better than rigid ones.
+* **`edge_line_load_factor`** says the same of edges: the ends of the face, and the tip or form circle where a line of contact ends on the flank. There the pressure has a peak that is narrower than a slice: the number depends on the
+  slices, and is a reason for chamfers, crowning or tip relief, not for a rating.
+
+The first two leave edges out: half a module of the face at either end (a tenth of the face if that is less), and as much of a line of contact where it ends on the flank. The free end of a tooth, or the end of the narrower
+gear on the wider one, changes the line load no further in. Elsewhere they take the mean over half a module of the face (the same length), since line loads of single slices within a layer of the gear bodies are not resolved. Both are
+then the same with twice as many slices, to 1 %. For the same reason `peak_contact_pressure` leaves the ends of the face out; they are in `peak_edge_pressure`.
+
 * **`transverse_load_factor`**: the standard's K_Halpha is the largest load of a tooth divided by that of a pair without deviations. Here both are shares in the mesh force at the same step, so that no dynamic factor is in them; the
   shares without deviations are those of the same line load along all lines of contact, as the standard's contact ratio factor assumes."""
 ROOT_STRESS = "`[output] root_stress`"

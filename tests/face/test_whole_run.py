@@ -43,6 +43,5 @@ def test_axial_force_is_the_tangential_one_times_the_tangent_of_the_helix(scene,
 
 def test_line_load_adds_up_to_the_normal_force(result):
     """Identity: the line loads of all pairs over all slices are the force along the contact normal."""
-    width = np.diff(result.face_position.values)[0]
-    of_slices = width * result.line_load.sum(("slot", "face_position")).values
+    of_slices = (result.line_load * result.face_slice_width).sum(("slot", "face_position")).values
     np.testing.assert_allclose(of_slices, result.normal_force.sel(time=result.contact_time.values, method="nearest").values, rtol=1e-12)

@@ -1,14 +1,14 @@
 """The rating's formulas against numbers that other programs print."""
 
 from dataclasses import replace
-from math import cos, radians
+from math import cos, hypot, radians, sqrt
 
 import pytest
 
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.flank import elasticity_factor, flank_stress, single_pair_factors, zone_factor
-from fenics_gears.rating.load_factors import LoadFactors, contact_ratio_factor, load_factors
+from fenics_gears.rating.load_factors import LoadFactors, contact_ratio_factor, load_factors, mesh_misalignment
 from fenics_gears.rating.operation import Operation, solid_reduced_mass
 from fenics_gears.rating.root import form_at_outer_point, helix_angle_factor, root_stresses
 from fenics_gears.scene.data import GearData, GearPairData, Material
@@ -73,6 +73,20 @@ def test_root_stress_of_another_program():
     roots = root_stresses(found, Finish(), LoadFactors(1.0, 1.0, 1.0, 1.0, 1.0))
     assert [each.nominal * 5464.5 / found.tangential_force for each in roots] == pytest.approx([271.19, 263.17], rel=1e-3)
     assert all(each.stress == each.nominal for each in roots)
+
+
+def test_face_load_factor_counts_the_scene_s_misalignment():
+    """ISO 6336-1:2006 section 7.6, by hand: case-hardened flanks run in by 15 %, at most 6 um; F_betay c_gamma_beta b / (2 F_m) is added to 1, or from 1 on is twice its root.
+    Without a misalignment of the scene it is of the helix slopes of the class by ISO 1328-1."""
+    data, _ = H501
+    found = replace(operation(data, 200e3, 1000.0), misalignment=-20.0)
+    factors = load_factors(found, Finish())
+    stiffness, line_load = 0.85 * found.mesh_stiffness, factors.dynamic * found.tangential_force / 23.0
+    assert factors.face == pytest.approx(1.0 + 0.5 * 17.0 * stiffness / line_load)
+    large = load_factors(replace(found, misalignment=60.0), Finish())
+    assert large.face == pytest.approx(2.0 * sqrt(0.5 * 54.0 * stiffness / line_load))
+    slopes = [sqrt(2.0) * (0.05 * sqrt(2.0 * gear.reference_radius) + 0.35 * sqrt(23.0) + 4.0) for gear in (found.pair.pinion, found.pair.wheel)]
+    assert mesh_misalignment(replace(found, misalignment=None), Finish()) == pytest.approx(hypot(*slopes))
 
 
 def test_dynamic_factor_is_continuous_and_highest_in_resonance():

@@ -1,6 +1,7 @@
 """Results over the face: kept on disk while a run goes on, read again, and combined by a study."""
 
 import numpy as np
+import pytest
 import xarray as xr
 from tests.helical import wide_pair
 from tests.over_face import MORE, helical_run
@@ -9,10 +10,10 @@ from fenics_gears.results import journal
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.pairs import by_pair, in_middle_slice
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy.measures import answer
+from fenics_gears.studies.accuracy.measures import FACE_LOAD, LINE_LOAD, OVER_FACE, PART_OF_FACE, answer
 from fenics_gears.studies.combine import record_of
 
-OF_FACE = {"overlap_ratio", "total_contact_ratio", "face_load_factor", "face_load_factor_at_pitch_cylinder", "transverse_load_factor"}
+OF_FACE = {"overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor"}
 
 
 def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
@@ -32,11 +33,21 @@ def test_studies_take_the_load_factors(monkeypatch):
 
 
 def test_measures_of_accuracy_are_of_the_middle_slice():
-    """Identity: what settings are compared by is what the middle slice alone gives."""
+    """Identity: but for line loads along the face, what settings are compared by is what the middle slice alone gives."""
     whole, middle = (answer(each, 1.0) for each in (helical_run(), in_middle_slice(helical_run())))
-    assert whole.keys() == middle.keys()
-    for name, values in whole.items():
-        np.testing.assert_array_equal(values, middle[name])
+    assert whole.keys() == middle.keys() | set(OVER_FACE)
+    for name, values in middle.items():
+        np.testing.assert_array_equal(values, whole[name])
+
+
+def test_line_loads_that_settings_are_judged_by():
+    """By hand: in the middle of an odd number of slices the load is that of the middle one, averaged over the cycle, whose first and last step count half; the factors are
+    the result's."""
+    run = helical_run()
+    found, load = answer(run, 1.0), run["line_load"].sum("slot").values
+    assert found[LINE_LOAD][len(found[LINE_LOAD]) // 2] == pytest.approx((0.5 * (load[0] + load[-1]) + load[1:-1].sum(axis=0))[2] / (len(load) - 1), rel=1e-12)
+    assert len(np.unique(found[LINE_LOAD])) > 4 and PART_OF_FACE <= 0.8
+    assert found[FACE_LOAD][0] == run.attrs["face_load_factor"]
 
 
 def test_pairs_have_their_own_fields():

@@ -9,7 +9,8 @@ from tests.helical import wide_pair
 
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.results.load_factors import at_pitch_cylinder, contact_line_lengths, largest_even_share, load_factors
+from fenics_gears.results.face_ends import end_depth, inner_face, slice_ends, windows
+from fenics_gears.results.load_factors import contact_line_lengths, largest_even_share, load_factors, shortest_lines
 
 SLICES, STEPS, FIRST, SLOTS = 10, 200, 2, 5
 
@@ -26,67 +27,130 @@ def helical():
     return gear_pair(wide_pair().gears)
 
 
-def run_of(pair, line_load, slices: int = SLICES, reach: float = 0.0) -> xr.Dataset:
-    """Two mesh cycles of a result whose line load, N/mm, is that function of contact (mm from T1) and place on the face (mm), up to `reach` (mm) off the path."""
-    phase, z = np.arange(2 * STEPS + 1) / STEPS, pair.face_width * ((np.arange(slices) + 0.5) / slices - 0.5)
-    loads, numbers = np.zeros((len(phase), SLOTS, slices)), np.zeros((len(phase), SLOTS), dtype=int)
+def run_of(pair, line_load, slices=SLICES, reach: float = 0.0) -> xr.Dataset:
+    """Two mesh cycles of a result whose line load, N/mm, is that function of contact (mm from T1) and place on the face (mm), up to `reach` (mm) off the path.
+
+    slices: how many, or the ends of unequal ones in parts of the face.
+    """
+    ends = pair.face_width * (np.linspace(0.0, 1.0, slices + 1) if np.ndim(slices) == 0 else np.array(slices)) - 0.5 * pair.face_width
+    phase, z, widths = np.arange(2 * STEPS + 1) / STEPS, 0.5 * (ends[1:] + ends[:-1]), np.diff(ends)
+    loads, numbers = np.zeros((len(phase), SLOTS, len(z))), np.zeros((len(phase), SLOTS), dtype=int)
     for entered in range(-4, 6):
         xi = pair.path_start + (phase[:, None] - entered) * pair.base_pitch + pair.slope * z
         there = (xi >= pair.path_start - reach) & (xi <= pair.path_end + reach)
         slot = (entered + FIRST) % SLOTS
         loads[:, slot] += np.where(there, line_load(xi, z), 0.0)
         numbers[there.any(axis=1), slot] = entered + FIRST
-    forces = loads.sum(axis=2) * pair.face_width / slices
-    time = {"time": ("time", phase), "contact_time": ("contact_time", phase), "contact_mesh_phase": ("contact_time", phase), "face_position": z}
+    forces = loads @ widths
+    along = {"face_position": z, "face_slice_width": ("face_position", widths)}
+    time = {"time": ("time", phase), "contact_time": ("contact_time", phase), "contact_mesh_phase": ("contact_time", phase)}
     numbered = ("contact_time", "slot"), numbers, {"number_at_phase_0": FIRST}
     values = {
         "line_load": (("contact_time", "slot", "face_position"), loads),
         "pair_normal_force": (("time", "slot"), forces),
         "normal_force": ("time", forces.sum(axis=1)),
     }
-    return xr.Dataset(values, {**time, "contact_pair_number": numbered})
+    return xr.Dataset(values, {**along, **time, "contact_pair_number": numbered})
 
 
-def test_line_load_that_grows_along_a_spur_gear(spur):
-    """Closed form: of a line load 1 + a z over a width b the largest over the mean is 1 + a b/2 (1 - 1/slices), everywhere and at the pitch cylinder."""
-    factors = load_factors(run_of(spur, lambda xi, z: 100.0 * (1.0 + 0.05 * z) + 0.0 * xi), spur)
-    expected = 1.0 + 0.05 * 0.5 * spur.face_width * (1.0 - 1.0 / SLICES)
-    assert factors["face_load_factor"] == pytest.approx(expected, rel=1e-12)
-    assert factors["face_load_factor_at_pitch_cylinder"] == pytest.approx(expected, rel=1e-12)
+def on_coast_flanks(result: xr.Dataset) -> xr.Dataset:
+    """A result with what its drive flanks carry on its coast flanks."""
+    renamed = result.rename(line_load="coast_line_load", pair_normal_force="pair_coast_normal_force")
+    return renamed.assign(line_load=0.0 * result["line_load"], coast_normal_force=result["normal_force"], normal_force=0.0 * result["normal_force"])
+
+
+def of_one_force(result: xr.Dataset) -> xr.Dataset:
+    """A result whose loads at each step are made as large as give the same force of the mesh."""
+    share = result["normal_force"].mean() / result["normal_force"]
+    of_fields = share.rename(time="contact_time")
+    return result.assign(
+        line_load=result["line_load"] * of_fields, pair_normal_force=result["pair_normal_force"] * share, normal_force=result["normal_force"] * share
+    )
+
+
+@pytest.mark.parametrize("slices", [10, 40, [0.0, 0.02, 0.05, 0.2, 0.5, 0.78, 0.82, 0.9, 1.0]])
+def test_line_load_that_grows_along_a_spur_gear(spur, slices):
+    """Closed form: pairs in contact share evenly a line load 1 + a z over a width b. Its largest mean over a window as long as an end zone, beside the end zone, is
+    1 + a (b/2 - 1.5 times their depth), averaged over time or of a single pair, however the face is divided (but for steps within the window); the outermost slice has the edge's."""
+    result = of_one_force(run_of(spur, lambda xi, z: 100.0 * (1.0 + 0.05 * z) + 0.0 * xi, slices))
+    factors = load_factors(result, spur)
+    expected = 1.0 + 0.05 * (0.5 * spur.face_width - 1.5 * end_depth(spur))
+    assert factors["face_load_factor"] == pytest.approx(expected, rel=5e-3)
+    assert factors["largest_line_load_factor"] == pytest.approx(factors["face_load_factor"], rel=1e-12)
+    assert factors["edge_line_load_factor"] == pytest.approx(1.0 + 0.05 * result["face_position"].values.max(), rel=1e-12)
     assert factors["transverse_load_factor"] == pytest.approx(1.0, abs=1e-12)
     assert factors["overlap_ratio"] == 0.0 and factors["total_contact_ratio"] == spur.contact_ratio
 
 
-@pytest.mark.parametrize("hand", ["right", "left"])
-def test_pitch_cylinder_of_a_helical_gear(helical, hand):
-    """Identity: of a line load f(xi) g(z) the one on the pitch cylinder is f(pitch point) g(z), though slices pass it one after the other."""
-    pair = helical if hand == "right" else replace(helical, helix=replace(helical.helix, pinion_hand="left"))
-    result = run_of(pair, lambda xi, z: 100.0 * (1.0 + 0.3 * (xi - pair.pitch_point)) * (1.0 + 0.02 * z))
-    z = result["face_position"].values
-    found = at_pitch_cylinder(result, pair)
-    assert len(found) >= 1
-    assert found == pytest.approx(np.broadcast_to(100.0 * (1.0 + 0.02 * z), found.shape), rel=1e-9)
+def test_windows_find_the_largest_running_mean(spur):
+    """Brute force: the mean over a window of half a module at a hundred thousand places, of random values in slices of random widths."""
+    random = np.random.default_rng(3)
+    ends = np.sort(np.concatenate([[0.0, 1.0], random.uniform(size=30)]))
+    result = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z, list(ends))
+    values = random.uniform(size=31)
+    low, high = inner_face(spur)
+    starts = np.linspace(low, high - end_depth(spur), 100_000)
+    integral = np.append(0.0, np.cumsum(values * np.diff(slice_ends(result))))
+    brute = (np.interp(starts + end_depth(spur), slice_ends(result), integral) - np.interp(starts, slice_ends(result), integral)) / end_depth(spur)
+    found = windows(result, spur)
+    assert found.sum(axis=1) == pytest.approx(1.0, abs=1e-12)
+    assert (found @ values).max() == pytest.approx(brute.max(), rel=1e-4) and (found @ values).max() >= brute.max() - 1e-12
+    assert end_depth(spur) == min(0.5 * spur.pinion.normal_module, 0.1 * spur.face_width)
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])
-def test_pitch_cylinder_on_coast_flanks(helical, hand):
-    """Identity: the same on coast flanks, whose contact goes the other way along a line of action of its own."""
+@pytest.mark.parametrize("side", ["", "coast_"])
+def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
+    """Identity: each slice has passed all its path of contact after a mesh cycle, so that of a line load f(xi) g(z) the average over time goes as g(z)."""
     pair = helical if hand == "right" else replace(helical, helix=replace(helical.helix, pinion_hand="left"))
+    result = run_of(pair, lambda xi, z: 100.0 * (1.0 + 0.3 * np.sin(xi)) * (1.0 + 0.02 * z), slices=[0.0, 0.04, 0.1, 0.35, 0.85, 0.9, 0.95, 1.0])
+    found = load_factors(on_coast_flanks(result) if side else result, pair)["face_load_factor"]
+    # To the steps at which a slice begins and ends its path.
+    assert found == pytest.approx(1.0 + 0.02 * (inner_face(pair)[1] - 0.5 * end_depth(pair)), rel=5e-3)
 
-    def line_load(xi, z):
-        position = pair.pinion.base_radius * np.vectorize(lambda at: coast_roll_angles(pair, at)[0])(xi)
-        return 100.0 * (1.0 + 0.3 * (position - pair.pitch_point)) * (1.0 + 0.02 * z)
 
-    result = run_of(pair, line_load, reach=pair.base_pitch)
-    result = result.rename(line_load="coast_line_load", pair_normal_force="pair_coast_normal_force").assign(
-        line_load=0.0 * result["line_load"], coast_normal_force=result["normal_force"], normal_force=0.0 * result["normal_force"]
-    )
-    z = result["face_position"].values
-    found = at_pitch_cylinder(result, pair, "coast_")
-    assert len(found) >= 1
-    assert found == pytest.approx(np.broadcast_to(100.0 * (1.0 + 0.02 * z), found.shape), rel=1e-9)
-    largest = (1.0 + 0.02 * z).max()
-    assert load_factors(result, pair)["face_load_factor_at_pitch_cylinder"] == pytest.approx(largest, rel=1e-9)
+@pytest.mark.parametrize("side", ["", "coast_"])
+def test_even_line_load_of_a_helical_pair(helical, side):
+    """Identity: one line load along all lines of contact is largest when these are shortest, and is then what the factors compare with (but for the slices, steps of
+    the lines' lengths)."""
+    result = of_one_force(run_of(helical, lambda xi, z: 100.0 + 0.0 * xi * z, slices=400))
+    factors = load_factors(on_coast_flanks(result) if side else result, helical)
+    assert factors["transverse_load_factor"] == pytest.approx(1.0, abs=3e-3)
+    for name in ("largest_line_load_factor", "edge_line_load_factor"):
+        assert factors[name] == pytest.approx(1.0, abs=1e-2), name
+
+
+@pytest.mark.parametrize("end", ["start", "end"])
+@pytest.mark.parametrize("side", ["", "coast_"])
+def test_edges_have_a_factor_of_their_own(helical, end, side):
+    """By definition: a line load three times as large where a line of contact ends on the flank, no further than the depth of the end zones along the face, is of
+    an edge; twice as far it is not. Coast flanks have their path where drive flanks, seen in the mirror of the line of centres, have theirs."""
+    def line_load(within: float):
+        near = within * end_depth(helical) * abs(helical.slope)
+        beside = (lambda xi: xi < helical.path_start + near) if end == "start" else (lambda xi: xi > helical.path_end - near)
+        return lambda xi, z: np.where(beside(on_path(xi)), 300.0, 100.0) + 0.0 * z
+
+    def on_path(xi):
+        """Where contact that stands at xi on the drive flanks' line stands on the own line of those that carry."""
+        return helical.pinion.base_radius * coast_roll_angles(helical, xi)[0] if side else xi
+
+    def factors(within: float):
+        result = of_one_force(run_of(helical, line_load(within), slices=40, reach=helical.base_pitch if side else 0.0))
+        return load_factors(on_coast_flanks(result) if side else result, helical)
+
+    near, far = factors(0.9), factors(2.0)
+    # To the change of the lines' lengths between the times of the one and of the other.
+    assert near["edge_line_load_factor"] == pytest.approx(3.0 * near["largest_line_load_factor"], rel=0.15)
+    assert far["edge_line_load_factor"] == pytest.approx(far["largest_line_load_factor"], rel=0.15)
+
+
+def test_unequal_slices_have_their_own_ends(spur):
+    """By definition: ends are those that the slices were made from; a result without widths has slices of one width."""
+    ends = np.array([0.0, 0.02, 0.05, 0.2, 0.5, 0.9, 1.0])
+    result = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z, list(ends))
+    assert slice_ends(result) == pytest.approx(spur.face_width * (ends - 0.5), abs=1e-12)
+    alike = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z).drop_vars("face_slice_width")
+    assert slice_ends(alike) == pytest.approx(spur.face_width * np.linspace(-0.5, 0.5, SLICES + 1), abs=1e-12)
 
 
 def test_lengths_of_contact_lines(helical):
@@ -98,14 +162,9 @@ def test_lengths_of_contact_lines(helical):
     phases = np.linspace(0.0, helical.base_pitch, 10_000, endpoint=False)
     all_lines = contact_line_lengths(helical, phases[:, None] + helical.base_pitch * np.arange(-5, 9)).sum(axis=1)
     assert all_lines.mean() == pytest.approx(helical.contact_ratio * helical.face_width, rel=1e-6)
+    assert shortest_lines(helical) == pytest.approx(all_lines.min(), rel=1e-4) and shortest_lines(helical) <= all_lines.min() + 1e-6
     brute = (contact_line_lengths(helical, phases[:, None] + helical.base_pitch * np.arange(-5, 9)).max(axis=1) / all_lines).max()
     assert largest_even_share(helical) == pytest.approx(brute, rel=1e-4) and largest_even_share(helical) >= brute - 1e-12
-
-
-def test_even_line_load_of_a_helical_pair(helical):
-    """Identity: pairs that share by the lengths of their lines of contact have a transverse load factor of 1 (but for the slices, steps of those lengths)."""
-    result = run_of(helical, lambda xi, z: 100.0 + 0.0 * xi * z, slices=400)
-    assert load_factors(result, helical)["transverse_load_factor"] == pytest.approx(1.0, abs=3e-3)
 
 
 def test_nothing_of_flanks_without_load(spur):

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from tests.helical import wide_pair
 
-from fenics_gears.model.face_resolution import face_discretisation
+from fenics_gears.model.face_resolution import face_discretisation, face_warnings
 from fenics_gears.model.model import model_of
 from fenics_gears.studies.accuracy import report as reports
-from fenics_gears.studies.accuracy.measures import CURVE, SPAN
+from fenics_gears.studies.accuracy.measures import CURVE, DEFECT, FACE_LOAD, LARGEST_LOAD, LINE_LOAD, SPAN, distances, judged
 from fenics_gears.studies.accuracy.over_face import LAYERS, PLANE, SLICES, in_the_plane
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS, fine, refinements
 from fenics_gears.studies.accuracy.setting import own_setting
@@ -78,4 +78,16 @@ def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch)
     assert found[trial_runs.SLICES] == pytest.approx(SAFETY_OF_SLICES * slice_error / 14**2, rel=0.05)
     assert set(seen) == {Sizes(2.0, 40, 14), Sizes(2.0, 40, 7), Sizes(4.0, 40, 7)}
     setting = runs.setting(Sizes(2.0, 40, 14))
-    assert setting.slices == 14 and setting.layers == -(-own_setting(scene).layers // 2) and setting.body == 2.0
+    # Layers go with the slices, as the defaults have them: as many slices to a layer.
+    own = own_setting(scene)
+    assert setting.slices == 14 and setting.layers == -(-own.layers * 14 // own.slices) and setting.body == 2.0
+    assert not face_warnings(model_of(runs.setting(Sizes(0.5, 40, 90)).of(scene)))
+
+
+def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them():
+    """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the face."""
+    one = {CURVE: np.ones(4), SPAN: np.ones(1), DEFECT: np.zeros(1), LINE_LOAD: np.full(3, 100.0), FACE_LOAD: np.array([1.2]), LARGEST_LOAD: np.array([1.5])}
+    other = one | {LINE_LOAD: np.array([100.0, 100.0, 103.0]), FACE_LOAD: np.array([1.206]), LARGEST_LOAD: np.array([1.53])}
+    errors = distances(other, one)
+    assert errors[FACE_LOAD] == pytest.approx(0.005) and errors[LINE_LOAD] == pytest.approx(0.03 / np.sqrt(3.0)) and judged(errors) == pytest.approx(0.02)
+    assert judged(distances({CURVE: one[CURVE], SPAN: np.array([1.001]), DEFECT: np.zeros(1)}, one)) == pytest.approx(0.001)

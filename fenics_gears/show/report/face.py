@@ -8,6 +8,14 @@ from fenics_gears.show.report.page import Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
 
 HEADING = "Contact over the face"
+# The load factors along the face, by their attributes.
+FACTORS = {
+    "face_load_factor": "Face load factor {:.3f}: averaged over the mesh cycle, the most loaded place of the face, away from its ends, carries so many times the mean. This stands beside ISO's K_Hβ.",
+    "largest_line_load_factor": "Largest line load {:.3f}: at the worst moment, away from edges, a tooth carries so many times what the mesh force makes if it spreads evenly along the lines of contact of rigid gears when "
+    "these are shortest.",
+    "edge_line_load_factor": "At edges {:.3f}: the same at the ends of the face, and where a line of contact ends at a tip or form circle. It depends on the slices, and is a reason for chamfers, crowning or relief, not for a "
+    "rating.",
+}
 
 
 def face(run: Run) -> Section:
@@ -15,4 +23,5 @@ def face(run: Run) -> Section:
     if not run.has_curves:
         return Section("face", HEADING, [Words(TOO_FEW, warns=True)])
     charts = [*contact_patterns(run), *line_loads(run)]
-    return Section("face", HEADING, charts or [Words("There are none: the run has stored no contact fields (`[output] contact_fields`), or no flank is loaded.")])
+    said = [Words(sentence.format(run.dataset.attrs[name])) for name, sentence in FACTORS.items() if name in run.dataset.attrs]
+    return Section("face", HEADING, [*charts, *said] or [Words("There are none: the run has stored no contact fields (`[output] contact_fields`), or no flank is loaded.")])

@@ -65,8 +65,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
         overlap = f"{run.pair.total_contact_ratio:.3f} with overlap ratio {run.pair.overlap_ratio:.3f}" if run.pair.overlap_ratio else ""
         yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}", "", overlap)
     if "face_load_factor" in attributes:
-        name = "face_load_factor_at_pitch_cylinder"
-        yield Tile("Face load factor", f"{attributes['face_load_factor']:.3f}", "", f"{attributes[name]:.3f} along the pitch cylinder" if name in attributes else "")
+        yield Tile("Face load factor", f"{attributes['face_load_factor']:.3f}", "", "of the line load averaged over the mesh cycle")
     if attributes.get("contact_loss_count"):
         share = 100.0 * attributes["contact_loss_share"]
         wheel_drives = run.scene is not None and run.scene.load.wheel_torque < 0.0
@@ -82,7 +81,7 @@ def _where(attributes) -> str:
     if "peak_contact_pressure_diameter" not in attributes:
         return "over five contact nodes"
     at = f"at diameter {attributes['peak_contact_pressure_diameter']:.4g} mm of the pinion"
-    return at + ("; more at tips' edges, see the warnings" if "peak_edge_pressure" in attributes else "")
+    return at + (f"; {digits(attributes['peak_edge_pressure'])} MPa at edges" if "peak_edge_pressure" in attributes else "")
 
 
 def _rows(run: Run) -> list[tuple[str, object, str]]:

@@ -15,7 +15,7 @@ from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accu
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import LAST_TERMS, Limit, last_of, richardson, together
-from fenics_gears.studies.accuracy.measures import DEFECT, MEASURES, Answer, answer, comparable, distance, distances, judged
+from fenics_gears.studies.accuracy.measures import DEFECT, Answer, answer, comparable, distance, distances, judged, measures_of
 from fenics_gears.studies.accuracy.over_face import PLANE, in_the_plane
 from fenics_gears.studies.accuracy.refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, checked_model, fine, refinements
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
@@ -164,7 +164,8 @@ class AccuracyStudy:
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
-        base, value, uncertainty = self._known[self.base][0], {}, dict.fromkeys(MEASURES, float("nan"))
+        base, value = self._known[self.base][0], {}
+        uncertainty = dict.fromkeys(measures_of(base), float("nan"))
         moved = [(each.limits, self._known[each.refinement.base][0]) for each in results if each.refinement.name not in (*OF_FAMILY, CONDENSATION)]
         for name in base:
             limit = together(base[name], [(limits[name], own_base[name]) for limits, own_base in moved], name)
@@ -251,7 +252,7 @@ class AccuracyStudy:
         ran = [(level, *self._known[level.setting]) for level in refinement.levels if level.setting in self._known]
         regular = [(level, found) for level, found, _ in ran if not level.own or refinement.name == LENGTH]
         limits = {name: _limit(refinement, regular, base, name) for name in base}
-        levels = tuple(LevelResult(level, {name: _error(found, limits, name) for name in MEASURES}, times) for level, found, times in ran)
+        levels = tuple(LevelResult(level, {name: _error(found, limits, name) for name in measures_of(base)}, times) for level, found, times in ran)
         return RefinementResult(refinement, levels, limits)
 
 

@@ -6,7 +6,7 @@ from math import isnan
 from pathlib import Path
 
 from fenics_gears.studies.accuracy.convergence import largest_part
-from fenics_gears.studies.accuracy.measures import MEASURES, judged
+from fenics_gears.studies.accuracy.measures import OVER_FACE, judged, measures_of
 from fenics_gears.studies.accuracy.refinement import CONDENSATION
 from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
 from fenics_gears.studies.accuracy.runs import STAGES, Times
@@ -14,13 +14,27 @@ from fenics_gears.studies.machine import write_lines
 
 # Measures whose observed orders are shown.
 ORDERED = ("T_E", "T_EPP", "root stress")
-HEADINGS = ("setting", "value", *MEASURES, "time", "order T_E", *ORDERED[1:], "expected")
-UNITS = ("", "", *["%"] * len(MEASURES), "s", *[""] * len(ORDERED), "")
-WHOLE_HEADINGS = ("settings", "total error", *MEASURES, "meshing", "condensing", "time stepping", "time", "what limits it")
-WHOLE_UNITS = ("", "%", *["%"] * len(MEASURES), "s", "s", "s", "s", "")
 TARGETS = (0.01, 0.001)
 # An order further than this from the expected one gets a remark; a setting whose errors are all below this, relative, has no influence.
 ORDER_OFF, NO_INFLUENCE = 0.5, 1e-6
+
+
+def headings(report: AccuracyReport) -> list[tuple[str, ...]]:
+    """Headings and units above `table_rows`."""
+    names = measures_of(report.uncertainty)
+    return [("setting", "value", *names, "time", "order T_E", *ORDERED[1:], "expected"), ("", "", *["%"] * len(names), "s", *[""] * len(ORDERED), "")]
+
+
+def whole_headings(report: AccuracyReport) -> list[tuple[str, ...]]:
+    """Headings and units above `whole_rows`."""
+    names = measures_of(report.uncertainty)
+    stages = "meshing", "condensing", "time stepping", "time"
+    return [("settings", "total error", *names, *stages, "what limits it"), ("", "%", *["%"] * len(names), *["s"] * len(stages), "")]
+
+
+def judged_by(report: AccuracyReport) -> str:
+    """What total errors are of, in words."""
+    return "T_E, T_EPP and line loads" if any(name in OVER_FACE for name in report.uncertainty) else "T_E and T_EPP"
 
 
 def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
@@ -31,7 +45,7 @@ def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
             orders = _orders(result) if place == 0 else ("",) * (len(ORDERED) + 1)
             label = each.level.label + (f" ({each.level.own})" if each.level.own else "")
             rows.append((
-                result.refinement.name if place == 0 else "", label, *(percent(each.errors[name]) for name in MEASURES), seconds(each.times.total), *orders,
+                result.refinement.name if place == 0 else "", label, *(percent(each.errors[name]) for name in measures_of(report.uncertainty)), seconds(each.times.total), *orders,
             ))  # fmt: skip
     return rows
 
@@ -44,7 +58,7 @@ def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
         name = each.name + (" *" if each in front else "")
         times = (seconds(each.times.median(stage)) for stage in STAGES)
         rows.append((
-            name, percent(each.total_error), *(percent(each.errors[measure]) for measure in MEASURES), *times, seconds(each.times.total), limits_it(each),
+            name, percent(each.total_error), *(percent(each.errors[measure]) for measure in measures_of(report.uncertainty)), *times, seconds(each.times.total), limits_it(each),
         ))  # fmt: skip
     return rows
 
@@ -92,7 +106,7 @@ def in_one_sentence(report: AccuracyReport) -> str:
 
 
 def _cost(report: AccuracyReport, target: float) -> str:
-    words = f"{100 * target:g} % in T_E and T_EPP"
+    words = f"{100 * target:g} % in {judged_by(report)}"
     reached = [each for each in report.front if each.total_error <= target]
     if reached:
         return f"{words} costs {seconds(reached[0].times.total)} s ({reached[0].name})"
@@ -107,7 +121,7 @@ def _best(report: AccuracyReport) -> str:
 def remarks(report: AccuracyReport) -> list[str]:
     """Remarks on how to read the numbers."""
     found = [
-        f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in T_E and T_EPP; smaller errors cannot be assessed",
+        f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in {judged_by(report)}; smaller errors cannot be assessed",
         "the error of a single setting is measured with all others fine; the total error is the sum of these errors, flank elements and contact nodes taken "
         "together, or the difference from the reference where that is larger",
     ]
@@ -170,7 +184,7 @@ def _whole_lines(report: AccuracyReport):
 
 
 def _errors(errors: dict[str, float]) -> dict[str, float]:
-    return {f"error_{name.replace(' ', '_')}": errors[name] for name in MEASURES} | {"judged_error": judged(errors)}
+    return {f"error_{name.replace(' ', '_')}": errors[name] for name in measures_of(errors)} | {"judged_error": judged(errors)}
 
 
 def _times(times: Times) -> dict[str, float]:

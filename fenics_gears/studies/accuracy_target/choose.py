@@ -51,7 +51,7 @@ class Chosen:
 
 
 def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
-    """The cheapest settings that reach a relative error in T_E (L2, mean removed) and in T_EPP.
+    """The cheapest settings that reach a relative error in T_E (L2, mean removed) and in T_EPP, over the face also in line load and load factors.
 
     Raises TargetNotReached where none does within the limits; ComputationError where a run fails.
     """
@@ -172,7 +172,7 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
 def _beside(mesh: float, tried: Sizes, errors: Errors, left: float) -> Iterator[Sizes]:
     """Sizes with a mesh and as many slices and steps as what is `left` of the error for them asks for, from the fewest slices on."""
     slicings = [tried.slices * RATIO_OF_SLICES**place for place in range(SLICINGS)] if tried.slices else [0.0]
-    for slices in map(ceil, slicings):
+    for slices in map(even, slicings):
         for_steps = left - (errors.get(SLICES, 0.0) * (tried.slices / slices) ** 2 if slices else 0.0)
         if for_steps > 0.0:
             yield Sizes(mesh, round_steps(tried.steps * max(1.0, sqrt(errors.get(STEPS, 0.0) / for_steps))), slices)

@@ -1,7 +1,7 @@
 """The trial runs from which the errors of settings are estimated: three that are coarse in different ways.
 
 Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together from their defaults, and the
-number of steps. Over a face there is a third, the number of slices; layers go with the mesh. All errors fall with the square of the size, so that a run
+number of steps. Over a face there is a third, the number of slices; layers of the bodies go with these, since a layer tells but a few slices apart. All errors fall with the square of the size, so that a run
 with twice the size differs by three times the error.
 """
 
@@ -18,7 +18,7 @@ from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.schema import MOST_CONTACT_NODES
-from fenics_gears.studies.accuracy.measures import JUDGED, Answer, distance, judged_answer
+from fenics_gears.studies.accuracy.measures import Answer, distance, judged_answer
 from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.work import Ticking
@@ -26,7 +26,7 @@ from fenics_gears.studies.work import Ticking
 # Fewest steps in a mesh cycle, and the most that are taken for the sake of vibrations: if these are still faster, the motion follows the static one.
 FEWEST_STEPS, MOST_STEPS = 40, 1280
 MESH, STEPS, SLICES = "finite elements and contact nodes", "steps per mesh cycle", "slices"
-FEWEST_LAYERS = 2
+FEWEST_LAYERS, ROUNDING = 2, 1e-9
 COARSER = 2
 # Errors are taken to be so many times what order 2 makes of the difference: at coarse sizes it falls more slowly, and signs of its parts differ.
 SAFETY = 2.5
@@ -75,7 +75,8 @@ class TrialRuns:
         found = replace(default, flank=sizes.mesh * default.flank, spacing=sizes.mesh * default.spacing, body=sizes.mesh, steps=sizes.steps)
         if not self.slices:
             return found
-        return replace(found, slices=sizes.slices or self.slices, layers=max(ceil(default.layers / sizes.mesh), FEWEST_LAYERS))
+        slices = sizes.slices or self.slices
+        return replace(found, slices=slices, layers=max(ceil(default.layers * slices / default.slices - ROUNDING), FEWEST_LAYERS))
 
     @property
     def slices(self) -> int:
@@ -132,7 +133,7 @@ class TrialRuns:
     def _error(self, sizes: Sizes, coarser: Sizes, safety: float = SAFETY) -> float:
         """Error of `sizes`, from the difference to a run that is coarser in one of them."""
         one, other = self._answer(sizes), self._answer(coarser)
-        return safety / (COARSER**2 - 1.0) * max(distance(other, one, measure) for measure in JUDGED)
+        return safety / (COARSER**2 - 1.0) * max(distance(other, one, measure) for measure in one)
 
     def _answer(self, sizes: Sizes) -> Answer:
         setting = self.setting(sizes)

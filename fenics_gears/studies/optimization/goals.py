@@ -9,7 +9,7 @@ from fenics_gears.studies.combine import NUMBERS
 
 ERROR = "peak_to_peak_transmission_error"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
-OVER_FACE = ("face_load_factor", "face_load_factor_at_pitch_cylinder", "transverse_load_factor")
+OVER_FACE = ("face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor")
 NAMES = (
     ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure",
     *ROOT, "friction_loss", *OVER_FACE,
