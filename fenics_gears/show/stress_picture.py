@@ -308,7 +308,8 @@ def heading(figure: Figure, mesh: GearsInMesh | GearsInSpace, dataset: xr.Datase
     complete = bool(dataset.attrs.get("complete", 1))
     scene = scene_of(dataset)
     figure.text(0.015, 0.955, f"Stress in the gears: {title}", fontsize=18, color=DARK if complete else WARNING, parse_math=False)
-    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start), time {_time(mesh.time)}"
+    timed = f", time {_time(mesh.time)}" if scene is None or scene.motion.speed_given else ""
+    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}"
     words = f"{conditions(scene)}  ·  {said}" if scene is not None else said
     figure.text(0.015, 0.917, words if complete else f"{words}  ·  INCOMPLETE RUN", fontsize=13, color=DARK if complete else WARNING, parse_math=False)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
-from fenics_gears.show.report.page import Block, Picture, Section, Table, Words
+from fenics_gears.show.report.page import Block, Fold, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.studies.effect_lattice.subsets import ALL
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS, MICRO, MILLI, in_percent
@@ -26,11 +26,11 @@ def effects(run: Run) -> Section:
     if run.scene is None:
         return Section("effects", "Effects", [Words(NO_SCENE, warns=True)])
     states = effect_states(run.scene)
-    on = [(f"[{state.effect.written}]", state.words, state.adds) for state in states if state.on]
+    on = [(f"[{state.effect.written}]", state.words) for state in states if state.on]
     off = [(f"[{state.effect.written}]", state.words) for state in states if not state.on]
     tables = [
-        Table(("Section", "The model has", "which adds"), on, "● On", numbers=9),
-        Table(("Section", "In its place the model has"), off, "○ Off", numbers=9),
+        Table(("Section", "The model has"), on, "On", numbers=9),
+        Fold(f"Off: {len(off)}", [Table(("Section", "In its place the model has"), off, numbers=9)]),
     ]  # fmt: skip
     return Section("effects", "Effects on and off", [*tables, *_measured(run)])
 
