@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 
 from fenics_gears.contact.pressure import read_off
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import Chart, Curve, Field
 from fenics_gears.show.panels import DARK, GREY
@@ -36,13 +38,12 @@ def contact_patterns(run: Run) -> list[Chart]:
     # Edges press with several times as much.
     limit = min(colour_limit(found, float(found.max())), ABOVE_PEAK * run.dataset.attrs.get("peak_contact_pressure", np.inf) or np.inf)
     beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
-    both = (rolls, _rolls_on_wheel(run, side, rolls))
+    both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
     return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
 
 
-def _rolls_on_wheel(run: Run, side: str, rolls: np.ndarray) -> np.ndarray:
+def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarray) -> np.ndarray:
     """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the point of contact, on the other side."""
-    pair, part = run.pair, run.last_fields
     numbers = part["contact_pair_number"]
     since = part["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
     xi = pair.path_start + since[..., None, None] * pair.base_pitch + (pair.slope * part["face_position"].values)[:, None]
@@ -55,7 +56,7 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     pair, name = run.pair, GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
-    field = pattern(pressure, rolls, run.last_fields["contact_pair_number"].values, ends, data.radius, slice_ends(run), limit)
+    field = pattern(pressure, rolls, run.last_fields["contact_pair_number"].values, ends, data.radius, slice_ends(run.dataset, run.pair), limit)
     pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
     active = 2.0 * data.radius((contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear])
     face = np.array(pair.common_face)
@@ -68,10 +69,10 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     )  # fmt: skip
 
 
-def slice_ends(run: Run) -> np.ndarray:
+def slice_ends(result: xr.Dataset, pair: GearPair) -> np.ndarray:
     """Ends (S + 1,), mm, of the slices."""
-    z = run.dataset["face_position"].values
-    low, high = run.pair.common_face
+    z = result["face_position"].values
+    low, high = pair.common_face
     return np.concatenate([[low], 0.5 * (z[1:] + z[:-1]), [high]])
 
 

@@ -26,7 +26,7 @@ def line_loads(run: Run) -> list[Chart]:
     loads, phase = in_unit(part[name].transpose("contact_time", "slot", "face_position"), "N/mm"), part["contact_mesh_phase"].values
     if not loads.any():
         return []
-    slices, z = slice_ends(run), part["face_position"].values
+    slices, z = slice_ends(run.dataset, run.pair), part["face_position"].values
     return [_of_mesh(side, loads, phase, slices), _of_pair(run, side, loads, phase, slices), _over_face(run, side, loads, z)]
 
 
