@@ -30,7 +30,8 @@ class Web:
 class GearData:
     """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's.
 
-    `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
+    `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad. `nominal_profile_shift`: that of the
+    drawing, None where the thickness has it.
     """
 
     teeth: int
@@ -45,6 +46,7 @@ class GearData:
     protuberance: float = 0.0
     protuberance_angle: float = 0.0
     web: Web | None = None
+    nominal_profile_shift: float | None = None
 
 
 @dataclass(frozen=True)

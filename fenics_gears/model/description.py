@@ -118,7 +118,7 @@ def _speed_rows(model: Model) -> Rows:
     pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
     when = "" if model.scene.speed_ramp is None else ", at the ramp's highest speed"
     return [
-        ("nominal speeds", f"{60.0 * turns:.6g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.6g} rpm wheel", when.lstrip(", ")),
+        ("nominal speeds", f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.5g} rpm wheel", when.lstrip(", ")),
         ("pitch line velocity", float(pitch), "m/s" + when),
         ("sliding speed", f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end", when.lstrip(", ")),
     ]

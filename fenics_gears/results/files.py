@@ -11,6 +11,7 @@ import xarray as xr
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.old_layout import upgraded
+from fenics_gears.system.copied_process import survives
 from fenics_gears.system.sealed import seal_of, unsealed
 
 
@@ -80,7 +81,27 @@ def load(path: str | Path) -> xr.Dataset:
     result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
-    return upgraded(result)
+    # The contents' layout, imported here: writing a result does not need it.
+    from fenics_gears.results.layout import mistake_in
+
+    result = upgraded(result)
+    if mistake := mistake_in(result):
+        raise ComputationError(f"{path}: is no whole result of this program: {mistake}. Run its scene again.")
+    return result
+
+
+def check_readable(path: str | Path) -> None:
+    """Raise ComputationError where HDF5 would end this process at a file: where it is damaged below a seal that was made anew."""
+    import h5py
+
+    from fenics_gears.results.netcdf import variables_in
+
+    def all_but_values() -> None:
+        with h5py.File(path) as file:
+            list(variables_in(file))
+
+    if not survives(all_but_values):
+        raise ComputationError(f"{path}: cannot be read as a result: it is damaged, although its digest fits. Run its scene again.")
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -90,5 +111,6 @@ def read(path: str | Path) -> xr.Dataset:
     try:
         with unsealed(Path(path)) as content:
             return read_netcdf(content)
-    except (OSError, ValueError) as failure:
+    # HDF5 and xarray raise whatever they meet in a damaged file: RuntimeError, KeyError, AttributeError, TypeError.
+    except Exception as failure:
         raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure

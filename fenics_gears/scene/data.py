@@ -26,9 +26,10 @@ from fenics_gears.geometry.relief_data import RootRelief, TipRelief
 
 @dataclass(frozen=True)
 class Load:
-    """Torque on the wheel's shaft, N mm; positive when it resists the drive."""
+    """Torque on the wheel's shaft, N mm; positive when it resists the drive. `given`: the field by which the scene has it, in whose words a run is titled."""
 
     wheel_torque: float
+    given: str = "wheel_torque"
 
 
 @dataclass(frozen=True)

@@ -83,7 +83,7 @@ def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[
     torque = wheel_torque(name, float(getattr(load, name)), (gears.pinion.teeth, gears.wheel.teeth), motion.mesh_frequency)
     assert torque is not None, "a load by power has a speed"
     why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
-    return Load(torque), [] if name == "wheel_torque" else [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])]
+    return Load(torque, name), [] if name == "wheel_torque" else [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])]
 
 
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:
@@ -214,8 +214,9 @@ def _gear_data(pair: Gears, drawn: GearText, name: str, shift: float, cut: float
         found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
     # Bare numbers leave their spelling behind.
     data = GearData(
-        drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius), tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle
-    )
+        drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius), tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle,
+        nominal_profile_shift=None if shift == cut else float(shift),
+    )  # fmt: skip
     _check_measure(drawn, name, _gear(pair, data))
     return data
 

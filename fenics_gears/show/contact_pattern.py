@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears.contact.pressure import read_off
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
 from fenics_gears.results.face_ends import slice_ends
 from fenics_gears.results.pairs import carrying_side
@@ -14,7 +15,7 @@ from fenics_gears.show.run import Run
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
 ROWS = 200
-NOTE = "The pressure of single contact nodes; between steps it moves along with the contact."
+NOTE = "Averaged over five contact nodes; between steps the peak is interpolated along the flank."
 # The colours end at this part of the largest pressure off the edges, in which single nodes scatter.
 ABOVE_PEAK = 1.1
 GEARS = ("pinion", "wheel")
@@ -28,6 +29,7 @@ def contact_patterns(run: Run) -> list[Chart]:
     order = ("contact_time", "slot", "face_position", "contact_node")
     part = run.last_fields
     pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
+    pressure = read_off(pressure, rolls)
     touched = (pressure > 0.0) & np.isfinite(rolls)
     if not touched.any():
         return []
@@ -35,13 +37,12 @@ def contact_patterns(run: Run) -> list[Chart]:
     # Edges press with several times as much.
     limit = min(colour_limit(found, float(found.max())), ABOVE_PEAK * run.dataset.attrs.get("peak_contact_pressure", np.inf) or np.inf)
     beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
-    both = (rolls, _rolls_on_wheel(run, side, rolls))
+    both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
     return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
 
 
-def _rolls_on_wheel(run: Run, side: str, rolls: np.ndarray) -> np.ndarray:
+def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarray) -> np.ndarray:
     """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the point of contact, on the other side."""
-    pair, part = run.pair, run.last_fields
     numbers = part["contact_pair_number"]
     since = part["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
     xi = pair.path_start + since[..., None, None] * pair.base_pitch + (pair.slope * part["face_position"].values)[:, None]
@@ -54,7 +55,7 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     pair, name = run.pair, GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
-    field = pattern(pressure, *_swept(run, data, rolls, ends), ends, data.radius, slice_ends(run.dataset), limit)
+    field = pattern(pressure, rolls, run.last_fields["contact_pair_number"].values, ends, data.radius, slice_ends(run.dataset), limit)
     pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
     active = 2.0 * data.radius((contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear])
     face = np.array(pair.common_face)
@@ -67,27 +68,30 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     )  # fmt: skip
 
 
-def _swept(run: Run, gear, rolls: np.ndarray, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Roll angles between which each node's pressure acts: half-way to its neighbours, and half a step along the flank as the gears turn."""
-    phase = run.last_fields["contact_mesh_phase"].values
-    half = 0.5 * float(np.diff(phase).min()) * run.pair.base_pitch / gear.base_radius
-    low, high = node_edges(rolls)
-    return np.clip(low - half, *ends), np.clip(high + half, *ends)
+def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices: np.ndarray, limit: float) -> Field:
+    """The largest pressure (MPa) in cells of slices and diameter, of pressures and roll angles (step, slot, slice, node) of pairs with numbers (step, slot).
 
-
-def pattern(pressure, low, high, ends: tuple[float, float], radius, slices: np.ndarray, limit: float) -> Field:
-    """The largest pressure (MPa) in cells of slices and diameter, of pressures (step, slot, slice, node) that act between roll angles `low` and `high`.
-
-    ends: roll angles between which the cells lie; radius: mm, of a roll angle; slices: their ends (S + 1,), mm.
+    Nodes reach half-way to their neighbours; the peak of a pair in a slice goes straight from step to step. ends: roll angles between which the cells lie;
+    radius: mm, of a roll angle; slices: their ends (S + 1,), mm.
     """
     diameters = np.linspace(2.0 * radius(ends[0]), 2.0 * radius(ends[1]), ROWS + 1)
-    pressed = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
-    first, last = (np.searchsorted(diameters, 2.0 * radius(each[pressed])) - 1 for each in (low, high))
-    column = np.nonzero(pressed)[2]
     values = np.full((ROWS, len(slices) - 1), -np.inf)
-    first = np.clip(first, 0, ROWS - 1)
-    count = np.maximum(np.clip(last, 0, ROWS - 1) - first + 1, 1)
-    each = np.repeat(np.arange(len(first)), count)
-    row = first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
-    np.maximum.at(values, (row, column[each]), pressure[pressed][each])
+
+    def fill(begin, end, first, last, column) -> None:
+        """Pressures from `begin` to `end` (n,) into the cells between diameters `first` and `last` of columns (n,)."""
+        low, high = (np.clip(np.searchsorted(diameters, each) - 1, 0, ROWS - 1) for each in (np.minimum(first, last), np.maximum(first, last)))
+        count = high - low + 1
+        each = np.repeat(np.arange(len(count)), count)
+        row = low[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+        way = np.where(first == last, 1.0, last - first)[each]
+        part = np.clip((0.5 * (diameters[row] + diameters[row + 1]) - first[each]) / way, 0.0, 1.0)
+        np.maximum.at(values, (row, column[each]), (1.0 - part) * begin[each] + part * end[each])
+
+    edges = [2.0 * radius(np.clip(edge, *ends)) for edge in node_edges(rolls)]
+    pressed = (pressure > 0.0) & np.isfinite(edges[0]) & np.isfinite(edges[1])
+    fill(pressure[pressed], pressure[pressed], edges[0][pressed], edges[1][pressed], np.nonzero(pressed)[2])
+    node = np.where(pressed, pressure, 0.0).argmax(axis=-1)[..., None]
+    peak, place = (np.take_along_axis(each, node, -1)[..., 0] for each in (pressure, 2.0 * radius(np.clip(rolls, *ends))))
+    goes_on = (peak[1:] > 0.0) & (peak[:-1] > 0.0) & (numbers[1:] == numbers[:-1])[..., None] & np.isfinite(place[1:] + place[:-1])
+    fill(peak[:-1][goes_on], peak[1:][goes_on], place[:-1][goes_on], place[1:][goes_on], np.nonzero(goes_on)[2])
     return Field(slices, diameters, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)

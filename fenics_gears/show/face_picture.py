@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 import xarray as xr
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
@@ -15,18 +16,22 @@ from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import MARKED_LINES, Chart, Curve
 from fenics_gears.show.contact_pattern import ACROSS
 from fenics_gears.show.face_grid import surface
+from fenics_gears.show.flank_pressure import PressedTiles, pressed_tiles
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
+from fenics_gears.show.pressure import COLOURS as PRESSURE_COLOURS
 from fenics_gears.show.stress_picture import COLOURS, colour_bar, heading, rounded_up
-from fenics_gears.simulation.face_stresses import GearsInSpace
+from fenics_gears.simulation.face_stresses import GearsInSpace, TeethInSpace
 from fenics_gears.system.virtual_display import ensure_display
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
 LIGHT = {"ambient": 0.55, "diffuse": 0.5, "specular": 0.0}
 CAPTION = (
-    "Stresses are those of the bodies' mesh. It is coarse for the contact, so that stresses in the flanks near the contact are not resolved; those in the roots are.\n"
+    "On the flanks that carry: the run's contact pressure. Elsewhere: von Mises stress of the bodies' mesh, which resolves the roots but not what lies just below the contact.\n"
     "Grey: teeth further away, whose stress was not recovered."
 )
+FLANK = "#F7F7F5"
+PRESSURES = LinearSegmentedColormap.from_list("pressure", list(PRESSURE_COLOURS))
 NAMES = ("pinion", "wheel")
 
 
@@ -50,7 +55,7 @@ def still(mesh: GearsInSpace, dataset: xr.Dataset, scale: float | None = None) -
 def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInSpace]) -> Callable[..., Figure]:
     """What draws the frames of a moving picture, with the colours that suit some of its meshes."""
     limit = max(map(colour_limit, sampled))
-    beyond = any(float(gear.von_mises.max()) > limit * (1.0 + 1e-9) for mesh in sampled for gear in mesh.gears)
+    beyond = any(float(gear.von_mises[..., ~gear.on_flank].max()) > limit * (1.0 + 1e-9) for mesh in sampled for gear in mesh.gears)
     return partial(face_picture, dataset=dataset, scale=1.0 if scale is None else scale, limit=limit, beyond=beyond)
 
 
@@ -61,15 +66,18 @@ def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float, limit: f
     limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without pyvista.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
+    tiles = [pressed_tiles(mesh, dataset, gear, scale) for gear in (0, 1)]
+    highest = rounded_up(dataset.attrs.get("peak_contact_pressure", 0.0) or float(tiles[0].pressure.max(initial=0.0)))
     for sight in sights(mesh):
         axes = figure.add_axes(sight.place, xticks=[], yticks=[])
-        axes.imshow(_rendered(mesh, sight, scale, limit), aspect="auto")
+        axes.imshow(_rendered(mesh, sight, scale, limit, tiles, highest), aspect="auto")
         axes.set_title(sight.title)
         axes.grid(False)
         for spine in axes.spines.values():
             spine.set_visible(True)
             spine.set_color("#BBBBBB")
-    colour_bar(figure, limit, beyond)
+    colour_bar(figure, limit, beyond, place=(0.08, 0.33))
+    colour_bar(figure, highest, bool((tiles[0].pressure > highest).any()), "contact pressure (MPa)", (0.49, 0.33), PRESSURES)
     heading(figure, mesh, dataset)
     _words(figure, mesh, dataset, scale)
     return figure
@@ -115,7 +123,7 @@ def _upright(pair) -> tuple[np.ndarray, np.ndarray]:
     return np.array([along[1], -along[0], 0.0]), np.append(along, 0.0)
 
 
-def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> np.ndarray:
+def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float, tiles: Sequence[PressedTiles], highest: float) -> np.ndarray:
     """The image of a panel."""
     try:
         import pyvista
@@ -131,17 +139,7 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> n
         plotter.set_background("white")
         plotter.enable_anti_aliasing("ssaa")
         for number in sight.gears:
-            gear = mesh.gears[number]
-            moved = gear.points + scale * gear.displacement
-            teeth = pyvista.PolyData.from_regular_faces(moved.reshape(-1, 3), surface(moved, gear))
-            teeth.point_data["stress"] = gear.von_mises.ravel()
-            plotter.add_mesh(teeth, scalars="stress", cmap=COLOURS, clim=(0.0, limit), show_scalar_bar=False, **LIGHT)
-            drawn = [teeth]
-            if len(gear.others):
-                drawn.append(pyvista.PolyData.from_regular_faces(gear.others.reshape(-1, 3), surface(gear.others, gear)))
-                plotter.add_mesh(drawn[-1], color=UNLOADED, **LIGHT)
-            for each in drawn:
-                plotter.add_mesh(each.clean().extract_feature_edges(40.0, boundary_edges=False, manifold_edges=False, non_manifold_edges=False), color=EDGES, line_width=1.5)
+            _add_gear(plotter, mesh.gears[number], scale, limit, tiles[number], highest)
         direction = sight.direction / np.linalg.norm(sight.direction)
         plotter.camera.parallel_projection = True
         plotter.camera.focal_point = sight.focus
@@ -152,6 +150,29 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float) -> n
         return plotter.screenshot(return_img=True)
     finally:
         plotter.close()
+
+
+def _add_gear(plotter, gear: TeethInSpace, scale: float, limit: float, tiles: PressedTiles, highest: float) -> None:
+    """One gear: stress on its recovered teeth but on their flanks that carry, there the contact pressure; the other teeth and all edges."""
+    from pyvista import PolyData
+
+    moved = gear.points + scale * gear.displacement
+    points, sides = moved.reshape(-1, 3), surface(moved, gear)
+    flank = np.tile(gear.on_flank, moved[..., 0, 0].size)[sides].all(axis=1)
+    stressed = PolyData.from_regular_faces(points, sides[~flank])
+    stressed.point_data["stress"] = gear.von_mises.ravel()
+    plotter.add_mesh(stressed, scalars="stress", cmap=COLOURS, clim=(0.0, limit), show_scalar_bar=False, **LIGHT)
+    plotter.add_mesh(PolyData.from_regular_faces(points, sides[flank]), color=FLANK, **LIGHT)
+    if len(tiles.pressure):
+        pressed = PolyData.from_regular_faces(tiles.corners.reshape(-1, 3), np.arange(4 * len(tiles.pressure)).reshape(-1, 4))
+        pressed.cell_data["pressure"] = tiles.pressure
+        plotter.add_mesh(pressed, scalars="pressure", cmap=PRESSURES, clim=(0.0, highest), show_scalar_bar=False, lighting=False)
+    drawn = [PolyData.from_regular_faces(points, sides)]
+    if len(gear.others):
+        drawn.append(PolyData.from_regular_faces(gear.others.reshape(-1, 3), surface(gear.others, gear)))
+        plotter.add_mesh(drawn[-1], color=UNLOADED, **LIGHT)
+    for each in drawn:
+        plotter.add_mesh(each.clean().extract_feature_edges(40.0, boundary_edges=False, manifold_edges=False, non_manifold_edges=False), color=EDGES, line_width=1.5)
 
 
 def _words(figure: Figure, mesh: GearsInSpace, dataset: xr.Dataset, scale: float) -> None:

@@ -19,7 +19,7 @@ from fenics_gears.results.carried_scene import carried_scene
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import Scene
-from fenics_gears.show.units import factor, in_unit
+from fenics_gears.show.units import digits, factor, in_unit
 
 NO_SCENE = "The scene in this file is none that this version of the program can read, so that this section cannot be made; run the scene again."
 TOO_FEW = "Fewer than two steps are stored; a curve needs two."
@@ -197,10 +197,18 @@ def scene_of(dataset: xr.Dataset) -> Scene | None:
 
 def conditions(scene: Scene) -> str:
     """Load, speed, friction, modifications, errors and ripple of a scene: what tells apart two pictures of the same gears."""
-    torque = scene.load.wheel_torque * factor("N mm", "N m")
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
-    return f"{torque:g} N m on the wheel, {speed}, {design(scene)}"
+    return f"{load_in_words(scene)}, {speed}, {design(scene)}"
+
+
+def load_in_words(scene: Scene) -> str:
+    """The load as the scene gives it: torque of the wheel or of the pinion, or power."""
+    torque, gears = scene.load.wheel_torque * factor("N mm", "N m"), scene.gears
+    if scene.load.given == "power":
+        return f"{digits(torque * 2.0 * np.pi * scene.motion.mesh_frequency / gears.wheel.teeth * factor('W', 'kW'))} kW"
+    on_pinion = scene.load.given == "pinion_torque"
+    return f"{digits(torque * gears.pinion.teeth / gears.wheel.teeth)} N m on the pinion" if on_pinion else f"{digits(torque)} N m on the wheel"
 
 
 def design(scene: Scene) -> str:

@@ -125,7 +125,7 @@ def stress_picture(mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limi
         _frame_in(middle, right, moved=_moved(mesh, loaded.point, scale))
         _length_bar(right)
         _numbers(figure, mesh, dataset, (0.735, 0.30))
-    colour_bar(figure, limit, beyond or exceeds(mesh, limit), ", plane strain")
+    colour_bar(figure, limit, beyond or exceeds(mesh, limit), "von Mises stress (MPa), plane strain")
     heading(figure, mesh, dataset)
     return figure
 
@@ -293,12 +293,13 @@ def exceeds(mesh: GearsInMesh, limit: float) -> bool:
     return max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
 
 
-def colour_bar(figure: Figure, limit: float, beyond: bool, state: str = "") -> None:
-    """The colours of stress up to a limit, MPa, with an arrow there where some is `beyond`."""
-    colours = ScalarMappable(Normalize(0.0, limit), COLOURS)
-    axes = figure.add_axes((0.931, 0.08, 0.013, 0.72))
-    bar = figure.colorbar(colours, cax=axes, extend="max" if beyond else "neither")
-    bar.set_label(f"von Mises stress (MPa){state}", labelpad=8.0)
+def colour_bar(
+    figure: Figure, limit: float, beyond: bool, words: str = "von Mises stress (MPa)", place: tuple[float, float] = (0.08, 0.72), colours: LinearSegmentedColormap = COLOURS
+) -> None:
+    """Colours up to a limit, MPa, with an arrow there where some is `beyond`; `place`: lower end and height in the figure."""
+    axes = figure.add_axes((0.931, place[0], 0.013, place[1]))
+    bar = figure.colorbar(ScalarMappable(Normalize(0.0, limit), colours), cax=axes, extend="max" if beyond else "neither")
+    bar.set_label(words, labelpad=8.0)
     axes.grid(False)
 
 
@@ -308,7 +309,8 @@ def heading(figure: Figure, mesh: GearsInMesh | GearsInSpace, dataset: xr.Datase
     complete = bool(dataset.attrs.get("complete", 1))
     scene = scene_of(dataset)
     figure.text(0.015, 0.955, f"Stress in the gears: {title}", fontsize=18, color=DARK if complete else WARNING, parse_math=False)
-    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start), time {_time(mesh.time)}"
+    timed = f", time {_time(mesh.time)}" if scene is None or scene.motion.speed_given else ""
+    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}"
     words = f"{conditions(scene)}  ·  {said}" if scene is not None else said
     figure.text(0.015, 0.917, words if complete else f"{words}  ·  INCOMPLETE RUN", fontsize=13, color=DARK if complete else WARNING, parse_math=False)
 

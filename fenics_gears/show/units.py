@@ -1,4 +1,4 @@
-"""A result's variable in the unit that people read it in: micrometres instead of mm, microradians instead of rad."""
+"""Numbers and units as people read them: micrometres instead of mm, microradians instead of rad, four digits."""
 
 from __future__ import annotations
 
@@ -35,3 +35,11 @@ def in_unit(variable: xr.DataArray, wanted: str) -> np.ndarray:
         return variable.values * factor(variable.attrs["units"], wanted)
     except ComputationError as error:
         raise ComputationError(f"{variable.name}: {error}") from error
+
+
+def digits(value: float) -> str:
+    """Four digits, as measurements have them; three and a power of ten where a tile is too narrow for the number."""
+    if abs(value) >= 1e6:
+        mantissa, _, exponent = f"{value:.2e}".partition("e")
+        return f"{mantissa}e{int(exponent)}"
+    return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:.4g}"

@@ -11,6 +11,8 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.face.recovery import FaceRecovery
 from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.simulation.elastic_route import gear_compliances
@@ -21,6 +23,8 @@ from fenics_gears.system.progress import SilentProgress
 
 # Sectors on either side of the loaded teeth that are recovered.
 BESIDE = 2
+# Modules; nodes on a circle are as near to it.
+ON_CIRCLE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -30,7 +34,7 @@ class TeethInSpace:
     sectors: numbers of those recovered. Nodes by sector, height and the section's node: points (s, h, n, 3), mm, without load; displacement of the same
     shape, mm, from where the hub is held; stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors. cells: (m, 6), of the section,
     triangles of second order; subcells, outline: (j, 3) triangles and (k, 2) sides of the section's boundary, of first order, without those on
-    the cuts. in_root: (n,), whether a node lies in a fillet or below.
+    the cuts. in_root, on_flank: (n,), whether a node lies in a fillet or below, and whether it is on the involute that carries.
     """
 
     sectors: tuple[int, ...]
@@ -42,6 +46,7 @@ class TeethInSpace:
     subcells: np.ndarray
     outline: np.ndarray
     in_root: np.ndarray
+    on_flank: np.ndarray
 
     @property
     def von_mises(self) -> np.ndarray:
@@ -99,6 +104,7 @@ class FaceStresses(RunStresses):
         places = np.einsum("thij,nj->thni", turns, section) + np.append(centre, 0.0) + z[:, None, None] * np.array([0.0, 0.0, 1.0])
         own = np.array(sectors) % data.teeth
         radius = np.linalg.norm(recovery.points, axis=1)
+        outline = outer_sides(recovery.body.section, recovery.body.mesh)
         return TeethInSpace(
             sectors=sectors,
             points=places[own],
@@ -107,6 +113,22 @@ class FaceStresses(RunStresses):
             others=np.delete(places, own, axis=0),
             cells=recovery.body.section.cells,
             subcells=recovery.body.section.subcells,
-            outline=outer_sides(recovery.body.section, recovery.body.mesh),
+            outline=outline,
+            on_flank=_on_flank(data, recovery.points, outline, stored.on_coast_flanks),
             in_root=(radius < data.form_radius) & (radius > 0.5 * (data.bore_radius + data.root_radius)),
         )
+
+
+def _on_flank(gear: Gear, points: np.ndarray, outline: np.ndarray, coast: bool) -> np.ndarray:
+    """Which nodes (n,) of a section at points (n, 2) lie on the involute of its drive flank, or of its coast flank."""
+    tooth = tooth_outline(gear)
+    middle = tooth.involute(np.array([0.5 * (gear.form_roll_angle + gear.tip_roll_angle)]))[0]
+
+    def ahead(places: np.ndarray) -> np.ndarray:
+        return np.sin(np.arctan2(places[..., 1], places[..., 0]) - tooth.centreline_angle)
+
+    radius, outer = np.linalg.norm(points, axis=1), np.zeros(len(points), dtype=bool)
+    outer[np.unique(outline)] = True
+    own_side = ahead(points) * ahead(middle) * (-1.0 if coast else 1.0) > 0.0
+    # The form circle and the tip's edge belong to it.
+    return outer & own_side & (radius > gear.form_radius - ON_CIRCLE * gear.module) & (radius < gear.tip_form_radius + ON_CIRCLE * gear.module)

@@ -1,7 +1,8 @@
-"""Tasks shared with a copy of this process, which has all that is imported and computed: on a second processor both take half the time."""
+"""Tasks of a copy of this process, which has all that is imported and computed: half of the work, on a second processor, or what may end a process."""
 
 from __future__ import annotations
 
+import faulthandler
 import os
 import signal
 import sys
@@ -9,6 +10,8 @@ import warnings
 from collections.abc import Callable, Sequence
 
 Task = Callable[[], object]
+# Loaded, they allow no copy.
+MPI = {"mpi4py.MPI", "petsc4py.PETSc"}
 
 
 def do_all(tasks: Sequence[Task], shared: bool) -> None:
@@ -32,10 +35,23 @@ def do_all(tasks: Sequence[Task], shared: bool) -> None:
         task()
 
 
+def survives(task: Task) -> bool:
+    """Whether a copy of this process comes through a task to its end, or to an error; taken for granted where there may be no copy."""
+
+    def in_silence() -> None:
+        # What a library that ends the process says, and Python's own handler of its signal.
+        faulthandler.disable()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+        task()
+
+    copy = None if MPI & set(sys.modules) else _copy_doing([in_silence])
+    return copy is None or not os.WIFSIGNALED(os.waitpid(copy, 0)[1])
+
+
 def _may_copy() -> bool:
     """Whether a processor is idle, without which a copy takes longer than it saves, and MPI, which allows none, is not loaded."""
     processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
-    return processors > 1 and os.getloadavg()[0] < processors - 0.5 and not {"mpi4py.MPI", "petsc4py.PETSc"} & set(sys.modules)
+    return processors > 1 and os.getloadavg()[0] < processors - 0.5 and not MPI & set(sys.modules)
 
 
 def _copy_doing(tasks: Sequence[Task]) -> int | None:

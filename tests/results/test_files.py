@@ -1,13 +1,24 @@
 """The file of a result against another program's."""
 
 import io
+import os
+import random
+import signal
+from pathlib import Path
 
 import h5py
 import numpy as np
+import pytest
 import xarray as xr
+from tests.show.synthetic import made_up_run
 
+from fenics_gears import results
+from fenics_gears.commands.shared import loaded_run
+from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.results import netcdf
 from fenics_gears.results.netcdf import read_netcdf, write_netcdf
+from fenics_gears.system.copied_process import survives
+from fenics_gears.system.sealed import seal
 
 
 def several_kinds(steps: int) -> xr.Dataset:
@@ -103,3 +114,54 @@ def _by_h5netcdf(dataset: xr.Dataset) -> io.BytesIO:
     with h5netcdf.File(content, "w") as file:
         dataset.dump_to_store(H5NetCDFStore(file))
     return io.BytesIO(content.getvalue())
+
+
+DAMAGES = {
+    "it has no pair_normal_force": lambda run: run.drop_vars("pair_normal_force"),
+    "it has no time": lambda run: run.drop_vars("time"),
+    "it has contact fields and no contact_pair_number": lambda run: run.drop_vars("contact_pair_number"),
+    "transmission_error is over (gear), not over (time)": lambda run: run.assign(transmission_error=("gear", [1.0, 2.0])),
+    "contact_pressure is over": lambda run: run.assign(contact_pressure=run["contact_pressure"].transpose("slot", ...)),
+    "normal_force holds": lambda run: run.assign(normal_force=run["normal_force"].astype(str).astype(object)),
+    "its attribute base_radius_wheel is 'fifty'": lambda run: run.assign_attrs(base_radius_wheel="fifty"),
+    "its gears are not": lambda run: run.assign_coords(gear=["wheel", "pinion"]),
+    "time does not go on": lambda run: run.isel(time=slice(None, None, -1)),
+    "not at its steps": lambda run: run.assign_coords(contact_time=run["contact_time"] + 1.0),
+    "pair_number has no whole number": lambda run: run.assign_coords(pair_number=run["pair_number"] * 1),
+    "pair_number has a tooth pair in a slot": lambda run: run.assign_coords(pair_number=run["pair_number"].copy(data=run["pair_number"].values[:, ::-1])),
+}
+
+
+@pytest.mark.parametrize("words", DAMAGES)
+def test_a_result_whose_layout_is_not_one_is_refused_by_its_first_mistake(tmp_path, words):
+    """Authority: docs/result.md's names, dimensions and types; a file with a valid digest can still lack one of them."""
+    results.save(made_up_run(), tmp_path / "run.nc")
+    assert results.load(tmp_path / "run.nc").equals(made_up_run())
+    results.save(DAMAGES[words](made_up_run()), tmp_path / "run.nc")
+    with pytest.raises(ComputationError) as refused:
+        results.load(tmp_path / "run.nc")
+    assert words in str(refused.value)
+
+
+def test_bytes_damaged_under_a_digest_made_anew_end_in_words(tmp_path):
+    """Authority: house rule on errors; HDF5 itself ends the process at one of six such files, so that a copy of this one reads them first."""
+    results.save(made_up_run(steps=400), tmp_path / "run.nc")
+    whole, refused = (tmp_path / "run.nc").read_bytes()[: -len(seal(b""))], 0
+    draw = random.Random(5)
+    for _ in range(12):
+        damaged = bytearray(whole)
+        for _ in range(16):
+            damaged[draw.randrange(len(damaged))] = draw.randrange(256)
+        (tmp_path / "run.nc").write_bytes(damaged + seal(bytes(damaged)))
+        try:
+            loaded_run(tmp_path / "run.nc")
+        except SceneError as error:
+            refused += str(error).startswith(str(tmp_path / "run.nc"))
+    assert refused > 2
+
+
+def test_a_task_that_ends_its_process_is_told_from_one_that_fails(tmp_path):
+    """Identity: a copy that a signal ends does not survive; one that raises, or does its work, does."""
+    assert not survives(lambda: os.kill(os.getpid(), signal.SIGSEGV))
+    assert survives(lambda: 1 / 0) and survives(lambda: Path(tmp_path / "done").touch())
+    assert (tmp_path / "done").exists()

@@ -9,10 +9,11 @@ from matplotlib.image import imread
 from tests.over_face import helical_run, root_stress_run
 from tests.show.synthetic import made_up_run
 
+from fenics_gears.contact.pressure import read_off
 from fenics_gears.results.files import load, save
 from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.show import FACE_PICTURE_FILES
-from fenics_gears.show.contact_pattern import contact_patterns
+from fenics_gears.show.contact_pattern import contact_patterns, pattern
 from fenics_gears.show.line_load import line_loads
 from fenics_gears.show.plots import draw_run
 from fenics_gears.show.report.rendering import rendered
@@ -37,8 +38,9 @@ def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
 
 
 def test_pattern_shows_the_largest_pressure_where_it_is(run):
-    """Authority: the result's own fields. Cells hold the largest pressure of their slice's nodes, at the diameter of the node that has it."""
+    """Authority: the result's own fields. Cells hold the largest averaged pressure of their slice's nodes, at the diameter of the node that has it."""
     pressure, rolls = (run.dataset[f"contact_{name}"].values for name in ("pressure", "roll_angle"))
+    pressure = read_off(pressure, rolls)
     field = contact_patterns(run)[0].field
     assert np.nanmax(field.values, axis=0) == pytest.approx(pressure.max(axis=(0, 1, 3)))
     for number in range(pressure.shape[2]):
@@ -46,6 +48,21 @@ def test_pattern_shows_the_largest_pressure_where_it_is(run):
         diameter = 2.0 * run.pair.pinion.radius(rolls[:, :, number].flat[own.argmax()])
         cell = np.clip(np.searchsorted(field.y, diameter) - 1, 0, len(field.y) - 2)
         assert field.values[cell, number] == pytest.approx(own.max())
+
+
+def test_between_steps_the_pattern_goes_on_as_the_peak_does():
+    """Exact: a pressure that travels along the flank with a peak rising linearly in diameter leaves that line, whatever the spacing of the steps; where two pairs follow each other
+    nothing lies between them."""
+    places = np.linspace(0.2, 0.6, 9)
+    rolls = places[:, None, None, None] + np.linspace(-0.01, 0.01, 5)
+    pressure = np.broadcast_to(1000.0 * places[:, None, None, None] * [0.0, 0.7, 1.0, 0.7, 0.0], rolls.shape)
+    field = pattern(pressure, rolls, np.ones((9, 1)), (0.0, 0.8), lambda roll: 30.0 * roll, np.array([-1.0, 1.0]), 1000.0)
+    middles = 0.5 * (field.y[1:] + field.y[:-1])
+    inside = (middles > 60.0 * 0.2) & (middles < 60.0 * 0.6)
+    # To a row of the raster, 4 MPa here.
+    assert field.values[inside, 0] == pytest.approx(1000.0 * middles[inside] / 60.0, abs=4.01)
+    apart = pattern(pressure, rolls, np.arange(9)[:, None] // 5 + 1, (0.0, 0.8), lambda roll: 30.0 * roll, np.array([-1.0, 1.0]), 1000.0)
+    assert np.isnan(apart.values[np.searchsorted(field.y, 60.0 * 0.425) - 1, 0])
 
 
 def test_wheel_has_the_pressure_of_the_pinion(run):

@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 from tests.coarse import COARSE, frictionless, teeth_alone
 from tests.over_face import helical_run
 
@@ -16,6 +17,7 @@ from fenics_gears.scene.data import Accuracy, Motion, Output
 from fenics_gears.show import stress_animation
 from fenics_gears.show.face_grid import save_vtu, surface
 from fenics_gears.show.face_picture import colour_limit, frames, root_tension, still
+from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.run_stresses import standing
@@ -66,6 +68,21 @@ def test_roots_of_the_loaded_teeth_carry(mesh):
         assert 1 <= tension.argmax() <= len(tension) - 2
         assert tension[[0, -1]].max() < 0.5 * tension.max()
     assert 0.0 < max(gear.von_mises[..., gear.in_root].max() for gear in mesh.gears) <= colour_limit(mesh)
+
+
+def test_pressure_is_painted_where_the_flanks_touch(mesh):
+    """Newton's third law and the run's own force: tiles of both gears lie on each other, on their involutes, and their pressures add up to the mesh's force."""
+    tiles = [pressed_tiles(mesh, helical_run(), gear, 0.0) for gear in (0, 1)]
+    off = STAND_OFF * mesh.pair.pinion.module
+    pinion, wheel = (each.corners.mean(axis=1) for each in tiles)
+    # Each stands off its flank into the other; from there flanks of other curvature part over the contact's width.
+    assert np.linalg.norm(pinion - wheel, axis=1) == pytest.approx(2.0 * off, abs=0.7 * off)
+    first, second = tiles[0].corners[:, 1] - tiles[0].corners[:, 0], tiles[0].corners[:, 3] - tiles[0].corners[:, 0]
+    area = np.linalg.norm(np.cross(first, second), axis=1)
+    assert area @ tiles[0].pressure == pytest.approx(float(helical_run()["normal_force"].values[STEP]), rel=0.02)
+    for gear, each in zip(mesh.gears, tiles):
+        carries = gear.points[:, :, gear.on_flank].reshape(-1, 3)
+        assert cKDTree(carries).query(each.corners.reshape(-1, 3))[0].max() < 3.0
 
 
 def test_tension_along_the_face_is_highest_where_the_load_is(mesh):

@@ -8,13 +8,14 @@ from pathlib import Path
 
 from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
-from fenics_gears.show.report.page import Block, Picture, Section, Table, Words
+from fenics_gears.show.report.page import Block, Fold, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.studies.effect_lattice.subsets import ALL
 from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS, MICRO, MILLI, in_percent
 
 # The columns that hold a number in each line.
 NUMBERS = CSV_COLUMNS[2:15]
+CHANGES = ("change_of_transmission_error", "change_of_peak_force")
 MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"
 # Relative; the same scene gives the same transmission error, on another processor to round-off.
 SAME_ANSWER = 1e-3
@@ -25,11 +26,11 @@ def effects(run: Run) -> Section:
     if run.scene is None:
         return Section("effects", "Effects", [Words(NO_SCENE, warns=True)])
     states = effect_states(run.scene)
-    on = [(f"[{state.effect.written}]", state.words, state.adds) for state in states if state.on]
+    on = [(f"[{state.effect.written}]", state.words) for state in states if state.on]
     off = [(f"[{state.effect.written}]", state.words) for state in states if not state.on]
     tables = [
-        Table(("Section", "The model has", "which adds"), on, "● On", numbers=9),
-        Table(("Section", "In its place the model has"), off, "○ Off", numbers=9),
+        Table(("Section", "The model has"), on, "On", numbers=9),
+        Fold(f"Off: {len(off)}", [Table(("Section", "In its place the model has"), off, numbers=9)]),
     ]  # fmt: skip
     return Section("effects", "Effects on and off", [*tables, *_measured(run)])
 
@@ -58,13 +59,15 @@ def _lines(file: Path) -> list[dict[str, str]] | None:
     try:
         with open(file, encoding="utf-8", newline="") as opened:
             reader = csv.DictReader(opened)
-            lines = list(reader)
+            lines, headings = list(reader), tuple(reader.fieldnames or ())
         for line in lines:
             for name in NUMBERS if line["step_time_s"] else ():
                 float(line[name])
+            for name in CHANGES:
+                float(line[name] or 0.0)
     except (OSError, UnicodeDecodeError, csv.Error, KeyError, TypeError, ValueError):
         return None
-    return lines if tuple(reader.fieldnames or ()) == CSV_COLUMNS else None
+    return lines if lines and headings == CSV_COLUMNS else None
 
 
 def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
@@ -86,7 +89,7 @@ def _tables(lines: list[dict[str, str]]) -> list[Block]:
             skipped.append((line["effects"], line["remarks"]))
             continue
         number = {name: float(line[name]) for name in NUMBERS}
-        changes = [f" ({in_percent(float(line[name]))})" if line[name] else "" for name in ("change_of_transmission_error", "change_of_peak_force")]
+        changes = [f" ({in_percent(float(line[name]))})" if line[name] else "" for name in CHANGES]
         rows.append((
             line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}",
             f"{number['newton_iterations_per_step']:.2f}", f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}",

@@ -9,7 +9,7 @@ from fenics_gears.show.chart import over_time, span
 from fenics_gears.show.panels import DARK, PALETTE
 from fenics_gears.show.report.page import Facts, Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
-from fenics_gears.show.units import factor, in_unit
+from fenics_gears.show.units import digits, factor, in_unit
 
 PARTS = {"energy_teeth": "teeth", "energy_shafts": "shafts", "energy_bearings": "bearings", "energy_kinetic": "motion (kinetic)"}
 TAKEN = {"work_friction": "friction", "work_damping": "damping"}
@@ -39,10 +39,10 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
         # What rounding leaves of two equal numbers is none.
         shown = value if abs(value) > 1e-9 * drive else 0.0
         share = f" ({100.0 * shown / drive:.4g} % of the drive's work)" if drive else ""
-        return label, f"{shown:.6g}", UNIT + share
+        return label, digits(shown), UNIT + share
 
     sides = ("the wheel's shaft", "the pinion's shaft") if work.wheel_drives else ("the pinion's shaft", "the wheel's shaft")
-    rows = [(f"work of the drive, {sides[0]}", f"{work.drive * to_unit:.6g}", UNIT)]
+    rows = [(f"work of the drive, {sides[0]}", digits(work.drive * to_unit), UNIT)]
     rows.append(row(f"work done on the load, {sides[1]}", work.load * to_unit))
     rows += [row(f"lost to {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))

@@ -6,16 +6,18 @@ import math
 from collections.abc import Iterator
 
 from fenics_gears.results.contact_variables import largest_normal_force
-from fenics_gears.show.report.page import Facts, Section, Tile, Tiles, Words
-from fenics_gears.show.run import Run
-from fenics_gears.show.units import factor
+from fenics_gears.show.report.page import Section, Tile, Tiles, Words
+from fenics_gears.show.run import Run, load_in_words
+from fenics_gears.show.units import digits, factor
+
+GEARS = ("pinion", "wheel")
 
 
 def summary(run: Run) -> Section:
     """The key numbers as tiles, the others below."""
     if not run.steps:
         return Section("summary", "Summary", [Words("No step is stored: the run ended before its recorded mesh cycles began.", warns=True)])
-    return Section("summary", "Summary", [Tiles(list(_tiles(run))), Facts(_rows(run))])
+    return Section("summary", "Summary", [Tiles([*_tiles(run), *_conditions(run)])])
 
 
 def warnings(run: Run) -> Section:
@@ -38,9 +40,10 @@ def _tiles(run: Run) -> Iterator[Tile]:
             yield Tile(label + part, digits(angle * run.micrometres), "µm", f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel")
     if "normal_force" in dataset:
         largest, note = largest_normal_force(dataset), ""
-        nominal = 0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius
+        # Both along the contact normal, which leans by the base helix angle from the transverse line of action.
+        nominal = 0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius / run.pair.cosine
         if nominal:
-            note = f"{largest / nominal:.3g} × nominal {digits(nominal)} N"
+            note = f"{largest / nominal:.3f} × {digits(nominal)} N, the normal force of the torque without friction"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
         yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", _where(attributes))
@@ -52,7 +55,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
             "Dynamic factor",
             f"{attributes['dynamic_factor_by_force']:.3f}",
             "",
-            "by force" + (f"; {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""),
+            _dynamic_factors(attributes),
         )
     if "friction_loss" in attributes:
         lost = f"{digits(attributes['friction_power'])} W of {digits(1e-3 * attributes['input_power'])} kW" if "friction_power" in attributes else ""
@@ -72,8 +75,21 @@ def _tiles(run: Run) -> Iterator[Tile]:
         yield Tile(
             "Contact of the drive flanks lost" if "coast_normal_force" in dataset else "Contact lost",
             *counted(attributes["contact_loss_count"], "time").split(),
-            f"{share:.3g} % of the time, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm" + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
+            f"{share:.3g} % of the time{_longest(run)}, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm" + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
         )
+
+
+def _dynamic_factors(attributes) -> str:
+    """What they compare: the same force or stress with inertia and without."""
+    forces = [digits(attributes[name]) for name in ("largest_pair_force", "quasi_static_pair_normal_force") if name in attributes]
+    stress = f"; {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""
+    return f"largest force of a tooth pair: {' N over '.join(forces)} N without inertia{stress}"
+
+
+def _longest(run: Run) -> str:
+    """The longest loss of contact, where the scene has a time."""
+    timed = run.scene is not None and run.scene.motion.speed_given and "contact_loss_longest" in run.dataset.attrs
+    return f", for up to {run.dataset.attrs['contact_loss_longest']:.3g} s" if timed else ""
 
 
 def _where(attributes) -> str:
@@ -84,27 +100,19 @@ def _where(attributes) -> str:
     return at + (f"; {digits(attributes['peak_edge_pressure'])} MPa at edges" if "peak_edge_pressure" in attributes else "")
 
 
-def _rows(run: Run) -> list[tuple[str, object, str]]:
-    dataset, attributes, rows = run.dataset, run.dataset.attrs, []
-    times, phase = dataset["time"].values, dataset["mesh_phase"].values
-    if run.scene is not None:
-        first, ramp = run.scene.motion.mesh_frequency, run.scene.speed_ramp
-        speed = first / run.scene.gears.pinion.teeth * factor("1/s", "1/min")
-        rows.append(("torque on the wheel", run.scene.load.wheel_torque * factor("N mm", "N m"), "N m"))
-        rows.append(("mesh frequency", f"{first:g} to {ramp.end_frequency:g} Hz" if ramp else f"{first:g} Hz, the pinion at {speed:.5g} rpm", ""))
-    rows.append(("run", f"mesh cycles {phase[0]:g} to {phase[-1]:g}, {times[0]:.6g} s to {times[-1]:.6g} s, {run.steps:,} steps", ""))
-    if "contact_loss_count" in attributes:
-        count = attributes["contact_loss_count"]
-        rows.append(("contact of the drive flanks", f"lost {counted(count, 'time')}, for up to {attributes['contact_loss_longest']:.3g} s" if count else "never lost", ""))
-    return rows
-
-
-def digits(value: float) -> str:
-    """Four digits, as measurements have them; three and a power of ten where a tile is too narrow for the number."""
-    if abs(value) >= 1e6:
-        mantissa, _, exponent = f"{value:.2e}".partition("e")
-        return f"{mantissa}e{int(exponent)}"
-    return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
+def _conditions(run: Run) -> Iterator[Tile]:
+    """Torques, and speeds where the scene has one."""
+    if run.scene is None:
+        return
+    teeth, motion, ramp = [getattr(run.scene.gears, gear).teeth for gear in GEARS], run.scene.motion, run.scene.speed_ramp
+    torque = run.scene.load.wheel_torque * factor("N mm", "N m")
+    power = f", {load_in_words(run.scene)}" if run.scene.load.given == "power" else ""
+    yield Tile("Torque on the wheel", digits(torque), "N m", f"{digits(torque * teeth[0] / teeth[1])} N m on the pinion{power}")
+    if ramp is not None:
+        yield Tile("Mesh frequency", f"{digits(motion.mesh_frequency)} to {digits(ramp.end_frequency)}", "Hz")
+    elif motion.speed_given:
+        turns = [digits(motion.mesh_frequency / count * factor("1/s", "1/min")) for count in teeth]
+        yield Tile("Mesh frequency", digits(motion.mesh_frequency), "Hz", f"pinion {turns[0]} rpm, wheel {turns[1]} rpm")
 
 
 def counted(number: int, thing: str) -> str:

@@ -118,7 +118,7 @@ def _points(pair: GearPair, coast: bool) -> dict[str, float]:
 
 
 def _points_in_words(pair: GearPair, coast: bool) -> str:
-    words = "; ".join(f"{name} {place:.3f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in _points(pair, coast).items())
+    words = "; ".join(f"{name} {place:.2f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in _points(pair, coast).items())
     meaning = "LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
     return f"From T1 on the line of action, with the pinion's roll angle: {words}. {meaning if pair.fewest_pairs == 1 else ''}".strip()
 

@@ -7,12 +7,13 @@ import gzip
 import re
 from functools import cache
 from importlib import resources
+from typing import Any
 
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import still
 from fenics_gears.show.report.interactive import figure, height
 from fenics_gears.show.report.page import Beside, Block, Fold, Page
-from fenics_gears.system.console import number_text
+from fenics_gears.show.units import digits
 
 TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
 
@@ -23,7 +24,7 @@ def rendered(page: Page) -> str:
     from markupsafe import Markup
 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"figure": _figure, "still": _still, "height": height, "base64": _base64, "number": number_text, "code": _with_code}
+    environment.filters |= {"figure": _figure, "still": _still, "height": height, "base64": _base64, "number": _number, "micro": _micro, "code": _with_code}
     environment.filters["kind"] = lambda block: type(block).__name__
     drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
@@ -64,7 +65,17 @@ def _with_code(text: str):
     """A sentence in which what stands between backticks is set as code."""
     from markupsafe import Markup, escape
 
-    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(_micro(text)))))
+
+
+def _number(value: Any) -> str:
+    """A value for people."""
+    return _micro(str(value)) if isinstance(value, (str, int)) else digits(float(value))
+
+
+def _micro(text: str) -> str:
+    """Text of the terminal with the unit as pages have it."""
+    return re.sub(r"\bum\b", "µm", text)
 
 
 def _base64(content: bytes) -> str:

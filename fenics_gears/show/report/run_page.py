@@ -20,7 +20,8 @@ from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.progress import Progress, SilentProgress
 
-SECTIONS = (summary, warnings, numbers, effects, geometry, motion, spectra, forces, pressure, stress, root_stress, energy, solver)
+# Pictures before tables: who reads the page looks first.
+SECTIONS = (summary, warnings, motion, forces, pressure, stress, root_stress, spectra, geometry, numbers, effects, energy, solver)
 
 
 def run_page(run: Run, progress: Progress | None = None) -> Page:

@@ -21,8 +21,8 @@ def solver(run: Run) -> Section:
     attributes = run.dataset.attrs
     methods = [(name.removeprefix(RUNG), int(count)) for name, count in attributes.items() if name.startswith(RUNG)]
     of_run = {"steps": "steps of the whole run", "newton_iterations_total": "Newton iterations of the whole run"}
-    rows = solver_rows(run.dataset) + [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
-    statistics: list[Block] = [Facts(rows, "Newton iterations"), Facts(stage_rows(run.dataset), "Wall time by stage")]
+    rows = _extent(run) + solver_rows(run.dataset) + [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
+    statistics: list[Block] = [Facts(rows, "The run"), Facts(stage_rows(run.dataset), "Wall time by stage")]
     if methods:
         every = sum(count for _, count in methods)
         cells = [(name, f"{count:,}", f"{100.0 * count / every:.4g}") for name, count in methods]
@@ -33,6 +33,15 @@ def solver(run: Run) -> Section:
         for (name, (caption, y_title)), colour in zip(counts.items(), (PALETTE[0], PALETTE[2])):
             blocks.append(over_time(run, caption, y_title, [(y_title, run.dataset[name].values.astype(float), colour)], least=2.0, height=240))
     return Section("solver", "Model and solver", blocks)
+
+
+def _extent(run: Run) -> list[tuple[str, str, str]]:
+    """The steps that are stored; seconds where the scene has a speed."""
+    if not run.steps:
+        return []
+    timed = run.scene is None or run.scene.motion.speed_given
+    seconds = ", {:.4g} s to {:.4g} s".format(*run.dataset["time"].values[[0, -1]]) if timed else ""
+    return [("stored", f"mesh cycles {run.phase[0]:.4g} to {run.phase[-1]:.4g}{seconds}, {run.steps:,} steps", "")]
 
 
 def _described(run: Run) -> Block:

@@ -39,7 +39,8 @@ def stress(run: Run) -> Section:
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
-    return Section("stress", HEADING, [Picture("Von Mises stress of both gears in mesh", content, note), *charts])
+    shown = "Contact pressure and von Mises stress" if run.is_over_face else "Von Mises stress"
+    return Section("stress", HEADING, [Picture(f"{shown} of both gears in mesh", content, note), *charts])
 
 
 def _most_loaded(dataset: xr.Dataset) -> int:

@@ -206,8 +206,9 @@ def test_measured_effects_are_shown_if_they_are_of_this_scene(run, tmp_path):
     assert "was measured on another scene" in last_words()
     write_measured(tmp_path, [line | {"step_time_s": "soon"} for line in measured_lines(dataset, error)])
     assert "no table of this version" in last_words()
-    (tmp_path / "effects.csv").write_text("something,else\n1,2\n", encoding="utf-8")
-    assert "no table of this version" in last_words()
+    for text in ("something,else\n1,2\n", "", "\n", ",".join(CSV_COLUMNS) + "\n"):
+        (tmp_path / "effects.csv").write_text(text, encoding="utf-8")
+        assert "no table of this version" in last_words()
 
 
 def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):

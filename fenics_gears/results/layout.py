@@ -1,0 +1,77 @@
+"""What every result's file has: names, dimensions and types, checked after its seal, which only says that its bytes are those that were written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, FACE_VARIABLES
+from fenics_gears.effects.effect import OF_NODES, OF_SLICES
+from fenics_gears.model.storage import CONTACT_COORDINATES, COORDINATES, ROOT_STRESS, ROOT_STRESS_OVER_FACE
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+
+GEARS = ["pinion", "wheel"]
+# Without these nothing can be drawn or said of a run.
+REQUIRED = (*COORDINATES, "slot", "gear", "transmission_error", "normal_force", "pair_normal_force")
+TEXTS = ("title", "scene", "scene_name", "warnings")
+
+
+def mistake_in(result: xr.Dataset) -> str:
+    """The first thing in which a dataset is no result, in words; empty where there is none."""
+    return next(_mistakes(result), "")
+
+
+def _mistakes(result: xr.Dataset) -> Iterator[str]:
+    if missing := [name for name in REQUIRED if name not in result.variables]:
+        yield f"it has no {', '.join(missing)}"
+    for name, allowed in _known_dims().items():
+        if name not in result.variables:
+            continue
+        dims, kind = result[name].dims, result[name].dtype.kind
+        if dims not in allowed:
+            yield f"{name} is over ({', '.join(dims)}), not over ({', '.join(allowed[0])})"
+        if kind not in "iuf":
+            yield f"{name} holds {result[name].dtype}, not numbers"
+    numbers = {each.name for each in RESULT_ATTRIBUTES if each.units}
+    for name, value in result.attrs.items():
+        if name in TEXTS and not isinstance(value, str) or name in numbers and not isinstance(value, (int, float, np.number)):
+            yield f"its attribute {name} is {value!r:.60}"
+    yield from _mistakes_of_places(result)
+
+
+@cache
+def _known_dims() -> dict[str, list[tuple[str, ...]]]:
+    """Dimensions that variables of numbers may have, by name; those of contact nodes are of slices too where the flanks are resolved over the face."""
+    variables = [*COMMON_VARIABLES, *FACE_VARIABLES, *(variable for effect in EFFECTS for variable in effect.variables)]
+    found = {each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables}
+    for own in (COORDINATES, CONTACT_COORDINATES, {"slot": ("slot",)}, ROOT_STRESS, ROOT_STRESS_OVER_FACE):
+        for name, dims in own.items():
+            found.setdefault(name, []).append(dims)
+    return found
+
+
+def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:
+    """Of the coordinates: steps in the order of time, contact fields at some of them, tooth pairs in their slots."""
+    if list(result["gear"].values) != GEARS:
+        yield "its gears are not pinion and wheel"
+    for name in ("time", "mesh_phase"):
+        values = result[name].values
+        if not np.isfinite(values).all() or (np.diff(values) < 0.0).any():
+            yield f"{name} does not go on from step to step"
+    slots, both = result.sizes["slot"], ["pair_number"]
+    if "contact_time" in result.dims:
+        if missing := [name for name in CONTACT_COORDINATES if name not in result.variables]:
+            yield f"it has contact fields and no {', '.join(missing)}"
+        if not np.isin(result["contact_time"].values, result["time"].values).all():
+            yield "its contact fields are not at its steps"
+        both.append("contact_pair_number")
+    for name in both:
+        numbers = result[name]
+        if not isinstance(numbers.attrs.get("number_at_phase_0"), (int, np.integer)):
+            yield f"{name} has no whole number as its attribute number_at_phase_0"
+        wrong = (numbers.values != 0) & (numbers.values % max(slots, 1) != np.arange(slots)) | (numbers.values < 0)
+        if wrong.any():
+            yield f"{name} has a tooth pair in a slot that is not its own"
