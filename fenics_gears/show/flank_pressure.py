@@ -12,7 +12,8 @@ from fenics_gears.contact.pressure import read_off
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.show.contact_pattern import rolls_on_wheel, slice_ends
+from fenics_gears.results.face_ends import slice_ends
+from fenics_gears.show.contact_pattern import rolls_on_wheel
 from fenics_gears.show.loaded_contact import stored_place
 from fenics_gears.show.pressure import node_edges
 from fenics_gears.simulation.face_stresses import GearsInSpace
@@ -42,7 +43,7 @@ def pressed_tiles(mesh: GearsInSpace, dataset: xr.Dataset, gear: int, scale: flo
     _, slots, slices, _ = np.nonzero(pressed)
     numbers = part["contact_pair_number"]
     entered = (mesh.mesh_phase - (numbers.values[0] - numbers.attrs["number_at_phase_0"]))[slots]
-    middles, ends = part["face_position"].values, slice_ends(part, pair)
+    middles, ends = part["face_position"].values, slice_ends(part)
 
     def contact_roll(z: np.ndarray) -> np.ndarray:
         xi = pair.path_start + entered * pair.base_pitch + pair.slope * z
