@@ -60,7 +60,7 @@ def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | Non
     there = [text for text in texts if text is not None]
     stated = [each for text in there for each in (text, MATERIALS[text.name][0] if text.name is not None else text)]
     constants = (next(float(value) for each in stated if (value := getattr(each, constant)) is not None) for constant in CONSTANTS)
-    return Material(*constants, _yield_strength_of(there))
+    return Material(*constants, yield_strength=_yield_strength_of(there))
 
 
 def _yield_strength_of(texts: Sequence[MaterialText | OwnMaterialText]) -> float | None:
