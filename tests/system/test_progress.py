@@ -65,3 +65,15 @@ def test_a_bar_stops_where_the_work_stopped():
     bar.close()
     last = console.file.getvalue().rpartition("march")[2]
     assert "30/100" in last and "100/100" not in last
+
+
+@pytest.mark.parametrize(("done", "said"), [(5, False), (50, True)])
+def test_a_bar_says_the_time_left_once_enough_is_known(done, said):
+    """The rule of the lines: a pace is there after two updates, but a twentieth of the whole may be its beginning."""
+    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
+    bar = progress.BarProgress(console)
+    bar.stage("march")
+    for count in range(done + 1):
+        bar.update(count, 100)
+    bar.close()
+    assert ("-:--:--" not in console.file.getvalue().rpartition("left")[2]) == said
