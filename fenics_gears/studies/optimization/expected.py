@@ -18,7 +18,7 @@ from fenics_gears.system.progress import seconds_in_words
 
 MOST_HOURS = 8.0
 # Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's pair and on a helical one).
-RESULT, EXTREMES = 0.03, 22
+TIME_OF_A_RESULT, EXTREMES = 0.03, 22
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
 # Torques of the Harris map where the operating points have one, in parts of it.
@@ -62,7 +62,7 @@ def expected_work(design: Design, kept: int) -> Work:
     marching, building, condensing = (sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs) for name in ("marching", "building", "condensing"))
     shared = len({operators_key(model) for model in models}) == 1
     position = building / models[0].resolution.steps_per_mesh_cycle
-    each = RESULT + EXTREMES * position + marching - (building if shared else 0.0)
+    each = TIME_OF_A_RESULT + EXTREMES * position + marching - (building if shared else 0.0)
     bodies = 1 if len(gear_tasks(cases)) == len(gear_tasks(cases[:1])) else designs
     return Work(runs, runs * each + (bodies * condensing if runs else 0.0))
 
