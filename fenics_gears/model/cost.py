@@ -197,7 +197,7 @@ def _face_cost(model: Model, gears: list[_Gear], ranks: int) -> ExpectedCost:
     names = ("the pinion's body", "the wheel's body")
     bodies = tuple(zip(names, over_face.unknowns))
     memory = CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.kept + over_face.operators, over_face.memory)
-    return ExpectedCost(condensing + over_face.condensing, over_face.marching, memory, over_face.operators, (*sections, *bodies), tuple(zip(names, over_face.ways)))
+    return ExpectedCost(condensing + over_face.condensing, over_face.marching, memory, over_face.operators, (*sections, *bodies), tuple(zip(names, over_face.ways)), over_face.building)
 
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:

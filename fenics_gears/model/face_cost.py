@@ -33,7 +33,7 @@ ON_FLANKS = 200.0
 
 @dataclass(frozen=True)
 class FaceCost:
-    """Seconds of condensing both bodies and of marching, unknowns of the bodies, bytes while condensing, of the bodies' compliances on slices (`kept`) and
+    """Seconds of condensing both bodies and of marching, of which `building` make the contact operators, unknowns of the bodies, bytes while condensing, of the bodies' compliances on slices (`kept`) and
     of the contact operators; how each body is condensed, in words."""
 
     condensing: float
@@ -43,6 +43,7 @@ class FaceCost:
     operators: float
     kept: float
     ways: tuple[str, ...]
+    building: float
 
 
 def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
@@ -95,7 +96,8 @@ def face_cost(model: Model, ranks: int = 1) -> FaceCost:
         kept += ON_FLANKS * positions * nodes * (2.0 if rubbing else 1.0)
     # Normals alone, or both kinds and by the forces of the step before.
     operators = WITH_COPIES * 8.0 * positions * nodes**2 * (6.0 if rubbing else 1.0)
-    return FaceCost(condensing, positions * position + model.steps * (step + stress_step), (bodies[0], bodies[1]), memory, operators, kept, tuple(ways))
+    building = positions * position
+    return FaceCost(condensing, building + model.steps * (step + stress_step), (bodies[0], bodies[1]), memory, operators, kept, tuple(ways), building)
 
 
 def _way(iterative: bool, memory: float, by_factor: float) -> str:

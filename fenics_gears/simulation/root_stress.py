@@ -12,17 +12,22 @@ from fenics_gears.system.progress import Progress
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
     """The root stress of both gears at the steps of a cycle, ready to be taken at each."""
-    made, rows_of = RootStress, gear_rows
+    made = RootStress
     if cycle.face is not None:
         # Imported here: plane scenes have none.
         from fenics_gears.results.face_root_stress import FaceRootStress
 
-        made, rows_of = FaceRootStress, face_rows
+        made = FaceRootStress
     rows = []
     for name in ("pinion", "wheel"):
         progress.stage(f"root stress of the {name}")
         rows.append(rows_of(model, name, cache))
     return made(model.pair, cycle, (rows[0], rows[1]))
+
+
+def rows_of(model: Model, name: str, cache: Cache | None) -> RootStressRows:
+    """Root stress rows of the "pinion" or the "wheel", in the slices of the face where it has some."""
+    return (gear_rows if model.face is None else face_rows)(model, name, cache)
 
 
 def gear_rows(model: Model, name: str, cache: Cache | None) -> RootStressRows:

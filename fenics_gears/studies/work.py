@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import GearsError
-from fenics_gears.model.model import model_of
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.scene.data import Scene
+from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.combine import CaseRecord
@@ -23,22 +24,24 @@ from fenics_gears.system.progress import SilentProgress
 
 Tick = Callable[[], None]
 
+# What is condensed of a gear.
+SECTION, BODY, ROOT_STRESS = "section", "body", "root stress"
+
 
 @dataclass(frozen=True)
 class GearTask:
-    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`; its plane section, or its body over the face."""
+    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`; its plane section, its body over the face, or its root stress."""
 
     scene: Scene
     name: str
     reach: Reach
-    body: bool = False
+    part: str = SECTION
 
 
 def gear_tasks(cases: list[Case]) -> list[GearTask]:
-    """The distinct gears of the cases, bodies first, which take longest."""
-    bodies: dict[tuple, GearTask] = {}
+    """The distinct gears of the cases; first what takes longest."""
     reaches: dict[tuple, Reach] = {}
-    tasks: dict[tuple, GearTask] = {}
+    tasks: dict[str, dict[tuple, GearTask]] = {ROOT_STRESS: {}, BODY: {}, SECTION: {}}
     for case in cases:
         model = model_of(case.scene)
         # With a target the gears' meshes are known only after settings are chosen.
@@ -48,13 +51,20 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
         if cycle not in reaches:
             reaches[cycle] = model.touching.reach
         for name in GEARS:
-            # Young's modulus is a factor, so the cache keeps one entry for all its values.
-            key = gear_key(model, name, reaches[cycle])
-            tasks.setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle]))
-            if model.face is not None:
-                key = body_key(model, name, reaches[cycle])
-                bodies.setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle], body=True))
-    return [*bodies.values(), *tasks.values()]
+            for part, key in _keys(model, name, reaches[cycle]):
+                # Young's modulus is a factor, so the cache keeps one entry for all its values.
+                tasks[part].setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle], part))
+    return [task for of_part in tasks.values() for task in of_part.values()]
+
+
+def _keys(model: Model, name: str, reach: Reach) -> Iterator[tuple[str, tuple]]:
+    """What is to be condensed of a gear, and what that depends on."""
+    yield SECTION, gear_key(model, name, reach)
+    if model.face is not None:
+        yield BODY, body_key(model, name, reach)
+    if model.scene.output.root_stress and route_of(model).stresses:
+        face = None if model.face is None else (model.face.slices, model.pair.common_face, model.pair.gear_middles)
+        yield ROOT_STRESS, (*(gear_key if face is None else body_key)(model, name, reach), face, model.scene.coast_flanks is not None)
 
 
 def in_order_of_sharing(cases: list[Case]) -> list[Case]:
@@ -68,8 +78,11 @@ def in_order_of_sharing(cases: list[Case]) -> list[Case]:
 
 def condense(task: GearTask, tick: Tick | None = None) -> None:
     """Condense a gear into the cache and into this process's store."""
-    store = own_gear_store()
-    (store.body if task.body else store.gear)(model_of(task.scene), task.name, task.reach, user_cache())
+    model, store = model_of(task.scene), own_gear_store()
+    if task.part == ROOT_STRESS:
+        rows_of(model, task.name, user_cache())
+    else:
+        (store.body if task.part == BODY else store.gear)(model, task.name, task.reach, user_cache())
 
 
 def run_case(directory: Path, case: Case, tick: Tick | None = None) -> CaseRecord | str:

@@ -11,7 +11,7 @@ from typing import Protocol, TextIO
 
 SECONDS_BETWEEN_LINES = 5.0
 # A stage begins with what takes longest, such as compiling, or a first mesh cycle whose operators are made. The time left is said once a tenth is done, or once a
-# minute is over, by the pace since the line before.
+# minute is over, by the pace of its later half.
 ENOUGH_DONE, ENOUGH_SECONDS = 0.1, 60.0
 
 
@@ -58,7 +58,8 @@ class LineProgress:
         self._clock = clock
         self._name: str | None = None
         self._begun = self._spoken = clock()
-        self._done = 0
+        # Times and counts of the lines.
+        self._seen = [(self._begun, 0)]
         self.finished: Finished = []
 
     def stage(self, name: str) -> None:
@@ -66,19 +67,28 @@ class LineProgress:
         self.close()
         self._name = name
         self._begun = self._spoken = self._clock()
-        self._done = 0
+        self._seen = [(self._begun, 0)]
 
     def update(self, done: int, total: int, note: str = "") -> None:
         """Print a line when the last one is old enough."""
         now = self._clock()
         if now - self._spoken < self._interval or total <= 0:
             return
-        elapsed, since, before = now - self._begun, now - self._spoken, self._done
-        self._spoken, self._done = now, done
-        known = done > before and is_enough(done, total, elapsed)
-        left = f", about {seconds_in_words(since * (total - done) / (done - before))} left" if known else ""
+        self._spoken, elapsed = now, now - self._begun
         said = f", {note}" if note else ""
-        self._print(f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %){said} after {seconds_in_words(elapsed)}{left}")
+        self._print(f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %){said} after {seconds_in_words(elapsed)}{self._left(now, done, total)}")
+
+    def _left(self, now: float, done: int, total: int) -> str:
+        """The time left in words; nothing where it is not known."""
+        then, before = next((each for each in reversed(self._seen) if 2 * each[1] <= done), self._seen[0])
+        if done != self._seen[-1][1]:
+            self._seen.append((now, done))
+        if done <= before or not is_enough(done, total, now - self._begun):
+            return ""
+        # Large parts are counted from the end of the last one.
+        since = self._seen[-1][0]
+        left = (since - then) * (total - done) / (done - before) - (now - since)
+        return f", about {seconds_in_words(left)} left" if left > 0.0 else ""
 
     def close(self) -> None:
         """Print how long the stage took."""

@@ -198,7 +198,7 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
     before = signal.getsignal(signal.SIGINT)
     steps = []
 
-    def march(scene, *, progress, comm, journal):
+    def march(scene, *, progress, job, journal):
         progress.stage("march")
         try:
             for step in range(10):
@@ -220,7 +220,7 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
 def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
     """Authority: issue 2; a step that never ends can be left."""
 
-    def hang(scene, *, progress, comm, journal):
+    def hang(scene, *, progress, job, journal):
         progress.stage("march")
         progress.update(1, 10)
         os.kill(os.getpid(), signal.SIGINT)

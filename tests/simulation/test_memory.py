@@ -6,18 +6,23 @@ import re
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene
+from tests.helical import helical_scene
 from tests.studies.conftest import DEMO
 
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.elasticity.face.cost import expected_memory, expected_size
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import model_of
+from fenics_gears.simulation import face_route
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system import memory
 from fenics_gears.system.memory import MEMORY_VARIABLE, SHARE, allowed_memory, size_in_bytes, usual_memory
+from fenics_gears.system.progress import SilentProgress
 
 
 @pytest.mark.parametrize("share", [0.0, 0.4])
@@ -67,6 +72,17 @@ def test_the_choice_of_a_solver_does_not_depend_on_what_is_free(monkeypatch):
     usual = usual_memory()
     monkeypatch.setattr(memory, "free_memory", lambda: 1e6)
     assert allowed_memory() < usual_memory() == usual <= SHARE * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_a_run_says_that_bodies_are_condensed_by_conjugate_gradients(monkeypatch):
+    """Promise of the page on clusters: they take a multiple of the time. The pinion's memory is between what the two ways need, the wheel's is enough for a factorisation."""
+    model, said = model_of(helical_scene(teeth=(24, 18))), []
+    monkeypatch.setattr(face_route, "gear_body", lambda *arguments: None)
+    monkeypatch.setattr(SilentProgress, "stage", lambda self, name: said.append(name))
+    enough = [[expected_memory(*expected_size(gear, face_discretisation(model, number)), way) for way in (True, False)] for number, gear in enumerate((model.pair.pinion, model.pair.wheel))]
+    monkeypatch.setenv(MEMORY_VARIABLE, f"{0.5 * (max(enough[1][1], enough[0][0]) + enough[0][1]) / 1e6:.6f} MB")
+    face_route.gear_bodies(model, SilentProgress(), None)
+    assert said == ["condense pinion's body by conjugate gradients", "condense wheel's body"], enough
 
 
 def test_sizes_of_memory(monkeypatch):

@@ -12,7 +12,7 @@ from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion, Output
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
@@ -271,4 +271,7 @@ def test_a_study_condenses_what_its_models_need(static):
 def test_a_study_over_the_face_condenses_each_body_once():
     """From the task: misalignments share plane sections and bodies, which take longest and come first."""
     cases = [Case(i, {}, helical_scene(f'[misalignment]\nin_plane = "{i} um"\n'), str(i)) for i in range(3)]
-    assert [(task.name, task.body) for task in gear_tasks(cases)] == [("pinion", True), ("wheel", True), ("pinion", False), ("wheel", False)]
+    parts = [(task.name, task.part) for task in gear_tasks(cases)]
+    assert parts == [("pinion", "body"), ("wheel", "body"), ("pinion", "section"), ("wheel", "section")]
+    stressed = [replace(case, scene=replace(case.scene, output=Output(root_stress=True))) for case in cases]
+    assert [(task.name, task.part) for task in gear_tasks(stressed)] == [("pinion", "root stress"), ("wheel", "root stress"), *parts]

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from tests.studies.conftest import environment, gears, mpirun, write_study
 from tests.studies.test_run_study import FOUR, load
+from tests.system.test_failing_ranks import FACE
 
 from fenics_gears.commands.cli import main
 from fenics_gears.studies.ranks import Alone
@@ -55,6 +56,29 @@ def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
     assert (computed_by[0], computed_by[-1]) == ("1", "0")
     assert ended.returncode == 2 and ended.stderr.count("is a length") == 1
     assert not Path("results").exists()
+
+
+@pytest.mark.nightly
+def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
+    """Count: two bodies for three cases on three ranks, which all need both. Each computation adds a line to a file."""
+    program = (
+        "import sys\n"
+        "from fenics_gears.commands.cli import main\n"
+        "from fenics_gears.elasticity.face import compliance\n"
+        "computed = compliance._computed\n"
+        "def counted(*arguments):\n"
+        "    with open('computed', 'a') as out: out.write('a body\\n')\n"
+        "    return computed(*arguments)\n"
+        "compliance._computed = counted\n"
+        "sys.exit(main(['study', 'study.toml', '--output', 'here']))\n"
+    )
+    Path("program.py").write_text(program)
+    Path("pair.toml").write_text(FACE, encoding="utf-8")
+    write_study(folder, '[sweep]\nmisalignment.in_plane = ["0 um", "10 um", "20 um"]\n')
+    own_cache = {**environment(), "FENICS_GEARS_CACHE": str(folder / "cache")}
+    ended = subprocess.run([*mpirun(3), sys.executable, "program.py"], cwd=folder, env=own_cache, capture_output=True, text=True, timeout=240)
+    assert ended.returncode == 0, ended.stderr
+    assert Path("computed").read_text().splitlines() == ["a body"] * 2
 
 
 def test_processes_that_mpi4py_cannot_join_are_refused(folder, monkeypatch, capsys):

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from tests.studies.conftest import ACCURACY, DEMO, environment, mpirun
+from tests.studies.conftest import ACCURACY, DEMO, environment, gears, mpirun
 from tests.studies.test_optimization import FEWER, GOAL, RIGID, VARIABLES
 from tests.system.failing_rank import WORDS
+
+from fenics_gears.results import load
 
 pytestmark = pytest.mark.ranks
 
@@ -48,8 +50,7 @@ MATRIX = [
     for rank in (0, 1)
     for how in ("fails", "killed")
     if not (how == "fails" and (stage in GOES_ON or rank == 1 and stage not in SHARED))
-]
-DAILY = [("face", "condensing", 1, "breaks")]
+] + [("face", "condensing", 1, "breaks"), ("face", "reading", 0, "refuses"), ("face", "ring", 0, "interrupted"), ("face", "march", 0, "interrupted"), ("every step", "remeshing", 1, "breaks")]
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,8 @@ def ended(folder: Path, command: str, stage: str, rank: int, how: str, *more: st
     return End(done.returncode, done.stderr, over - (folder / "failed").stat().st_mtime, [int(each.name) for each in processes if each.exists()])
 
 
-@pytest.mark.parametrize(("command", "stage", "rank", "how"), DAILY + [pytest.param(*each, marks=pytest.mark.nightly) for each in MATRIX])
+@pytest.mark.nightly
+@pytest.mark.parametrize(("command", "stage", "rank", "how"), MATRIX)
 def test_an_error_of_a_rank_ends_all(tmp_path, command, stage, rank, how):
     """Hard case 28 and the exit codes of the command line: no rank waits for ever, none is left behind, and the error is said once with its exit code."""
     end = ended(tmp_path, command, stage, rank, how)
@@ -86,6 +88,22 @@ def test_an_error_of_a_rank_ends_all(tmp_path, command, stage, rank, how):
     assert not end.left
     if how != "killed":
         assert WORDS in end.told
+
+
+def test_a_run_that_does_not_fit_ends_all_ranks(tmp_path):
+    """The same of a real refusal: rank 0 alone says it, once, and the other does not wait for the bodies."""
+    (tmp_path / "pair.toml").write_text(FACE, encoding="utf-8")
+    done = gears(tmp_path, "run", "pair.toml", "--memory", "100 MB", ranks=2)
+    assert done.returncode == 3 and done.stderr.count("0.1 GB are allowed. Nothing was computed.") == 1, done.stderr
+
+
+@pytest.mark.nightly
+def test_ranks_share_a_run_whose_settings_are_chosen_by_a_target(tmp_path):
+    """Definition: the ranks condense the bodies of the chosen settings, which rank 0 alone knows."""
+    (tmp_path / "pair.toml").write_text(FACE.partition("[accuracy]")[0] + '[accuracy]\ntarget = "20 %"\n', encoding="utf-8")
+    done = gears(tmp_path, "run", "pair.toml", "--no-pictures", "--output", "here", ranks=2)
+    assert done.returncode == 0, done.stderr
+    assert load(tmp_path / "here" / "run.nc").attrs["target"] == pytest.approx(0.2)
 
 
 if __name__ == "__main__":

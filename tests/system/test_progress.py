@@ -32,15 +32,18 @@ def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
 
 
 def test_no_time_left_is_said_before_enough_is_known():
-    """Of a real run of 75 s: its first mesh cycle took half of the time, and the estimates then were hours. At most a factor of two off is said."""
-    clock, stream = Clock(), io.StringIO()
-    lines = progress.LineProgress(stream, interval=5.0, clock=clock)
-    lines.stage("march")
-    for done in range(7201):
-        clock.now = done if done < 40 else 40.0 + 35.0 * (done - 40) / 7160
-        lines.update(done, 7200)
-    said = [(float(after.split(" s")[0]), float(left.split(" s left")[0])) for after, _, left in (line.partition(" after ")[2].partition(", about ") for line in stream.getvalue().splitlines()) if left]
-    assert said and all(0.5 < left / (75.0 - after) < 2.0 for after, left in said)
+    """Of a real run of 75 s: its first mesh cycle took half of the time, and the estimates then were hours. And of cases of 20 s each, whose number is looked at
+    more often than it changes. What is said is at most a factor of two off."""
+    steps = [done if done < 40 else 40.0 + 35.0 * (done - 40) / 7160 for done in range(7201)]
+    for times, counts, whole in ((steps, range(7201), 75.0), (range(101), [second // 20 for second in range(101)], 100.0)):
+        clock, stream = Clock(), io.StringIO()
+        lines = progress.LineProgress(stream, interval=5.0, clock=clock)
+        lines.stage("march")
+        for clock.now, done in zip(times, counts):
+            lines.update(done, counts[-1])
+        told = (line.partition(" after ")[2].partition(" s, about ") for line in stream.getvalue().splitlines())
+        said = [(whole - float(after), float(left.partition(" s")[0])) for after, _, left in told if left]
+        assert said and all(0.5 * there <= left <= 2.0 * there + 20.0 for there, left in said), said
 
 
 def test_progress_costs_nothing_to_speak_of():
@@ -65,3 +68,15 @@ def test_a_bar_stops_where_the_work_stopped():
     bar.close()
     last = console.file.getvalue().rpartition("march")[2]
     assert "30/100" in last and "100/100" not in last
+
+
+@pytest.mark.parametrize(("done", "said"), [(5, False), (50, True)])
+def test_a_bar_says_the_time_left_once_enough_is_known(done, said):
+    """The rule of the lines: a pace is there after two updates, but a twentieth of the whole may be its beginning."""
+    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
+    bar = progress.BarProgress(console)
+    bar.stage("march")
+    for count in range(done + 1):
+        bar.update(count, 100)
+    bar.close()
+    assert ("-:--:--" not in console.file.getvalue().rpartition("left")[2]) == said

@@ -1,0 +1,45 @@
+"""Work that all ranks of a job carry out together. Each stage of the program's own is in test_failing_ranks.py."""
+
+import subprocess
+import sys
+
+import pytest
+from tests.studies.conftest import environment, mpirun
+
+pytestmark = pytest.mark.ranks
+
+PROGRAM = """
+import sys
+from fenics_gears.errors import GearsError, SceneError
+from fenics_gears.system import environment, job
+environment.prepare()
+job.PATIENCE = 0.2
+
+def squared(number, comm, added=0):
+    return comm.rank + number**2 + added
+
+def failing(waits, comm):
+    if comm.rank == 1:
+        raise SceneError("no more chalk")
+    if waits:
+        comm.Barrier()
+
+def lead(team):
+    print(team.together(squared, 3, added=10), job.ranks_on_machine())
+    try:
+        team.together(failing, False)
+    except GearsError as error:
+        print(error, "exit code", error.exit_code)
+    team.together(failing, True)
+
+sys.exit(job.led(lead))
+"""
+
+
+def test_an_error_of_one_rank_is_an_error_of_all(tmp_path):
+    """Definitions: each rank's value, rank 0 alone gets what is its own; a SceneError of rank 1 is rank 0's, and the work goes on. Where rank 0 waits for it inside
+    MPI for ever, MPI's Abort ends both with the error's words and exit code. Both ranks are on this machine."""
+    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
+    done = subprocess.run([*mpirun(2), sys.executable, "program.py"], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=60)
+    assert done.stdout.splitlines() == ["[19, 10] 2", "rank 1: no more chalk exit code 2"], done.stderr
+    assert done.returncode == 2 and "rank 1: no more chalk" in done.stderr
