@@ -8,29 +8,34 @@ program that reads the output closed the pipe.
 from __future__ import annotations
 
 import argparse
-import gc
 import logging
 import os
 import sys
 from collections.abc import Sequence
 
 from fenics_gears import __version__
-from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, optimize, picture, plot, rate, report, run, study, tests
+from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, optimize, picture, plot, python, rate, report, run, study, tests
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
 from fenics_gears.system.memory import MEMORY_VARIABLE
+from fenics_gears.system.settings import settings_of_a_command
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (``sys.argv`` where none is given) and return the exit code."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     environment.prepare()
-    # Libraries make a million objects that stay; Python's usual search for garbage among them takes a tenth of a short run.
-    gc.set_threshold(200_000, 50, 100)
+    with settings_of_a_command():
+        return _carried_out(arguments)
+
+
+def _carried_out(arguments: Sequence[str]) -> int:
     if arguments[:1] == ["test"]:
         # pytest's options are not ours to parse.
         return _reported(lambda: tests.run_tests(arguments[1:]))
+    if arguments[:1] == ["python"]:
+        return _reported(lambda: python.run_python(arguments[1:]))
     options = _parser().parse_args(arguments)
     _configure_logging(options.verbose)
     if "memory" in options:
@@ -83,5 +88,6 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (check, run, study, map, optimize, effects, accuracy, plot, picture, report, export, listen, rate, import_rexs, cache):
         command.add(commands, shared)
+    python.add(commands)
     tests.add(commands)
     return parser

@@ -19,7 +19,7 @@ from fenics_gears.results.validity import worst_first
 from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
 from fenics_gears.simulation.routes import Preparation, prepared, route_of
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.system.memory import allowed_memory
+from fenics_gears.system.memory import allowed_memory, give_back
 from fenics_gears.system.progress import Progress, SilentProgress
 
 if TYPE_CHECKING:
@@ -44,7 +44,14 @@ def simulate(
     computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with what was done before as
     its attribute `partial`.
     """
-    progress, cache = progress or SilentProgress(), cache or user_cache()
+    try:
+        return _simulated(scene, progress or SilentProgress(), cache or user_cache(), preparation, comm, journal)
+    finally:
+        # Here, where the run's own arrays are free.
+        give_back()
+
+
+def _simulated(scene: Scene, progress: Progress, cache: Cache, preparation: Preparation | None, comm, journal: Place | None) -> xr.Dataset:
     model = model_of(scene)
     for_operators = memory_for_operators(model, 1 if comm is None else comm.size)
     gears, cycle = (preparation or functools.partial(prepared, comm=comm))(model, progress, cache)
