@@ -8,12 +8,6 @@ import importlib
 __version__ = "0.3.0"
 __all__ = ["__version__", "build_scene", "load_scene", "simulate"]
 
-# For editors and type checkers, which do not run __getattr__.
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from fenics_gears.scene.read import build_scene, load_scene
-    from fenics_gears.studies.simulate import simulate
-
 # Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.
 _HOMES = {"build_scene": "fenics_gears.scene.read", "load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.studies.simulate"}
 
@@ -29,4 +23,4 @@ def __getattr__(name: str):
 
 def __dir__() -> list[str]:
     """What is loaded on first use too."""
-    return sorted({*globals(), *__all__} - {"TYPE_CHECKING", "importlib"})
+    return sorted({*globals(), *__all__} - {"importlib"})
