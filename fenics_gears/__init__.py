@@ -1,4 +1,7 @@
-"""Spur and helical gear pairs as flexible multi-body systems with frictional contact."""
+"""Spur and helical gear pairs as flexible multi-body systems with frictional contact.
+
+``load_scene`` reads a scene file and ``build_scene`` takes its sections as dictionaries; ``simulate`` runs a scene and returns an ``xarray.Dataset``.
+"""
 
 import importlib
 
@@ -16,3 +19,8 @@ def __getattr__(name: str):
     # What BLAS, MPI and VTK read from the environment must stand there before they are loaded.
     importlib.import_module("fenics_gears.system.environment").prepare()
     return getattr(importlib.import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    """What is loaded on first use too."""
+    return sorted({*globals(), *__all__} - {"importlib"})

@@ -8,14 +8,13 @@ standard output could not be written, as when the program that reads it closed t
 from __future__ import annotations
 
 import argparse
-import gc
 import logging
 import os
 import sys
 from collections.abc import Callable, Sequence
 
 from fenics_gears import __version__
-from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, optimize, picture, plot, rate, report, run, study, tests
+from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, optimize, picture, plot, python, rate, report, run, study, tests
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
@@ -23,6 +22,7 @@ from fenics_gears.system.console import prepare_streams
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
 from fenics_gears.system.printable import printable
+from fenics_gears.system.settings import settings_of_a_command
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -34,11 +34,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _command(arguments: list[str]) -> int:
     environment.prepare()
-    # Libraries make a million objects that stay; Python's usual search for garbage among them takes a tenth of a short run.
-    gc.set_threshold(200_000, 50, 100)
+    with settings_of_a_command():
+        return _carried_out(arguments)
+
+
+def _carried_out(arguments: Sequence[str]) -> int:
     if arguments[:1] == ["test"]:
         # pytest's options are not ours to parse.
         return tests.run_tests(arguments[1:])
+    if arguments[:1] == ["python"]:
+        return python.run_python(arguments[1:])
     options = _parser().parse_args(arguments)
     _configure_logging(options.verbose)
     if "memory" in options:
@@ -113,5 +118,6 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (check, run, study, map, optimize, effects, accuracy, plot, picture, report, export, listen, rate, import_rexs, cache):
         command.add(commands, shared)
+    python.add(commands)
     tests.add(commands)
     return parser

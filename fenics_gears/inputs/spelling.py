@@ -48,8 +48,8 @@ def quantity_text(value: float, kind: str, usual: str) -> str:
 
     >>> quantity_text(437000.0, "a torque", "N m")
     '437 N m'
-    >>> quantity_text(1.0 / 3.0, "a length", "um")
-    '0.3333333333333333 mm'
+    >>> quantity_text(0.031, "a length", "um"), quantity_text(0.031, "a length", "mm")
+    ('31 um', '0.031 mm')
     """
     own = units.own_unit(kind)
     for unit in (usual, own):

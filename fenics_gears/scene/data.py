@@ -145,6 +145,15 @@ class Scene:
 
         return text_of(self)
 
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        """The table that notebooks show."""
+        from fenics_gears.scene.table import html
+
+        return html(self)
+
     @property
     def mesh_frequencies(self) -> tuple[float, float]:
         """The lowest and the highest mesh frequency of the run, Hz."""

@@ -22,7 +22,7 @@ from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
 from fenics_gears.simulation.routes import Preparation, prepared, route_of
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.job import Job
-from fenics_gears.system.memory import allowed_memory
+from fenics_gears.system.memory import allowed_memory, give_back
 from fenics_gears.system.progress import Progress, SilentProgress
 
 if TYPE_CHECKING:
@@ -47,7 +47,14 @@ def simulate(
     computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with what was done before as
     its attribute `partial`.
     """
-    progress, cache = progress or SilentProgress(), cache or user_cache()
+    try:
+        return _simulated(scene, progress or SilentProgress(), cache or user_cache(), preparation, job, journal)
+    finally:
+        # Here, where the run's own arrays are free.
+        give_back()
+
+
+def _simulated(scene: Scene, progress: Progress, cache: Cache, preparation: Preparation | None, job: Job | None, journal: Place | None) -> xr.Dataset:
     model = model_of(scene)
     for_operators = memory_for_operators(model, 1 if job is None else job.size)
     gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)

@@ -109,5 +109,5 @@ def changed_since(study: Study, directory: Path) -> str:
     if before is None or before == study.base_key:
         return ""
     if numbers != NUMBERS_VERSION:
-        return "Results that are here are of a version of the program with other numbers; none of them is used, all cases are computed anew."
+        return "Results that are here of a version of the program with other numbers are not used."
     return "The base scene has changed since the last time."

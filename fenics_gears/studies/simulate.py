@@ -32,12 +32,31 @@ def simulate(
     job: Job | None = None,
     journal: Place | None = None,
 ) -> xr.Dataset:
-    """Run a scene and return its result (docs/result.md).
+    """Run a scene and return its result, an `xarray.Dataset` (docs/result.md).
+
+    Its variables, over time, tooth pairs and contact nodes, have their units as `attrs["units"]`: rotations and the transmission error are in rad,
+    displacements in mm, forces in N, pressures and stresses in MPa, torques and energies in N mm, times in s. Numbers of the whole run, such as
+    `mean_transmission_error` (rad), the warnings, and the text of the scene that was run are in `result.attrs`.
 
     With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`, `estimated_error`, and
     `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`; the scene that it carries has the
-    settings in place of the target, so that it repeats the run. Arguments, results and errors are those of `simulation.simulate.simulate`;
-    with a target also TargetNotReached.
+    settings in place of the target, so that it repeats the run.
+
+    scene: from `load_scene` or `build_scene`, as it is or changed by `dataclasses.replace`.
+    progress: is told the stages and how far they are (`system.progress`); nothing is shown unless given.
+    cache: where condensed gears are kept (`elasticity.cache.Cache`); that of the user unless given.
+    preparation, comm, journal: for programs that make many runs or share one over MPI; see `simulation.simulate.simulate`.
+
+    Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not fit into the memory that it
+    may take, or a stage fails: steps that were computed before are then in its attribute `partial`; TargetNotReached where no settings keep the target.
+    Ctrl-C during the march returns the steps computed so far, with the attribute `complete` 0.
+
+    >>> from fenics_gears import load_scene, simulate
+    >>> result = simulate(load_scene("demos/lundvall2004.toml"))
+    >>> result.transmission_error.dims, result.transmission_error.attrs["units"]
+    (('time',), 'rad')
+    >>> print(f'{result.transmission_error.max().item() * result.attrs["base_radius_wheel"]:.2f} mm along the line of action at most')
+    0.16 mm along the line of action at most
     """
     arguments = {"progress": progress or SilentProgress(), "cache": cache, "preparation": preparation, "job": job, "journal": journal}
     target = scene.accuracy.target

@@ -1,7 +1,9 @@
-"""Memory that a run may take: as much as `--memory` or FENICS_GEARS_MEMORY says, else a share of what the machine has free."""
+"""Memory that a run may take, as much as `--memory` or FENICS_GEARS_MEMORY says, else a share of what the machine has free; and giving it back."""
 
 from __future__ import annotations
 
+import ctypes
+import functools
 import os
 import re
 from collections.abc import Callable
@@ -16,6 +18,8 @@ BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
 SHARE = 0.6
 # Where neither the kernel nor a container says what is free.
 UNKNOWN = 8e9
+# Free bytes of the heap that stay in the process after a run: the next one needs them, and pages are dear to get again.
+MOST_KEPT = 200e6
 
 
 def size_in_bytes(size: str, name: str, example: str) -> float:
@@ -39,6 +43,33 @@ def usual_memory() -> float:
 def _named_or(of_machine: Callable[[], float]) -> float:
     given = os.environ.get(MEMORY_VARIABLE)
     return size_in_bytes(given, MEMORY_VARIABLE, "8 GB") if given else SHARE * of_machine() / ranks_on_machine()
+
+
+def give_back() -> None:
+    """Give memory that was freed, but that the C library keeps, back to the system where it is much.
+
+    Libraries free arrays of all sizes in the middle of glibc's heap, which shrinks from its end alone. Other C libraries have no such call, nor need it.
+    """
+    library = _c_library()
+    if library is not None and library.mallinfo2().fordblks > MOST_KEPT:
+        library.malloc_trim(0)
+
+
+@functools.cache
+def _c_library():
+    """glibc from 2.33 on; None elsewhere."""
+    library = ctypes.CDLL(None)
+    if not (hasattr(library, "malloc_trim") and hasattr(library, "mallinfo2")):
+        return None
+    library.mallinfo2.restype = _HeapInformation
+    library.malloc_trim.argtypes = (ctypes.c_size_t,)
+    return library
+
+
+class _HeapInformation(ctypes.Structure):
+    """What mallinfo2(3) tells, bytes; `fordblks` are free."""
+
+    _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")]
 
 
 def free_memory() -> float:

@@ -1,11 +1,10 @@
 """Memory of a process that simulates different pairs one after the other: `python -m tests.benchmarks.long_life plane 100` (or `face 20`).
 
-Prints what the process holds after each tenth pair, and what of it is free in the allocator's heap (glibc's mallinfo2).
+Prints what the process holds after each tenth pair, MB, and the processor's seconds so far.
 """
 
 from __future__ import annotations
 
-import ctypes
 import sys
 import tempfile
 import time
@@ -34,29 +33,16 @@ def _gear(teeth: int) -> dict:
     return {"teeth": teeth, "profile_shift": 0.0, "bore_diameter": f"{0.8 * teeth} mm"}
 
 
-class _Mallinfo2(ctypes.Structure):
-    """mallinfo2(3)."""
-
-    _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")]
-
-
-def free_in_heap() -> int:
-    """Bytes that the allocator holds and nobody uses."""
-    mallinfo2 = ctypes.CDLL(None).mallinfo2
-    mallinfo2.restype = _Mallinfo2
-    return mallinfo2().fordblks
-
-
 def main() -> None:
     """Print a line for each tenth of the pairs."""
     over_face, count = sys.argv[1] == "face", int(sys.argv[2])
-    print(f"{'pairs':>6} {'MB':>8} {'free':>8} {'s':>8}")
+    print(f"{'pairs':>6} {'MB':>8} {'s':>8}")
     with tempfile.TemporaryDirectory() as directory:
         begun = time.process_time()
         for number in range(count):
             simulate(pair(number, over_face), cache=Cache(Path(directory), 2e9))
             if number in (0, 1, 2, 4) or (number + 1) % 10 == 0:
-                print(f"{number + 1:6d} {resident() / 1e6:8.0f} {free_in_heap() / 1e6:8.0f} {time.process_time() - begun:8.1f}", flush=True)
+                print(f"{number + 1:6d} {resident() / 1e6:8.0f} {time.process_time() - begun:8.1f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ The simulation is replaced by one that returns at once: what is under test is wh
 """
 
 import contextlib
+import gc
 import os
 import re
 import signal
@@ -373,6 +374,32 @@ def test_version(capsys):
         main(["--version"])
     assert leaving.value.code == 0
     assert capsys.readouterr().out == f"gears {fenics_gears.__version__}\n"
+
+
+def test_a_command_leaves_no_settings_behind(monkeypatch, capsys):
+    """Definition: a process that goes on, such as a notebook, is as before; the command itself looks for garbage rarely and keeps to its memory."""
+    seen = {}
+
+    def run_python(options):
+        gc.freeze()
+        os.environ["FENICS_GEARS_MEMORY"] = "3 GB"
+        seen.update(thresholds=gc.get_threshold())
+
+    monkeypatch.setattr("fenics_gears.commands.python.run_python", run_python)
+    before = gc.get_threshold(), gc.get_freeze_count(), os.environ.get("FENICS_GEARS_MEMORY")
+    main(["python"])
+    assert seen["thresholds"] != before[0]
+    assert (gc.get_threshold(), gc.get_freeze_count(), os.environ.get("FENICS_GEARS_MEMORY")) == before
+
+
+def test_python_has_the_program_and_runs_in_the_folder_of_the_call(tmp_path):
+    """Authority: the README; what stands beside the script can be imported too, and arguments are the script's."""
+    (tmp_path / "beside.py").write_text("NAME = 'beside'\n", encoding="utf-8")
+    said = "import sys, os, beside, fenics_gears\nprint(beside.NAME, sys.argv[1:], os.getcwd(), callable(fenics_gears.load_scene), 'simulate' in dir(fenics_gears))\nsys.exit(7)\n"
+    (tmp_path / "first.py").write_text(said, encoding="utf-8")
+    call = [sys.executable, "-P", "-m", "fenics_gears", "python", "first.py", "-v", "x"]
+    run = subprocess.run(call, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(CHECKOUT)}, capture_output=True, text=True)
+    assert (run.returncode, run.stdout) == (7, f"beside ['-v', 'x'] {tmp_path} True True\n"), run.stderr
 
 
 def test_help_loads_neither_numerics_nor_the_schema():

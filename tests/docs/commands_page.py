@@ -37,7 +37,7 @@ def page() -> str:
     lines = [HEADING, "## `gears`", "", f"    gears{_usage(whole)} COMMAND ...", "", *_options(whole), ""]
     lines += ["Every command also accepts `-h`, `-v` and `-q`.", ""]
     for name, (words, command) in commands().items():
-        rest = " [PYTEST'S OPTIONS]" if name == "test" else _usage(command)
+        rest = {"test": " [PYTEST'S OPTIONS]", "python": " [PYTHON'S OPTIONS] FILE"}.get(name) or _usage(command)
         lines += [f"## `gears {name}`", "", capital(words), "", f"    gears {name}{rest}", ""]
         lines += [*_options(command), ""] if _shown(command) else []
     return "\n".join([*lines, *_exit_codes(), *_environment()]) + "\n"

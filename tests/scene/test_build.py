@@ -1,6 +1,9 @@
 """A scene from plain dictionaries. Authority: the same scene read from a file."""
 
+import subprocess
+import sys
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -68,3 +71,19 @@ def test_it_is_public():
     """Authority: the package's own list of names."""
     assert "build_scene" in fenics_gears.__all__
     assert all(hasattr(fenics_gears, name) for name in fenics_gears.__all__)
+
+
+def test_a_notebook_shows_fields_with_units_and_meanings(paper_scene):
+    """The scene file, whose quantities are those of the table; markup of a title is none of the page's."""
+    html = replace(paper_scene, title="<b>paper</b>")._repr_html_()
+    assert "<td style=\"text-align: left\">gears.pinion.tip_diameter</td><td style=\"text-align: left\">82.64 mm</td>" in html
+    assert "<caption>&lt;b&gt;paper&lt;/b&gt;</caption>" in html and "torque that resists the wheel" in html and "437 N m" in html
+    assert str(paper_scene) == paper_scene.text
+
+
+def test_names_of_the_package_are_told_without_loading_them():
+    """The package's own list, by `dir` and `help` in a process of its own, which stays as quick as it was; a name that is none is refused."""
+    assert {"load_scene", "build_scene", "simulate", "__version__"} <= {*dir(fenics_gears)}
+    assert [name for name in fenics_gears.__all__ if not hasattr(fenics_gears, name)] == []
+    program = "import sys, fenics_gears; dir(fenics_gears); print(sorted({'numpy', 'xarray', 'pydantic'} & set(sys.modules)))"
+    assert subprocess.run([sys.executable, "-c", program], cwd=DEMOS[0].parents[1], capture_output=True, text=True, check=True).stdout == "[]\n"

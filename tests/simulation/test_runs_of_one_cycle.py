@@ -1,7 +1,5 @@
 """What runs on one mesh cycle have in common: layouts of contact nodes, the quasi-static run beside."""
 
-import gc
-import weakref
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +8,6 @@ from tests.coarse import coarse_scene
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation import dynamic_factor
-from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import GearStore
 
@@ -35,13 +32,3 @@ def test_runs_that_share_a_cycle_are_those_that_do_not(paper_scene, monkeypatch)
             name: value for name, value in expected.attrs.items() if not name.startswith("time_")
         }
     assert len(recorders) == 2
-
-
-def test_what_is_known_of_a_cycle_goes_with_it(paper_scene):
-    """Layouts and peaks hold no contact operators: a study frees the memory of a cycle before it makes the next."""
-    kept = []
-    simulate(variants(paper_scene)[0], preparation=lambda *given: kept.append(prepared(*given)) or kept[0])
-    cycle = weakref.ref(kept[0][1])
-    kept.clear()
-    gc.collect()
-    assert cycle() is None

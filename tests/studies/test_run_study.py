@@ -106,8 +106,8 @@ def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_a_changed_base_scene_is_noticed(folder, capsys):
-    """Authority: hash of what the scene says; a comment is no change, another face width is one."""
+def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys, monkeypatch):
+    """Authority: hash of what the scene says; a comment is no change, another face width is one, and so is another version of the numbers."""
     study = write_study(folder, TWO)
     main(["study", str(study), "--quiet", "--output", "here"])
     before, old = stamps("here"), load("here")
@@ -121,6 +121,13 @@ def test_a_changed_base_scene_is_noticed(folder, capsys):
     assert "2 to be computed. The base scene has changed" in capsys.readouterr().err
     after = stamps("here")
     assert {name: after[name] for name in before} == before and len(after) == 4
+    with monkeypatch.context() as updated:
+        for module in ("study", "case_files"):
+            updated.setattr(f"fenics_gears.studies.{module}.NUMBERS_VERSION", 10**6)
+        assert main(["study", str(study), "--output", "here"]) == 0
+        assert "2 to be computed. Results that are here of a version of the program with other numbers are not used." in capsys.readouterr().err
+        assert main(["study", str(study), "--output", "here"]) == 0
+        assert "2 kept, 0 to be computed.\n" in capsys.readouterr().err
     new = load("here")
     assert (new["mean_transmission_error"] < old["mean_transmission_error"]).all()
     # A change that no case is left with changes no case.

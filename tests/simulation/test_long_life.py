@@ -1,0 +1,63 @@
+"""What a process holds that simulates one pair after the other."""
+
+import gc
+import subprocess
+import sys
+import weakref
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from tests.coarse import coarse_scene, quasi_static
+from tests.helical import helical_scene
+from tests.pinned_numbers import in_the_plane, over_the_face
+
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.scene.data import Load
+from fenics_gears.simulation.simulate import simulate
+
+# Beside the first pair, as the issue of memory asks for a hundred pairs; the first ones alone made half a gigabyte.
+MOST_MORE = 150e6
+
+
+def kinds(scene):
+    """Runs whose routes, solvers and results differ."""
+    still = quasi_static(scene)
+    return {
+        "quasi-static with friction": (still, in_the_plane),
+        "in time": (scene, in_the_plane),
+        "corners": (replace(still, friction=None, corner_contact=CornerContact((0.0, 0.0))), in_the_plane),
+        "coast flanks": (replace(still, coast_flanks=CoastFlanks(), load=Load(-1e5)), in_the_plane),
+        "over the face": (helical_scene(), over_the_face),
+    }
+
+
+@pytest.mark.parametrize("kind", ["quasi-static with friction", "in time", "corners", "coast flanks", "over the face"])
+def test_contact_operators_go_with_their_run(paper_scene, kind):
+    """Definition: nothing but the result is left of a run, without a search for garbage. Operators are most of its memory; a circle of references kept them."""
+    scene, prepare = kinds(coarse_scene(paper_scene, cycles=1))[kind]
+    left = []
+
+    def preparation(*arguments):
+        gears, cycle = prepare(*arguments)
+        left.append(weakref.ref(cycle))
+        return gears, cycle
+
+    gc.collect()
+    gc.disable()
+    try:
+        result = simulate(scene, preparation=preparation)
+        assert result.attrs["complete"] and left[0]() is None
+    finally:
+        gc.enable()
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(("kind", "pairs"), [("plane", 10), ("face", 3)])
+def test_different_pairs_take_no_more_and_more(kind, pairs):
+    """What the system counts (proc(5), VmRSS) after the first and after the last of some pairs, no two alike."""
+    call = [sys.executable, "-P", "-m", "tests.benchmarks.long_life", kind, str(pairs)]
+    said = subprocess.run(call, cwd=Path(__file__).parents[2], capture_output=True, text=True, check=True).stdout
+    held = [1e6 * float(line.split()[1]) for line in said.splitlines()[1:]]
+    assert len(held) > 2 and max(held) < held[0] + MOST_MORE
