@@ -83,7 +83,7 @@ def _written(command: Callable[[], int]) -> int:
 
 def _output_fails() -> bool:
     try:
-        sys.stdout.flush()
+        print(flush=True)
     except OSError:
         return True
     return False

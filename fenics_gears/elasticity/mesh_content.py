@@ -87,9 +87,10 @@ def _read(name: str) -> MeshContent:
 
 
 if __name__ == "__main__":
-    resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[2]),) * 2)
-    # No file of a memory that is only damage.
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    for what, limit in ((resource.RLIMIT_AS, int(sys.argv[2])), (resource.RLIMIT_CORE, 0)):
+        # Who started this may allow less, which can only be lowered.
+        _, most = resource.getrlimit(what)
+        resource.setrlimit(what, (limit if most == resource.RLIM_INFINITY else min(limit, most), most))
     try:
         content = _read(sys.argv[1])
     except Exception as error:  # gmsh raises nothing more precise

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import re
+
 import gmsh
 import numpy as np
 import pytest
@@ -186,6 +188,15 @@ def test_what_is_no_plane_mesh_of_straight_cells_is_refused(whole, tmp_path):
         read_body_mesh(path)
     write_body_mesh(BodyMesh(whole.points, whole.cells[:, ::-1], {}), path)
     assert len(read_body_mesh(path).cells) == len(whole.cells)
+
+
+def test_damage_that_ends_gmsh_is_refused(whole, tmp_path):
+    """Gmsh 4.8 to 4.15 end by SIGSEGV where a physical group has the dimension -1: that ends a process of its own, not the caller's."""
+    path = tmp_path / "gear.msh"
+    write_body_mesh(whole, path)
+    path.write_text(re.sub(r'^1 (\d+ "flank 1")', r"-1 \1", path.read_text(encoding="utf-8"), flags=re.MULTILINE), encoding="utf-8")
+    with pytest.raises(SceneError, match=r"gear.msh: gmsh cannot read it \(it ends gmsh by SIGSEGV: the file is damaged"):
+        read_body_mesh(path)
 
 
 def test_a_given_body_is_of_its_element_and_there(whole, tmp_path):
