@@ -27,9 +27,11 @@ from fenics_gears.system.printable import printable
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (``sys.argv`` where none is given) and return the exit code."""
-    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if arguments is None:
+        # DOLFINx would read them too: it takes -v for its own, and ends at a name that is no UTF-8.
+        arguments, sys.argv = sys.argv[1:], ["gears"]
     prepare_streams()
-    return _written(lambda: _in_words(lambda: _command(arguments)))
+    return _written(lambda: _in_words(lambda: _command(list(arguments))))
 
 
 def _command(arguments: list[str]) -> int:

@@ -34,7 +34,7 @@ def check_file(path: str | Path, largest: int) -> None:
     if stat.S_ISDIR(found.st_mode):
         raise Unreadable("cannot be read: it is a folder")
     if not stat.S_ISREG(found.st_mode):
-        raise Unreadable("cannot be read: it is a device or a pipe, not a file")
+        raise Unreadable("it is a device or a pipe, not a file")
     if found.st_size > largest:
         raise Unreadable(f"has {found.st_size / MEGABYTE:.0f} MB; a file of more than {largest // MEGABYTE} MB is not read")
 
