@@ -77,7 +77,8 @@ def _written(command: Callable[[], int]) -> int:
         if not isinstance(error, BrokenPipeError):
             if not _output_fails():
                 raise
-            print(f"The standard output cannot be written: {error.strerror}. Send it elsewhere, or free space.", file=sys.stderr)
+            why = f"The standard output cannot be written: {error.strerror}."
+            print(f"{why} Send it elsewhere, or free space.", file=sys.stderr)
         # What Python still writes when it ends goes nowhere too.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return NOBODY_READS

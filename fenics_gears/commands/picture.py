@@ -102,7 +102,7 @@ def _check_outputs(options, output: Path | None) -> None:
         if path is not None and path.suffix != suffix:
             raise SceneError(f"{path}: --{suffix[1:]} writes a {suffix} file; give it such a name")
         if path is not None and printable(str(path)) != str(path):
-            raise SceneError(f"{path}: VTK writes only files whose names are text in UTF-8; give it such a name, in such a folder")
+            raise SceneError(f"{path}: VTK writes only files whose names are text in UTF-8; give it such a name")
     if output is None:
         return
     if options.animate:

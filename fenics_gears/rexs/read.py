@@ -75,8 +75,9 @@ def _packed(content: bytes) -> bytes:
         raise
     except RuntimeError as error:
         # It is encrypted, or packed in a way that the library does not know.
-        raise ModelError(f"is a ZIP archive that cannot be unpacked: {error}. Unpack it by another program, and name the file in it") from None
-    # Damage reaches the library as errors of many types: of places before the file's beginning, of names that are no text.
+        remedy = "Unpack it by another program, and name the file in it"
+        raise ModelError(f"is a ZIP archive that cannot be unpacked: {error}. {remedy}") from None
+    # Damage reaches the library as errors of many types: places before the file's beginning, names that are no text.
     except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, OSError, struct.error) as error:
         raise ModelError(f"is a ZIP archive that cannot be unpacked: it is damaged ({error}). Pack it again") from None
 

@@ -1,7 +1,7 @@
-"""Folders for temporary files and for caches that this user can write: of another user's checkout, in a container, on a full disk.
+"""Folders for temporary files and for caches that this user can write, in a container and on a full disk, too.
 
-numba and DOLFINx compile code and keep it in the user's folder for caches, matplotlib its list of fonts; where they cannot, each command would fail or
-take a minute more. MPI ends the process where temporary files have no room.
+numba and DOLFINx keep compiled code in the user's folder for caches, matplotlib its list of fonts; where they cannot, each
+command would fail or take a minute more. MPI ends the process where temporary files have no room.
 """
 
 from __future__ import annotations
@@ -26,7 +26,9 @@ CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
 
 
 def have_folders(environment: Environment, aloud: bool) -> None:
-    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used, and say so on the standard error if `aloud`.
+    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used.
+
+    aloud: whether to say so on the standard error.
 
     Raises SceneError where compiled code can be kept nowhere.
     """
@@ -68,7 +70,7 @@ def _can_be_written(folder: Path) -> bool:
 
 
 def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> None:
-    """Have compiled code kept in a folder for temporary files: as long as that stays, nothing is compiled again, and nothing said."""
+    """Have compiled code kept in a folder for temporary files: as long as that stays, nothing is compiled or said again."""
     folder, is_new = _own_temporary_folder()
     environment["XDG_CACHE_HOME"] = environment["MPLCONFIGDIR"] = folder
     if not os.path.isabs(environment.get("HOME") or os.path.expanduser("~")):
@@ -77,11 +79,12 @@ def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> No
     if is_new:
         with contextlib.suppress(OSError):
             _copy_compiled(Path(folder, "numba"))
-        say(f"your folder for caches cannot be written, so compiled code is kept in {folder}; to keep it for longer, let XDG_CACHE_HOME name a folder that you can write.")
+        remedy = "to keep it for longer, let XDG_CACHE_HOME name a folder that you can write."
+        say(f"your folder for caches cannot be written, so compiled code is kept in {folder}; {remedy}")
 
 
 def _copy_compiled(folder: Path) -> None:
-    """Give numba what lies compiled beside the sources, where this user cannot write: it looks there only for what it could also write."""
+    """Give numba what lies compiled beside the sources: it does not look where it cannot write."""
     for sources in {file.parent.parent for file in Path(__file__).parents[1].rglob("__pycache__/*.nbi")}:
         # As numba names its folders. Where another version does not, it compiles.
         place = folder / f"{sources.name}_{hashlib.sha1(str(sources).encode()).hexdigest()}"
@@ -91,7 +94,7 @@ def _copy_compiled(folder: Path) -> None:
 
 
 def _own_temporary_folder() -> tuple[str, bool]:
-    """A folder for temporary files that nobody else can write, and whether it is new; compiled code in it is run. Raises SceneError where there can be none."""
+    """A temporary folder that nobody else can write, since code in it is run, and whether it is new. Raises SceneError."""
     try:
         folder = os.path.join(tempfile.gettempdir(), f"fenics_gears-{os.getuid()}")
         try:
@@ -104,6 +107,6 @@ def _own_temporary_folder() -> tuple[str, bool]:
         return tempfile.mkdtemp(prefix="fenics_gears-"), True
     except OSError as error:
         raise SceneError(
-            f"Compiled code can be kept neither in your folder for caches nor in one for temporary files ({error.strerror or error}). "
-            "Let XDG_CACHE_HOME name a folder that you can write."
+            "Compiled code can be kept neither in your folder for caches nor in one for temporary files "
+            f"({error.strerror or error}). Let XDG_CACHE_HOME name a folder that you can write."
         ) from None

@@ -14,7 +14,12 @@ from fenics_gears.errors import SceneError
 
 SCENE = GREEK + '[friction]\ncoefficient = 0.1\n'
 STUDY = 'scene = "pair.toml"\n[sweep]\nfriction.coefficient = [0.1, 0.2]\n'
-DESIGN = 'scene = "pair.toml"\n[variables]\ntip_relief.depth = ["5 um", "60 um"]\n[set]\ntip_relief.start = "HPSTC"\n[goals]\npeak_to_peak_transmission_error = 1\n'
+DESIGN = """
+scene = "pair.toml"
+set.tip_relief.start = "HPSTC"
+variables.tip_relief.depth = ["5 um", "60 um"]
+goals.peak_to_peak_transmission_error = 1
+"""
 CALLS = {
     "run pair.toml": "run.nc",
     "run pair.toml ": "load_sharing.png",
@@ -37,7 +42,7 @@ def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, call):
     words = [word.replace("100N", "100 N m") for word in call.split()]
     assert main([*words, "--output", "out"]) == 2
     assert f"{taken} is no file; the result needs this name. Remove it, or choose another directory" in capsys.readouterr().err
-    assert [each for each in Path("out").rglob("*")] == [taken]
+    assert list(Path("out").rglob("*")) == [taken]
 
 
 def test_vtk_takes_names_in_utf_8_only(tmp_path, monkeypatch):
