@@ -114,7 +114,7 @@ def checked_scene(path: Path):
 
 
 def checked_scene_and_directory(options, *names: str):
-    """The scene of a command's options, found right, and the directory to write into, which can take files of these names.
+    """The scene of a command's options, found right, and the directory to write into, which takes files of these names.
 
     Raises as `checked_scene` does, and SceneError for the directory.
     """
@@ -128,8 +128,8 @@ def checked_scene_and_directory(options, *names: str):
 
 def run_file(path: Path) -> Path:
     """The file of the run that is meant by its directory or the file itself. Raises SceneError for what is no run, a study among others."""
-    study_in = isdir(path) and not (path / RUN_FILE).is_file() and ((path / STUDY_FILE).is_file() or (path / CASES).is_dir())
-    if path.name == STUDY_FILE or study_in:
+    has_cases = isdir(path) and ((path / STUDY_FILE).is_file() or (path / CASES).is_dir())
+    if path.name == STUDY_FILE or has_cases and not (path / RUN_FILE).is_file():
         directory = path if isdir(path) else path.parent
         raise SceneError(
             f"{path} is a study, of many runs. `gears report {directory}` writes a page of pictures on all of them; "

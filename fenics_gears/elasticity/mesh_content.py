@@ -1,4 +1,4 @@
-"""What gmsh finds in a mesh file, read by a process of its own: one wrong digit in a file can end the process that reads it.
+"""What gmsh finds in a mesh file, read by a process of its own: one wrong digit can end the process that reads it.
 
 `python -m fenics_gears.elasticity.mesh_content FILE` is that process: it writes the arrays to the standard output.
 """

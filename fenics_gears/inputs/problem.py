@@ -40,7 +40,7 @@ MOST_TOLD = 20
 
 
 def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) -> str:
-    """The first mistakes of a file in the order of their lines, how many more there are, and that nothing came of it."""
+    """The first mistakes of a file in the order of their lines, and how many there are."""
     first = sorted(problems, key=lambda each: each.line(lines))[:MOST_TOLD]
     return counted([problem.describe(source, lines) for problem in first], len(problems), source)
 

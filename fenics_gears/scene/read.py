@@ -43,7 +43,7 @@ def text_of(path: Path, kind: str) -> str:
 
 
 def name_of(path: Path) -> str:
-    """What a scene or a study is called by its file: its name without the ending, as a text that can be printed and stored."""
+    """What a scene or a study is called by its file: its name without the ending, as a text that can be stored."""
     return printable(path.stem)
 
 

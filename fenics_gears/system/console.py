@@ -17,7 +17,7 @@ Row = tuple[str, Any, str]
 
 
 class NeverFull(io.FileIO):
-    """A stream for words about a computation, which goes on where they cannot be written; it ends where its reader has gone."""
+    """A stream for words about a computation, which goes on where they cannot be written."""
 
     def write(self, content) -> int:
         """Write what there is room for; say that it was all."""

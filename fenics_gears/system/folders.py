@@ -1,7 +1,7 @@
 """Folders for temporary files and for caches that this user can write, in a container and on a full disk, too.
 
-numba and DOLFINx keep compiled code in the user's folder for caches, matplotlib its list of fonts; where they cannot, each
-command would fail or take a minute more. MPI ends the process where temporary files have no room.
+numba and DOLFINx keep compiled code in the user's folder for caches, matplotlib its list of fonts; where they cannot, a
+command fails or takes a minute more. MPI ends the process where temporary files have no room.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _can_be_written(folder: Path) -> bool:
 
 
 def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> None:
-    """Have compiled code kept in a folder for temporary files: as long as that stays, nothing is compiled or said again."""
+    """Have compiled code kept in a folder for temporary files: as long as that stays, nothing is said again."""
     folder, is_new = _own_temporary_folder()
     environment["XDG_CACHE_HOME"] = environment["MPLCONFIGDIR"] = folder
     if not os.path.isabs(environment.get("HOME") or os.path.expanduser("~")):
@@ -94,7 +94,7 @@ def _copy_compiled(folder: Path) -> None:
 
 
 def _own_temporary_folder() -> tuple[str, bool]:
-    """A temporary folder that nobody else can write, since code in it is run, and whether it is new. Raises SceneError."""
+    """A temporary folder that nobody else can write, since code in it is run, and whether it is new."""
     try:
         folder = os.path.join(tempfile.gettempdir(), f"fenics_gears-{os.getuid()}")
         try:

@@ -80,7 +80,7 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
 
 
 def remove_left_over(directory: Path) -> None:
-    """Remove from a directory, not from those in it, what processes of this machine were writing when they were killed."""
+    """Remove from a directory, not from those in it, what killed processes of this machine were writing."""
     for left in directory.glob(f"{UNFINISHED}{glob.escape(_machine())}-*"):
         process = left.name[len(UNFINISHED) + len(_machine()) + 1 :].partition("-")[0]
         if process.isdecimal() and not _is_alive(int(process)):

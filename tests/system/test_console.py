@@ -1,4 +1,7 @@
-"""Standard streams take any text. Authority: POSIX's /dev/full and closed descriptors, and the encodings of consoles that are not UTF-8."""
+"""Standard streams take any text.
+
+Authority: /dev/full and closed descriptors of POSIX systems, and the encodings of consoles that are not UTF-8.
+"""
 
 import io
 import os
@@ -53,7 +56,8 @@ def test_a_full_disk_behind_the_output_is_said(tmp_path, monkeypatch, capsys):
     with open("/dev/full", "w", encoding="utf-8") as full:
         monkeypatch.setattr(sys, "stdout", full)
         assert main(["check", str(tmp_path / "pair.toml")]) == NOBODY_READS
-    assert capsys.readouterr().err == "The standard output cannot be written: No space left on device. Send it elsewhere, or free space.\n"
+    said = "The standard output cannot be written: No space left on device. Send it elsewhere, or free space.\n"
+    assert capsys.readouterr().err == said
 
 
 def test_another_failure_of_the_system_is_not_taken_for_the_outputs(monkeypatch, capsys):
@@ -76,16 +80,18 @@ def test_words_about_a_computation_do_not_end_it():
 def test_closed_streams_take_everything_and_lend_their_numbers_to_no_file(tmp_path):
     """A library's print to descriptor 1 must not reach a file of results that was opened next."""
     program = (
-        "import os, sys; os.chdir(sys.argv[1]); from fenics_gears.system.console import prepare_streams; prepare_streams()\n"
-        "opened = open('run.nc', 'w'); print('words'); print('words', file=sys.stderr); os.write(1, b'words'); sys.stdin.read(); opened.flush()\n"
-        "sys.exit(opened.fileno())"
+        "import os, sys; os.chdir(sys.argv[1])\n"
+        "from fenics_gears.system.console import prepare_streams; prepare_streams()\n"
+        "opened = open('run.nc', 'w'); print('words'); print('words', file=sys.stderr)\n"
+        "os.write(1, b'words'); sys.stdin.read(); opened.flush(); sys.exit(opened.fileno())"
     )
     call = f'"{sys.executable}" -P -c "$0" "$1" <&- >&- 2>&-'
-    ended = subprocess.run(["sh", "-c", call, program, tmp_path], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}, timeout=60)
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    ended = subprocess.run(["sh", "-c", call, program, tmp_path], env=environment, timeout=60)
     assert ended.returncode > 2 and (tmp_path / "run.nc").read_text() == ""
 
 
 def test_what_a_terminal_would_obey_is_not_printed(monkeypatch, capsys):
-    """ECMA-48: escape sequences begin with a control character; lone surrogates stand for a name's bytes that are no UTF-8."""
+    """ECMA-48: escape sequences begin with a control character. Lone surrogates stand for bytes of a name."""
     console.print_rows("a\x1b[31m", [("b\x9b31m", "c\x07\udcff", "")])
     assert capsys.readouterr().out.split() == ["a\ufffd[31m", "b\ufffd31m", "c\ufffd\ufffd"]

@@ -1,4 +1,7 @@
-"""Folders for caches and temporary files of users who cannot write their own. Authority: the XDG base directory specification, and what each library reads."""
+"""Folders for caches and temporary files of users who cannot write their own.
+
+Authority: the XDG base directory specification, and the variables that each library's documentation names.
+"""
 
 import os
 
@@ -17,14 +20,15 @@ def temporary(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize("given", [{"HOME": "/dev/null/home"}, {"HOME": "relative"}, {"HOME": "/root", "XDG_CACHE_HOME": "/dev/null"}])
+@pytest.mark.parametrize("given", [{"HOME": "/dev/null/a"}, {"HOME": "relative"}, {"HOME": "/", "XDG_CACHE_HOME": "/dev/null"}])
 def test_a_user_without_a_folder_for_caches_has_one_and_is_told_once(temporary, capsys, given):
     """One sentence that names the variable; the second process finds the same folder and says nothing."""
     for sentences in (1, 0):
         environment = dict(given)
         folders.have_folders(environment, aloud=True)
         place = environment["XDG_CACHE_HOME"]
-        assert place == environment["MPLCONFIGDIR"] == str(temporary / f"fenics_gears-{os.getuid()}") and os.stat(place).st_mode & 0o077 == 0
+        assert place == environment["MPLCONFIGDIR"] == str(temporary / f"fenics_gears-{os.getuid()}")
+        assert os.stat(place).st_mode & 0o077 == 0
         assert os.path.isabs(environment["HOME"])
         said = capsys.readouterr().err
         assert said.count("\n") == sentences and said.count("let XDG_CACHE_HOME name a folder") == sentences
@@ -32,18 +36,21 @@ def test_a_user_without_a_folder_for_caches_has_one_and_is_told_once(temporary, 
 
 def test_a_folder_that_somebody_else_could_write_is_not_used(temporary):
     """Compiled code in it would be run: a user of the same machine may not lay some there."""
-    (temporary / f"fenics_gears-{os.getuid()}").mkdir(mode=0o700)
-    (temporary / f"fenics_gears-{os.getuid()}").chmod(0o777)
+    laid = temporary / f"fenics_gears-{os.getuid()}"
+    laid.mkdir()
+    laid.chmod(0o777)
     environment = {"HOME": "/dev/null"}
     folders.have_folders(environment, aloud=False)
-    assert environment["XDG_CACHE_HOME"] != str(temporary / f"fenics_gears-{os.getuid()}") and os.stat(environment["XDG_CACHE_HOME"]).st_mode & 0o777 == 0o700
+    place = environment["XDG_CACHE_HOME"]
+    assert place != str(laid) and os.stat(place).st_mode & 0o777 == 0o700
 
 
 def test_a_user_with_a_home_is_left_alone(tmp_path, capsys):
-    """Nothing set, nothing made, nothing said; also where one cache of the four belongs to somebody else, which then counts."""
+    """Nothing set, nothing made, nothing said; unless one cache of the four cannot be written."""
     environment = {"HOME": str(tmp_path), "TMPDIR": str(tmp_path)}
     folders.have_folders(environment, aloud=True)
-    assert environment == {"HOME": str(tmp_path), "TMPDIR": str(tmp_path)} and capsys.readouterr().err == "" and not list(tmp_path.iterdir())
+    assert environment == {"HOME": str(tmp_path), "TMPDIR": str(tmp_path)}
+    assert capsys.readouterr().err == "" and not list(tmp_path.iterdir())
     (tmp_path / ".cache").mkdir()
     (tmp_path / ".cache" / "fenics").touch()
     assert not folders._keeps_caches(environment)

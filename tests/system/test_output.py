@@ -1,4 +1,7 @@
-"""Where results are written. Authority: hard cases 26 and 27: refused before any computation; no half result, and nothing of somebody else's removed."""
+"""Where results are written.
+
+Authority: hard cases 26 and 27: refused before any computation; no half result, and nothing of somebody else's removed.
+"""
 
 import os
 import subprocess
@@ -18,10 +21,10 @@ def dead_process():
 
 
 def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
-    """Of this machine and of a process that has ended: by the next that writes there. Not of a live process, of another machine, or of a folder within."""
-    left = f"{output.UNFINISHED}{output._machine()}-{dead_process()}-abc"
-    others = {tmp_path / f"{output.UNFINISHED}{output._machine()}-{os.getppid()}-abc", tmp_path / f"{output.UNFINISHED}elsewhere-4026531836-{dead_process()}-abc"}
-    others |= {tmp_path / "neighbour" / left, tmp_path / f"{output.UNFINISHED}abc"}
+    """Of this machine and of a process that has ended. Not of a live one, of another machine, or in a folder within."""
+    here, dead = f"{output.UNFINISHED}{output._machine()}-", dead_process()
+    left, alive, elsewhere = f"{here}{dead}-abc", f"{here}{os.getppid()}-abc", f"{output.UNFINISHED}elsewhere-1-{dead}-abc"
+    others = {tmp_path / alive, tmp_path / elsewhere, tmp_path / "neighbour" / left, tmp_path / f"{output.UNFINISHED}abc"}
     for each in (tmp_path / left, *others):
         each.mkdir(parents=True)
         (each / "run.nc").touch()
@@ -34,7 +37,8 @@ def test_a_killed_writer_is_recognised(tmp_path):
     """A process that kills itself while it writes leaves a folder that the next writer removes."""
     program = "import os, signal, sys; from pathlib import Path; from fenics_gears.system.output import write_whole\n"
     program += "write_whole(Path(sys.argv[1], 'a'), lambda path: os.kill(os.getpid(), signal.SIGKILL))"
-    subprocess.run([sys.executable, "-P", "-c", program, tmp_path], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}, timeout=60)
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    subprocess.run([sys.executable, "-P", "-c", program, tmp_path], env=environment, timeout=60)
     assert [each.name.startswith(output.UNFINISHED) for each in tmp_path.iterdir()] == [True]
     output.write_whole(tmp_path / "b", lambda path: path.touch())
     assert [each.name for each in tmp_path.iterdir()] == ["b"]
@@ -46,11 +50,13 @@ def places(folder):
     (folder / "dangling").symlink_to("/nowhere/at/all")
     (folder / "own" / "run.nc").mkdir(parents=True)
     (folder / "loop").symlink_to("loop")
-    return {"is a file": folder / "file" / "out", "is a link to /nowhere/at/all": folder / "dangling" / "out", "is no file": folder / "own",
-            "levels of symbolic links": folder / "loop", "name too long": folder / ("x" * 300)}  # fmt: skip
+    return dict(zip(WHY, (folder / "file" / "out", folder / "dangling" / "out", folder / "own", folder / "loop", folder / ("x" * 300))))
 
 
-@pytest.mark.parametrize("why", ["is a file", "is a link to /nowhere/at/all", "is no file", "levels of symbolic links", "name too long"])
+WHY = ("is a file", "is a link to /nowhere/at/all", "is no file", "levels of symbolic links", "name too long")
+
+
+@pytest.mark.parametrize("why", WHY)
 def test_places_that_take_no_result_are_refused(tmp_path, why):
     """Each with what it is and the remedy."""
     with pytest.raises(SceneError, match=rf"(?i){why}.*--output"):

@@ -1,4 +1,7 @@
-"""Files that users name: what is no file, or too large, is refused before it is read. Authority: POSIX's kinds of files, and the limits of ``user_file``."""
+"""Files that users name: what is no file, or too large, is refused before it is read.
+
+Authority: POSIX's kinds of files, and the limits that ``user_file`` states.
+"""
 
 import os
 
@@ -9,7 +12,7 @@ from fenics_gears.system import user_file
 
 def kinds(folder):
     """Paths by what they are."""
-    made = {name: folder / name for name in ("a pipe", "a folder", "a link to itself", "a link to a device", "text with NUL", "no UTF-8", "large", "missing")}
+    made = {name: folder / name for name in WORDS if name != "a name with NUL"}
     os.mkfifo(made["a pipe"])
     made["a folder"].mkdir()
     made["a link to itself"].symlink_to("a link to itself")
@@ -36,7 +39,7 @@ WORDS = {
 
 @pytest.mark.parametrize("kind", WORDS)
 def test_what_is_no_text_is_refused_in_words(tmp_path, kind):
-    """A pipe without a writer would be waited for for ever, a device or gigabytes would fill the memory: the test would not end."""
+    """A pipe without a writer would be waited for, a device or gigabytes would fill the memory: the test would not end."""
     with pytest.raises(user_file.Unreadable, match=WORDS[kind]):
         user_file.text_of(kinds(tmp_path)[kind], user_file.LARGEST_SCENE)
 

@@ -40,7 +40,10 @@ def load_design(path: str | Path) -> Design:
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
     scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
     name = name_of(path)
-    design = Design(name, tree.get("title", name), scene_tree, before_tree, directory, variables, loads, goals, tolerances, bounds, search, text)
+    design = Design(
+        name, tree.get("title", name), scene_tree, before_tree, directory, variables, loads, goals, tolerances, bounds, search,
+        text,
+    )
     scene = _checked_ranges(design, sections)
     design = _with_class(design, scene, tolerance_class)
     _check_scatter(design, sections)
