@@ -27,9 +27,11 @@ from fenics_gears.system.settings import settings_of_a_command
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (``sys.argv`` where none is given) and return the exit code."""
-    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if arguments is None:
+        # DOLFINx would read them too: it takes -v for its own, and ends at a name that is no UTF-8.
+        arguments, sys.argv = sys.argv[1:], ["gears"]
     prepare_streams()
-    return _written(lambda: _in_words(lambda: _command(arguments)))
+    return _written(lambda: _in_words(lambda: _command(list(arguments))))
 
 
 def _command(arguments: list[str]) -> int:
@@ -80,7 +82,8 @@ def _written(command: Callable[[], int]) -> int:
         if not isinstance(error, BrokenPipeError):
             if not _output_fails():
                 raise
-            print(f"The standard output cannot be written: {error.strerror}. Send it elsewhere, or free space.", file=sys.stderr)
+            why = f"The standard output cannot be written: {error.strerror}."
+            print(f"{why} Send it elsewhere, or free space.", file=sys.stderr)
         # What Python still writes when it ends goes nowhere too.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return NOBODY_READS
@@ -88,7 +91,7 @@ def _written(command: Callable[[], int]) -> int:
 
 def _output_fails() -> bool:
     try:
-        sys.stdout.flush()
+        print(flush=True)
     except OSError:
         return True
     return False

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file, shown_progress
 from fenics_gears.errors import SceneError
+from fenics_gears.system.printable import printable
 
 PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
@@ -100,6 +101,8 @@ def _check_outputs(options, output: Path | None) -> None:
     for path, suffix in ((options.vtu, ".vtu"), (options.pvd, ".pvd")):
         if path is not None and path.suffix != suffix:
             raise SceneError(f"{path}: --{suffix[1:]} writes a {suffix} file; give it such a name")
+        if path is not None and printable(str(path)) != str(path):
+            raise SceneError(f"{path}: VTK writes only files whose names are text in UTF-8; give it such a name")
     if output is None:
         return
     if options.animate:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from contextlib import closing
+from os.path import exists, isdir
 from pathlib import Path
 
 from fenics_gears.commands.shared import CASES, JOURNAL, RUN_FILE, STUDY_FILE, loaded_run, print_files, run_or_journal, shown_progress
@@ -45,9 +46,9 @@ def report(options: argparse.Namespace) -> int:
 def found_file(path: Path) -> tuple[Path, bool]:
     """The result's file that is meant, and whether it is a study's. Raises SceneError where there is none."""
     run = run_or_journal(path)
-    if run.exists():
+    if exists(run):
         return run, run.name == STUDY_FILE
-    if path.is_dir():
+    if isdir(path):
         if (path / STUDY_FILE).is_file():
             return path / STUDY_FILE, True
         if (path / CASES).is_dir():
@@ -67,7 +68,7 @@ def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
     name = REPORT_FILE if own else f"{file.stem}.html"
     if asked is None:
         return file.parent / name
-    if asked.is_dir() or not asked.suffix:
+    if isdir(asked) or not asked.suffix:
         return asked / name
     if asked.suffix.lower() not in ENDINGS:
         raise SceneError(f"{asked}: the report is an .html file; give --output such a name, or a directory")

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable
 from importlib import import_module
+from os.path import exists, isdir
 from pathlib import Path
 from types import ModuleType
 
@@ -113,7 +114,10 @@ def checked_scene(path: Path):
 
 
 def checked_scene_and_directory(options, *names: str):
-    """The scene of a command's options, found right, and the directory to write files of these names into, found writable. Raises as `checked_scene` does."""
+    """The scene of a command's options, found right, and the directory to write into, which takes files of these names.
+
+    Raises as `checked_scene` does, and SceneError for the directory.
+    """
     from fenics_gears.system.output import check_writable
 
     scene = checked_scene(options.scene)
@@ -124,21 +128,22 @@ def checked_scene_and_directory(options, *names: str):
 
 def run_file(path: Path) -> Path:
     """The file of the run that is meant by its directory or the file itself. Raises SceneError for what is no run, a study among others."""
-    if path.name == STUDY_FILE or path.is_dir() and not (path / RUN_FILE).is_file() and ((path / STUDY_FILE).is_file() or (path / CASES).is_dir()):
-        directory = path if path.is_dir() else path.parent
+    has_cases = isdir(path) and ((path / STUDY_FILE).is_file() or (path / CASES).is_dir())
+    if path.name == STUDY_FILE or has_cases and not (path / RUN_FILE).is_file():
+        directory = path if isdir(path) else path.parent
         raise SceneError(
             f"{path} is a study, of many runs. `gears report {directory}` writes a page of pictures on all of them; "
             f"of a single case this command takes the file, {directory / CASES}/NAME.nc."
         )
     file = run_or_journal(path)
-    if not file.exists():
+    if not exists(file):
         raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
     return file
 
 
 def run_or_journal(path: Path) -> Path:
     """The file of a run in a directory or, where there is none, the journal of one that has not ended; any other path as it is."""
-    if not path.is_dir() or path.name == JOURNAL:
+    if not isdir(path) or path.name == JOURNAL:
         return path
     from fenics_gears.results.journal import is_journal
 

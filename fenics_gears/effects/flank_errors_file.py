@@ -119,7 +119,8 @@ def _cells(place: str, line: str, separator: str) -> list[str]:
     try:
         return next(csv.reader([line], delimiter=separator, skipinitialspace=True))
     except csv.Error as error:
-        raise FileProblem(f"{place}: is no line of a table: {error}. Allowed: cells parted by commas, semicolons or tabs.") from None
+        allowed = "Allowed: cells parted by commas, semicolons or tabs."
+        raise FileProblem(f"{place}: is no line of a table: {error}. {allowed}") from None
 
 
 def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], example: str) -> list[tuple[str, str]]:

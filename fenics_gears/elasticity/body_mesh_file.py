@@ -30,15 +30,15 @@ def read_body_mesh(path) -> BodyMesh:
         raise SceneError(f"body mesh {path}: has cells in space; a gear body is meshed in its plane")
     if len(found.kinds) != 1 or found.kinds[0] not in CORNERS_BY_TYPE:
         raise SceneError(
-            f"body mesh {path}: has {_kinds(found.kind_names)}; its cells must all be 3-node triangles or all 4-node quadrilaterals "
-            "(in gmsh Mesh.ElementOrder = 1)"
+            f"body mesh {path}: has {_kinds(found.kind_names)}; its cells must all be 3-node triangles or "
+            "all 4-node quadrilaterals (in gmsh Mesh.ElementOrder = 1)"
         )
     cells = found.cells.astype(int).reshape(-1, CORNERS_BY_TYPE[found.kinds[0]])
     used, tags = np.unique(cells), found.tags.astype(int)
     order = np.argsort(tags, kind="stable")
     points = found.points[order][np.minimum(np.searchsorted(tags[order], used), len(tags) - 1)]
     if not np.isin(used, tags).all() or not np.isfinite(points).all():
-        raise SceneError(f"body mesh {path}: is damaged: it has cells of nodes that are not in it, or that have no place. Write it again")
+        raise SceneError(f"body mesh {path}: is damaged: it has cells of nodes that are missing. Write it again")
     _check_plane(points, path)
     points = np.ascontiguousarray(points[:, :2])
     named = {str(name): found.lines[found.curves == name] for name in dict.fromkeys(found.curves)}

@@ -1,4 +1,4 @@
-"""What gmsh finds in a mesh file, read by a process of its own: one wrong digit in a file can end the process that reads it, or ask for all memory.
+"""What gmsh finds in a mesh file, read by a process of its own: one wrong digit can end the process that reads it.
 
 `python -m fenics_gears.elasticity.mesh_content FILE` is that process: it writes the arrays to the standard output.
 """
@@ -20,16 +20,21 @@ from fenics_gears.elasticity.gmsh_session import gmsh_model
 from fenics_gears.errors import SceneError
 
 LINE = 1  # gmsh's number of a straight line
-# What reading may take, bytes and seconds: for gmsh itself, and for each byte of the file, many times what a whole file takes.
+# What reading may take, in bytes and seconds, for gmsh itself and for each byte of the file: many times what it takes.
 MEMORY, MEMORY_PER_BYTE = 8e9, 100.0
 SECONDS, SECONDS_PER_BYTE = 60.0, 1e-6
+DAMAGED = "the file is damaged; write it again"
 
 
 @dataclass(frozen=True)
 class MeshContent:
-    """Nodes by their `tags` with `points` (n, 3); the numbers and names of the `kinds` of plane cells, and the `cells` of the first; whether there are `solids`.
+    """Nodes, plane cells and lines of a file.
 
-    lines: node tags (k, 2) of all lines of physical curves, `curves` the name of each one's curve.
+    tags, points: gmsh's numbers of the nodes, and their places (n, 3).
+    kinds, kind_names: gmsh's numbers and names of the kinds of plane cells.
+    cells: node tags of all cells of the first kind, one after the other.
+    solids: whether there are cells in space.
+    lines, curves: node tags (k, 2) of all lines of physical curves, and the name of each line's curve.
     """
 
     tags: np.ndarray
@@ -45,14 +50,15 @@ class MeshContent:
 def mesh_content(path: Path) -> MeshContent:
     """The content of a gmsh file. Raises SceneError where gmsh cannot read it."""
     path, size = Path(os.path.abspath(path)), os.path.getsize(path)
-    program = Path(__file__).parents[2]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(program), *filter(None, [os.environ.get("PYTHONPATH")])])}
-    # gmsh takes names in UTF-8 only: the folder's may be another.
-    call = [sys.executable, "-P", "-m", "fenics_gears.elasticity.mesh_content", path.name, str(int(MEMORY + MEMORY_PER_BYTE * size))]
+    program, others = Path(__file__).parents[2], os.environ.get("PYTHONPATH")
+    environment = {**os.environ, "PYTHONPATH": f"{program}{os.pathsep}{others}" if others else str(program)}
+    memory, seconds = int(MEMORY + MEMORY_PER_BYTE * size), SECONDS + SECONDS_PER_BYTE * size
+    call = [sys.executable, "-P", "-m", "fenics_gears.elasticity.mesh_content", path.name, str(memory)]
     try:
-        done = subprocess.run(call, cwd=path.parent, env=environment, capture_output=True, timeout=SECONDS + SECONDS_PER_BYTE * size)
-    except subprocess.TimeoutExpired as late:
-        raise SceneError(f"body mesh {path}: gmsh has not read it after {late.timeout:.0f} s; it is damaged. Write it again") from None
+        # gmsh takes names in UTF-8 only: the folder's may be another.
+        done = subprocess.run(call, cwd=path.parent, env=environment, capture_output=True, timeout=seconds)
+    except subprocess.TimeoutExpired:
+        raise SceneError(f"body mesh {path}: gmsh has not read it after {seconds:.0f} s: {DAMAGED}") from None
     if done.returncode:
         raise SceneError(f"body mesh {path}: gmsh cannot read it ({_reason(done)})")
     with np.load(io.BytesIO(done.stdout), allow_pickle=False) as arrays:
@@ -61,9 +67,9 @@ def mesh_content(path: Path) -> MeshContent:
 
 def _reason(done: subprocess.CompletedProcess) -> str:
     if done.returncode < 0:
-        return f"it ends gmsh by {signal.Signals(-done.returncode).name}: the file is damaged; write it again"
+        return f"it ends gmsh by {signal.Signals(-done.returncode).name}: {DAMAGED}"
     said = done.stderr.decode(errors="replace").strip().splitlines()
-    return said[-1] if said else "the file is damaged; write it again"
+    return said[-1] if said else DAMAGED
 
 
 def _read(name: str) -> MeshContent:
@@ -82,14 +88,16 @@ def _read(name: str) -> MeshContent:
                 curves += [gmsh.model.getPhysicalName(dimension, group)] * len(own)
         names = [mesh.getElementProperties(kind)[0] for kind in kinds]
         solids = len(mesh.getElementTypes(3)) > 0
-    arrays = (tags, np.reshape(points, (-1, 3)), kinds, np.array(names, dtype=str), cells, solids, np.concatenate(lines), np.array(curves, dtype=str))
+    texts = [np.array(each, dtype=str) for each in (names, curves)]
+    arrays = (tags, np.reshape(points, (-1, 3)), kinds, texts[0], cells, solids, np.concatenate(lines), texts[1])
     return MeshContent(*map(np.asarray, arrays))
 
 
 if __name__ == "__main__":
-    resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[2]),) * 2)
-    # No file of a memory that is only damage.
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    for what, limit in ((resource.RLIMIT_AS, int(sys.argv[2])), (resource.RLIMIT_CORE, 0)):
+        # Who started this may allow less, which can only be lowered.
+        _, most = resource.getrlimit(what)
+        resource.setrlimit(what, (limit if most == resource.RLIM_INFINITY else min(limit, most), most))
     try:
         content = _read(sys.argv[1])
     except Exception as error:  # gmsh raises nothing more precise

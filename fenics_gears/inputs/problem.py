@@ -40,15 +40,16 @@ MOST_TOLD = 20
 
 
 def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) -> str:
-    """The first mistakes of a file in the order of their lines, how many more there are, and that nothing came of it."""
-    entries = [problem.describe(source, lines) for problem in sorted(problems, key=lambda each: each.line(lines))[:MOST_TOLD]]
-    return counted(entries, len(problems), source)
+    """The first mistakes of a file in the order of their lines, and how many there are."""
+    first = sorted(problems, key=lambda each: each.line(lines))[:MOST_TOLD]
+    return counted([problem.describe(source, lines) for problem in first], len(problems), source)
 
 
 def counted(entries: Sequence[str], count: int, source: str) -> str:
     """The same of mistakes in words, `count` of them in all."""
     more = [f"... and {count - MOST_TOLD} more"] if count > MOST_TOLD else []
-    return "\n".join([*entries[:MOST_TOLD], *more, f"{count} mistake{'s' if count > 1 else ''} in {source}. Nothing was computed or written."])
+    total = f"{count} mistake{'s' if count > 1 else ''} in {source}. Nothing was computed or written."
+    return "\n".join([*entries[:MOST_TOLD], *more, total])
 
 
 _NAME = r"(?:[A-Za-z0-9_-]+|\"[^\"]*\"|'[^']*')"

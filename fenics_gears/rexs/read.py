@@ -73,9 +73,13 @@ def _packed(content: bytes) -> bytes:
                 return file.read(LARGEST + 1)
     except ModelError:
         raise
-    # Damage reaches the library as errors of many types: of places before the file's beginning, and of names that are no text.
-    except (zipfile.BadZipFile, zlib.error, RuntimeError, EOFError, ValueError, OSError, struct.error) as error:
-        raise ModelError(f"is a ZIP archive that cannot be unpacked: {error}. Unpack it by another program, and name the file in it") from None
+    except RuntimeError as error:
+        # It is encrypted, or packed in a way that the library does not know.
+        remedy = "Unpack it by another program, and name the file in it"
+        raise ModelError(f"is a ZIP archive that cannot be unpacked: {error}. {remedy}") from None
+    # Damage reaches the library as errors of many types: places before the file's beginning, names that are no text.
+    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, OSError, struct.error) as error:
+        raise ModelError(f"is a ZIP archive that cannot be unpacked: it is damaged ({error}). Pack it again") from None
 
 
 def _of_json(content: bytes) -> Any:

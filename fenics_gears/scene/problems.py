@@ -25,7 +25,7 @@ def problems_of_schema(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
 
 
 def _problems(errors: Iterable[Mapping[str, Any]], tree: Mapping[str, Any]) -> Iterator[Problem]:
-    """Each error's problem. Of many unknown names the first are told what they may mean: the search for that takes milliseconds each."""
+    """Each error's problem. Only of the first unknown names it is searched what they may mean, which takes time."""
     unknown = 0
     for error in errors:
         unknown += error["type"] == "extra_forbidden"

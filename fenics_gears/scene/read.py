@@ -43,7 +43,7 @@ def text_of(path: Path, kind: str) -> str:
 
 
 def name_of(path: Path) -> str:
-    """What a scene or a study is called by its file: the file's name without the ending, as a text that can be printed and stored."""
+    """What a scene or a study is called by its file: its name without the ending, as a text that can be stored."""
     return printable(path.stem)
 
 
@@ -67,7 +67,8 @@ def _unprintable(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
         for inner in value:
             yield from _unprintable(path, inner)
     elif isinstance(value, str) and (character := control_character(value)):
-        yield Problem(path, as_written(value), f"has the control character {character}. Allowed: characters that can be printed, tabs and new lines.")
+        allowed = "Allowed: characters that can be printed, tabs and new lines."
+        yield Problem(path, as_written(value), f"has the control character {character}. {allowed}")
 
 
 def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: str | os.PathLike = ".") -> data.Scene:

@@ -15,7 +15,7 @@ Row = tuple[str, Any, str]
 
 
 class NeverFull(io.FileIO):
-    """A stream for words about a computation, which goes on where they cannot be written; a reader that has gone ends it."""
+    """A stream for words about a computation, which goes on where they cannot be written."""
 
     def write(self, content) -> int:
         """Write what there is room for; say that it was all."""
@@ -29,13 +29,14 @@ class NeverFull(io.FileIO):
 
 
 def prepare_streams() -> None:
-    """Make the standard streams take any text: what their encoding lacks is replaced, and what is closed takes all and keeps nothing."""
+    """Make the standard streams take any text: what their encoding lacks is replaced, what is closed keeps nothing."""
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:
             _open_nowhere(number, name)
     if sys.stderr is sys.__stderr__:
         raw = NeverFull(sys.stderr.fileno(), "w", closefd=False)
-        sys.stderr = io.TextIOWrapper(io.BufferedWriter(raw), sys.stderr.encoding, "replace", line_buffering=True, write_through=True)
+        buffer, encoding = io.BufferedWriter(raw), sys.stderr.encoding
+        sys.stderr = io.TextIOWrapper(buffer, encoding, "replace", line_buffering=True, write_through=True)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")

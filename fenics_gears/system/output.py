@@ -15,6 +15,7 @@ from fenics_gears.errors import ComputationError, SceneError
 
 # The beginning of names of directories that hold files while they are written; machine and process follow.
 UNFINISHED = ".unfinished-"
+ANOTHER = "choose another directory with --output DIR."
 
 
 def check_working_folder() -> None:
@@ -22,7 +23,7 @@ def check_working_folder() -> None:
     try:
         os.getcwd()
     except OSError:
-        raise SceneError("The working folder has been removed. Change into one that exists (cd), and give the command again.") from None
+        raise SceneError("The working folder has been removed. Change into one that exists (cd).") from None
 
 
 def check_writable(directory: Path, *names: str) -> None:
@@ -34,9 +35,9 @@ def check_writable(directory: Path, *names: str) -> None:
         _check_directory(directory)
         for name in names:
             if (directory / name).exists() and not (directory / name).is_file():
-                raise SceneError(f"{directory / name} is no file; the result needs this name. Remove it, or choose another directory with --output DIR.")
+                raise SceneError(f"{directory / name} is no file; the result needs this name. Remove it, or {ANOTHER}")
     except OSError as error:
-        raise SceneError(f"{directory} cannot be written to: {error.strerror or error}. Choose another directory with --output DIR.") from None
+        raise SceneError(f"{directory} cannot be written to: {error.strerror or error}. To go on, {ANOTHER}") from None
 
 
 def _check_directory(directory: Path) -> None:
@@ -53,7 +54,8 @@ def _is_there(path: Path) -> bool:
         return True
     except (FileNotFoundError, NotADirectoryError):
         if path.is_symlink():
-            raise SceneError(f"{path} is a link to {os.readlink(path)}, which is not there. Remove it, or choose another directory with --output DIR.") from None
+            target = os.readlink(path)
+            raise SceneError(f"{path} is a link to {target}, which is not there. Remove it, or {ANOTHER}") from None
         return False
 
 
@@ -78,7 +80,7 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
 
 
 def remove_left_over(directory: Path) -> None:
-    """Remove from a directory, not from those in it, what processes of this machine were writing when they were killed."""
+    """Remove from a directory, not from those in it, what killed processes of this machine were writing."""
     for left in directory.glob(f"{UNFINISHED}{glob.escape(_machine())}-*"):
         process = left.name[len(UNFINISHED) + len(_machine()) + 1 :].partition("-")[0]
         if process.isdecimal() and not _is_alive(int(process)):

@@ -1,4 +1,4 @@
-"""Text that a terminal and a file of results can take: a control character can colour or rename a terminal, and NUL ends a text of HDF5."""
+"""Text that a terminal and a file of results can take: a terminal obeys control characters, NUL ends a text of HDF5."""
 
 from __future__ import annotations
 

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import hashlib
 import os
+import sys
 from pathlib import Path
 from typing import BinaryIO
+
+from fenics_gears.system.user_file import check_file
 
 _MARK = b"\nsha256 "
 _LENGTH = len(_MARK) + 64
@@ -33,6 +36,7 @@ def seal_of(file: BinaryIO, length: int) -> bytes:
 
 def unsealed(path: Path) -> BinaryIO:
     """A sealed file, open at its beginning. Raises ValueError where it is not what was written, OSError where it cannot be read."""
+    check_file(path, sys.maxsize)
     file = open(path, "rb")
     try:
         length = os.fstat(file.fileno()).st_size - _LENGTH

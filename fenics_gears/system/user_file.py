@@ -1,4 +1,7 @@
-"""Files that users name: their content, or in words why it is not read. What would fill the memory or be waited for is refused before it is read."""
+"""Files that users name: their content, or in words why it is not read.
+
+What would fill the memory, or be waited for, is refused before it is read.
+"""
 
 from __future__ import annotations
 
@@ -8,9 +11,9 @@ from pathlib import Path
 
 MEGABYTE = 1_000_000
 # Largest sizes, some ten times what the largest sensible file of a kind has.
-LARGEST_SCENE = 10 * MEGABYTE  # deviations of a thousand teeth, written as lists, are 0.1 MB; ten take some ten seconds to parse
+LARGEST_SCENE = 10 * MEGABYTE  # lists of deviations of a thousand teeth are 0.1 MB; 10 MB take ten seconds to parse
 LARGEST_TABLE = 200 * MEGABYTE  # measured curves of a thousand teeth with a thousand points each are 20 to 40 MB
-LARGEST_REXS = 200 * MEGABYTE  # models of whole gearboxes have some hundred kilobytes, with contact results some megabytes
+LARGEST_REXS = 200 * MEGABYTE  # models of whole gearboxes have some hundred kilobytes, with results some megabytes
 LARGEST_MESH = 1000 * MEGABYTE  # a plane mesh of a million nodes has 100 MB
 
 
@@ -34,9 +37,10 @@ def check_file(path: str | Path, largest: int) -> None:
     if stat.S_ISDIR(found.st_mode):
         raise Unreadable("cannot be read: it is a folder")
     if not stat.S_ISREG(found.st_mode):
-        raise Unreadable("cannot be read: it is a device or a pipe, not a file")
+        raise Unreadable("it is a device or a pipe, not a file")
     if found.st_size > largest:
-        raise Unreadable(f"has {found.st_size / MEGABYTE:.0f} MB; a file of more than {largest // MEGABYTE} MB is not read")
+        size, most = round(found.st_size / MEGABYTE), largest // MEGABYTE
+        raise Unreadable(f"has {size} MB; a file of more than {most} MB is not read")
 
 
 def content_of(path: Path, largest: int) -> bytes:
@@ -60,7 +64,8 @@ def text_of(path: Path, largest: int) -> str:
     except UnicodeDecodeError as error:
         raise Unreadable(f"is not a text in UTF-8 (byte {error.start})") from None
     if "\0" in text:
-        raise Unreadable(f"is not a text: it has the character NUL in line {text.count(chr(10), 0, text.index(chr(0))) + 1}")
+        line = text[: text.index("\0")].count("\n") + 1
+        raise Unreadable(f"is not a text: it has the character NUL in line {line}")
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

@@ -83,6 +83,8 @@ def _environment() -> list[str]:
         ("`FENICS_GEARS_PYTHON`", "Python for `./gears`; if not set, `./gears` finds or makes one"),
         ("`FENICS_GEARS_CACHE`", "folder of the cache of condensed gears; if not set, the user's cache folder"),
         ("`FENICS_GEARS_CACHE_SIZE`", f"largest size of this cache, such as `500 MB`; if not set, {DEFAULT_SIZE}"),
+        ("`XDG_CACHE_HOME`", "folder for compiled code, and for condensed gears where `FENICS_GEARS_CACHE` is not set; if not set, `~/.cache`, or a temporary folder where that cannot be written"),
+        ("`TMPDIR`", "folder for temporary files; if not set, or without room, `/tmp`"),
         ("`OMP_NUM_THREADS`", "threads of the factorisation; 1 under mpirun"),
     ]
     return ["## Environment", "", *table(("variable", "meaning"), rows)]

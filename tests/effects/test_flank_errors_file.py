@@ -79,6 +79,8 @@ def test_a_list_of_the_scene_stands_beside_a_table(scene_with):
 WRONG = {
     "no file": (None, ["pinion.csv: there is no such file", "from the scene file's folder on"]),
     "a workbook": (b"PK\x03\x04\xff\xfe", ["is not a text in UTF-8", "not a workbook"]),
+    "NUL": (table().replace("-3.0", "-3.0\0"), ["is not a text: it has the character NUL in line 3", "not a workbook"]),
+    "an endless field": (table().replace("-3.0", "9" * 200_000), ["pinion.csv:3: is no line of a table: field larger than field limit", "cells parted by commas"]),
     "nothing": ("", ["has no teeth", "`tooth, pitch (um), profile_slope (um)`"]),
     "a column of another name": (table("tooth, fp (um)"), ["pinion.csv:1:", 'the column "fp"', 'Did you mean "pitch"?']),
     "no column of teeth": ("pitch (um)\n1\n", ["pinion.csv:1: has no column tooth"]),

@@ -149,6 +149,8 @@ BROKEN = {
     ),
     "two models in one archive": (rexs.as_zip(("a.rexs", b""), ("b.rexsj", b"")), "but holds: a.rexs, b.rexsj"),
     "archive without a model": (rexs.as_zip(("a.txt", b"")), "but holds: none"),
+    "an archive that says it begins before its beginning": (rexs.as_zip(("a.rexs", b"x"))[:-6] + b"\xff\xff\xff\x7f\0\0", "cannot be unpacked: it is damaged"),
+    "an archive with a name that is no text": (rexs.as_zip(("\u03a9.rexs", b"x")).replace("\u03a9".encode(), b"\xb6\xb6"), "cannot be unpacked: it is damaged"),
     "damaged archive": (rexs.as_zip(("a.rexs", b"x" * 5000)).replace(b"PK\x03\x04", b"PK\x03\x05", 1), "cannot be unpacked"),
 }
 

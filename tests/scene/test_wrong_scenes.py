@@ -4,6 +4,7 @@ Authority of every test here: hard case 26 and docs/promises.md's scene format. 
 allowed and the nearest known name; the exit code is 2; nothing is written.
 """
 
+import os
 import re
 from pathlib import Path
 
@@ -11,9 +12,10 @@ import pytest
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
-from fenics_gears.scene.read import scene_from_text
+from fenics_gears.scene.read import load_scene, scene_from_text
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+UNTITLED = DEMO[DEMO.index("[gears]") :]
 RELIEF = '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n'
 
 
@@ -272,6 +274,36 @@ def test_the_line_is_that_of_the_field():
     with pytest.raises(SceneError) as error:
         scene_from_text(text, "pair")
     assert f"pair:{line}: gears.pinion.bore_diameter = 30\n" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ('title = "a\\u0000b"', 'title = "a\\u0000b"\n    has the control character U+0000. Allowed: '),
+        ('title = "a\\u001b]0;owned\\u0007"', "has the control character U+001B"),
+        ('title = "a\\u009b31m"', "has the control character U+009B"),
+        ('without = ["a\\u0008"]', "pair.toml:2: without = "),
+    ],
+)
+def test_control_characters_are_refused(refusal, line, said):
+    """ECMA-48: a terminal would obey them, and a text of HDF5 ends at NUL, so that the run would be computed and lost."""
+    found = refusal("\n" + line + "\n" + UNTITLED)
+    assert said in found and "\0" not in found and "\x1b" not in found
+
+
+def test_of_many_mistakes_the_first_are_told_and_the_others_counted(refusal):
+    """The first twenty in the order of their lines; the others cost no search for what they may mean."""
+    found = refusal("".join(f"frictoin{number} = 1\n" for number in range(2000)) + DEMO)
+    assert found.count("is not a known section or field of a scene.") == 20 and "frictoin0 = 1" in found and "frictoin19 = 1" in found
+    assert found.endswith("... and 1980 more\n2000 mistakes in pair.toml. Nothing was computed or written.\n")
+
+
+def test_a_name_that_is_no_text_becomes_one(tmp_path):
+    """A file's name may hold any bytes but NUL and "/"; a result's title and a page in UTF-8 may not."""
+    path = Path(os.fsdecode(os.fsencode(tmp_path) + b"/a\xff\x1b[31m.toml"))
+    path.write_text(UNTITLED, encoding="utf-8")
+    scene = load_scene(path)
+    assert scene.name == scene.title == "a\ufffd\ufffd[31m"
 
 
 @pytest.mark.parametrize(

@@ -39,7 +39,11 @@ def load_design(path: str | Path) -> Design:
     varied = {variable.path[0] for variable in variables}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
     scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
-    design = Design(name_of(path), tree.get("title", name_of(path)), scene_tree, before_tree, directory, variables, loads, goals, tolerances, bounds, search, text)
+    name = name_of(path)
+    design = Design(
+        name, tree.get("title", name), scene_tree, before_tree, directory, variables, loads, goals, tolerances, bounds, search,
+        text,
+    )
     scene = _checked_ranges(design, sections)
     design = _with_class(design, scene, tolerance_class)
     _check_scatter(design, sections)

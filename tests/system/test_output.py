@@ -1,0 +1,71 @@
+"""Where results are written.
+
+Authority: hard cases 26 and 27: refused before any computation; no half result, and nothing of somebody else's removed.
+"""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from fenics_gears.errors import SceneError
+from fenics_gears.system import output
+
+
+def dead_process():
+    """The number of a process that has ended."""
+    process = subprocess.Popen([sys.executable, "-I", "-S", "-c", ""])
+    process.wait()
+    return process.pid
+
+
+def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
+    """Of this machine and of a process that has ended. Not of a live one, of another machine, or in a folder within."""
+    here, dead = f"{output.UNFINISHED}{output._machine()}-", dead_process()
+    left, alive, elsewhere = f"{here}{dead}-abc", f"{here}{os.getppid()}-abc", f"{output.UNFINISHED}elsewhere-1-{dead}-abc"
+    others = {tmp_path / alive, tmp_path / elsewhere, tmp_path / "neighbour" / left, tmp_path / f"{output.UNFINISHED}abc"}
+    for each in (tmp_path / left, *others):
+        each.mkdir(parents=True)
+        (each / "run.nc").touch()
+    output.write_whole(tmp_path / "run.nc", lambda path: path.write_text("whole"))
+    assert {each.parent for each in tmp_path.rglob("*/run.nc") if each.parent != tmp_path} == others
+    assert (tmp_path / "run.nc").read_text() == "whole"
+
+
+def test_a_killed_writer_is_recognised(tmp_path):
+    """A process that kills itself while it writes leaves a folder that the next writer removes."""
+    program = "import os, signal, sys; from pathlib import Path; from fenics_gears.system.output import write_whole\n"
+    program += "write_whole(Path(sys.argv[1], 'a'), lambda path: os.kill(os.getpid(), signal.SIGKILL))"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    subprocess.run([sys.executable, "-P", "-c", program, tmp_path], env=environment, timeout=60)
+    assert [each.name.startswith(output.UNFINISHED) for each in tmp_path.iterdir()] == [True]
+    output.write_whole(tmp_path / "b", lambda path: path.touch())
+    assert [each.name for each in tmp_path.iterdir()] == ["b"]
+
+
+def places(folder):
+    """Directories that take no result, by why."""
+    (folder / "file").touch()
+    (folder / "dangling").symlink_to("/nowhere/at/all")
+    (folder / "own" / "run.nc").mkdir(parents=True)
+    (folder / "loop").symlink_to("loop")
+    return dict(zip(WHY, (folder / "file" / "out", folder / "dangling" / "out", folder / "own", folder / "loop", folder / ("x" * 300))))
+
+
+WHY = ("is a file", "is a link to /nowhere/at/all", "is no file", "levels of symbolic links", "name too long")
+
+
+@pytest.mark.parametrize("why", WHY)
+def test_places_that_take_no_result_are_refused(tmp_path, why):
+    """Each with what it is and the remedy."""
+    with pytest.raises(SceneError, match=rf"(?i){why}.*--output"):
+        output.check_writable(places(tmp_path)[why], "run.nc")
+
+
+def test_places_that_take_a_result_are_left_as_they_are(tmp_path):
+    """There or not; also where a file of the name is replaced."""
+    (tmp_path / "run.nc").touch()
+    for directory in (tmp_path, tmp_path / "new" / "one"):
+        output.check_writable(directory, "run.nc", "a.png")
+    assert [each.name for each in tmp_path.iterdir()] == ["run.nc"]
