@@ -94,10 +94,10 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
         raise
 
 
-def _varying_load(model: Model, step: float) -> str:
+def _varying_load(model: Model, step: float | None) -> str:
     """That effects load the gears by more than the torque does at a step without solution, in words; empty where they do not."""
     names = " and ".join(f"[{each.section}]" for each in effects_on(model.scene) if each.load is not None)
-    if not names:
+    if not names or step is None:
         return ""
     torque, varying = (float(np.abs(load).max()) for load in (model.drivetrain.load, sum(load(step) for load in model.loads)))
     if varying <= torque:
