@@ -82,7 +82,9 @@ def _where(attributes) -> str:
     if "peak_contact_pressure_diameter" not in attributes:
         return "over five contact nodes"
     at = f"at diameter {attributes['peak_contact_pressure_diameter']:.4g} mm of the pinion"
-    return at + ("; more at tips' edges, see the warnings" if "peak_edge_pressure" in attributes else "")
+    largest = attributes["peak_contact_pressure"]
+    more = [words for name, words in (("edge", "tips' edges"), ("kink", "kinks of relief")) if attributes.get(f"peak_{name}_pressure", 0.0) > largest]
+    return at + (f"; more at {' and '.join(more)}, see the warnings" if more else "")
 
 
 def _rows(run: Run) -> list[tuple[str, object, str]]:
