@@ -59,8 +59,8 @@ def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | Non
         return None
     there = [text for text in texts if text is not None]
     stated = [each for text in there for each in (text, MATERIALS[text.name][0] if text.name is not None else text)]
-    constants = (next(float(value) for each in stated if (value := getattr(each, constant)) is not None) for constant in CONSTANTS)
-    return Material(*constants, yield_strength=_yield_strength_of(there))
+    modulus, ratio = (next(float(value) for each in stated if (value := getattr(each, constant)) is not None) for constant in CONSTANTS)
+    return Material(modulus, ratio, _yield_strength_of(there))
 
 
 def _yield_strength_of(texts: Sequence[MaterialText | OwnMaterialText]) -> float | None:

@@ -1,7 +1,7 @@
 """Gear materials by name: Young's modulus, MPa, Poisson's ratio, yield strength, MPa, of named grades, and where they are from.
 
 The least yield strengths are of quenched and tempered steel more than 40 and up to 100 mm thick. Other names stand for many grades, and those of case-hardened steels would
-be the core's: their flanks bear about twice as much.
+be the core's, not the flanks'.
 """
 
 from __future__ import annotations

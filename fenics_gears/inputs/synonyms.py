@@ -59,6 +59,7 @@ SYNONYMS: dict[str, dict[str, tuple[str, ...]]] = {
     "gears.material": {
         "youngs_modulus": ("e", "modulus", "elastic_modulus", "modulus_of_elasticity", "young", "e_modulus"),
         "poissons_ratio": ("nu", "poisson", "poisson_ratio", "mu"),
+        "yield_strength": ("re", "rp02", "yield", "yield_stress", "yield_point"),
     },
     "load": {"wheel_torque": ("torque", "t2", "output_torque", "moment", "couple", "load_torque"), "pinion_torque": ("t1", "input_torque", "driving_torque"), "power": ("p", "kw", "rated_power")},
     "motion": {

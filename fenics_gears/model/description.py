@@ -11,6 +11,8 @@ from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
 from fenics_gears.geometry.characteristics import characteristics
+from fenics_gears.geometry.flank_deviations import v_roll_angle
+from fenics_gears.geometry.flank_error_data import MEAN
 from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
@@ -69,6 +71,7 @@ def _model_rows(model: Model) -> Rows:
     touching = f"each with a {each} where flanks touch" if model.scene.tooth_elasticity is not None else "the first to touch carries all"
     return [
         *_face_rows(model),
+        *_curve_rows(model),
         ("motions of the gears that are unknown", f"{len(model.drivetrain.coordinates)}:", ", ".join(model.drivetrain.coordinates)),
         ("contact nodes of a tooth pair", f"{grid.nodes},", touching) if model.face is None else ("slices of the face", f"{model.face.slices},", f"contact nodes in each, {touching}"),
         ("equations in time", _method(model), ""),
@@ -101,7 +104,21 @@ def _face_rows(model: Model) -> Rows:
         if relief is not None:
             ends = "both ends" if relief.sides == "both" else f"the {relief.sides} end"
             found.append((f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}"))
-    return found + [(f"misalignment {words}", 1e3 * amount, "um") for words, amount in _amounts(scene.misalignment, ("in_plane", "out_of_plane"))]
+    about = "um over the common face, about the pitch point in its middle"
+    return found + [(f"misalignment {words}", 1e3 * amount, about) for words, amount in _amounts(scene.misalignment, ("in_plane", "out_of_plane"))]
+
+
+def _curve_rows(model: Model) -> Rows:
+    """Where measured curves are zero."""
+    rows: Rows = []
+    for name in GEARS if model.scene.flank_errors is not None else ():
+        own, gear = getattr(model.scene.flank_errors, name), getattr(model.pair, name)
+        zero = "in their mean" if own.anchor == MEAN else ""
+        if own.measured_profile is not None:
+            rows.append((f"{name} profile curves are zero", zero or f"at diameter {2.0 * float(gear.radius(v_roll_angle(gear))):.6g} mm", "" if zero else "(V cylinder, d + 2 x m)"))
+        if own.measured_helix is not None:
+            rows.append((f"{name} helix curves are zero", zero or "at mid-width", ""))
+    return rows
 
 
 def _amounts(data, names: tuple[str, ...]) -> list[tuple[str, float]]:

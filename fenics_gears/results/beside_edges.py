@@ -1,7 +1,8 @@
 """Which contact nodes are beside an edge or a kink of the flanks, where linear elasticity has infinite pressure.
 
-Place alone decides, neither the pressure nor the sizes of elements and nodes. An edge or a kink changes the pressure about as far as half of the contact is wide
-(Johnson, Contact Mechanics, 1985, 5.1 to 5.3), and lengths are therefore counted in the Hertz half-width under full load on one pair, from either side along the flank.
+Place alone decides, neither the pressure nor the sizes of elements and nodes. An edge or a kink changes the pressure
+about as far as half of the contact is wide (Johnson, Contact Mechanics, 1985, 5.1 to 5.3), and lengths are therefore
+counted in the Hertz half-width under full load on one pair, from either side along the flank.
 """
 
 from __future__ import annotations
@@ -17,14 +18,15 @@ from fenics_gears.results.side_by_side import SideBySide
 
 # What a node is beside; where it is beside several, the last.
 NOTHING, KINK, EDGE = range(3)
-# In half-widths: the infinite pressure of a kink is in the contact itself. An edge makes the whole contact softer whose border comes within a half-width of it;
-# its peak is another half-width away.
+# In half-widths: the infinite pressure of a kink is in the contact itself. An edge makes the whole contact softer whose
+# border comes within a half-width of it; its peak is another half-width away.
 REACH = {KINK: 1.0, EDGE: 2.0}
 
 
 @dataclass(frozen=True)
 class _Place:
-    """A place on the flank of the pinion (0) or the wheel (1): `arc` (mm) along the involute from the base circle, and whether it is a kink or an edge."""
+    """A place on the flank of the pinion (0) or the wheel (1): `arc` (mm) along the involute from the base circle, and
+    whether it is a kink or an edge."""
 
     gear: int
     arc: float
@@ -36,7 +38,8 @@ class EdgesAndKinks:
 
     def __init__(self, model: Model):
         self.half_width, self._places = model.resolution.half_width, []
-        for number, (gear, removal) in enumerate(zip((model.pair.pinion, model.pair.wheel), removals(model.scene, model.pair))):
+        gears = model.pair.pinion, model.pair.wheel
+        for number, (gear, removal) in enumerate(zip(gears, removals(model.scene, model.pair))):
             rolls = [(roll, KINK) for roll in kinks(removal)] + [(gear.tip_roll_angle, EDGE)]
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]

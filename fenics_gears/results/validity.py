@@ -27,7 +27,8 @@ LARGEST_ROTATION = 0.05
 # Work that the time stepping itself does at changes of contact within a mesh cycle, in parts of the largest energy, above which there is a warning.
 # The sharp edges of unrelieved tips alone take 3 to 4 %.
 NOTABLE_WORK = 0.1
-# Peak pressure of a line contact over yield strength, at which the material below begins to yield by Tresca's criterion (Johnson, Contact Mechanics, 1985, eq. 6.4).
+# Peak pressure of a line contact over yield strength, at which the material below begins to yield by Tresca's criterion
+# (Johnson, Contact Mechanics, 1985, eq. 6.4).
 LINE_CONTACT = 1.67
 # Warnings with these words come first: the numbers of the run are wrong.
 NO_MEANING = "the result has no meaning"
@@ -200,7 +201,8 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
     if largest <= elsewhere:
         return []
     linear = {section: _linear(getattr(scene, section)) for section in ("tip_relief", "root_relief")}
-    starts = " or ".join(f"the linear {section.replace('_', ' ')} of the {' or the '.join(gears)}" for section, gears in linear.items() if gears)
+    named = ((section.replace("_", " "), gears) for section, gears in linear.items() if gears)
+    starts = " or ".join(f"the linear {words} of the {' or the '.join(gears)}" for words, gears in named)
     remedies = ", ".join(f'{section}.shape = "{PARABOLIC}"' for section, gears in linear.items() if gears)
     return [
         f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the mesh; forces and transmission error do. "

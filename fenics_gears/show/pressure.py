@@ -29,8 +29,8 @@ def has_pressure(run: Run) -> bool:
 
 
 def largest_pressures(run: Run) -> list[Chart]:
-    """Largest contact pressure off the flanks' edges at every step, and those at edges and kinks; none of results without them."""
-    names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at edges", "largest_kink_pressure": "at kinks of relief"}
+    """Largest contact pressure away from edges and kinks at every step, and those at either; none of results without them."""
+    names = {"largest_contact_pressure": "away from edges and kinks", "largest_edge_pressure": "at edges", "largest_kink_pressure": "at kinks of relief"}
     names = {name: words for name, words in names.items() if name == "largest_contact_pressure" or name in run.dataset and run.dataset[name].any()}
     note = "Averaged over five contact nodes." + (APART_NOTE if len(names) > 1 else "")
     return of_variables(run, "Largest contact pressure", "Pressure", "MPa", names, note=note, height=300)

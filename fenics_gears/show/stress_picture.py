@@ -42,7 +42,7 @@ ROOTS_IN_COLOURS = 3.0
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
 CLOSE_UP_HALF_WIDTHS = 5.0
 # What a picture names of the pressure at its time.
-PRESSURES = {"largest_contact_pressure": "largest contact pressure", "largest_edge_pressure": "pressure at an edge"}
+PRESSURES = {"largest_contact_pressure": "largest contact pressure", "largest_edge_pressure": "pressure at an edge", "largest_kink_pressure": "pressure at a kink of relief"}
 # Inches at 100 dots of a frame of a moving picture.
 FRAME_WIDTH = 9.6
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.

@@ -98,16 +98,23 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
         raise
 
 
-def _varying_load(model: Model, step: float) -> str:
-    """That effects load the gears by more than the torque does at a step without solution, in words; empty where they do not."""
+def _varying_load(model: Model, step: float | None) -> str:
+    """That effects load the gears by more than the torque does at a step without solution, in words; empty where they
+    do not."""
     names = " and ".join(f"[{each.section}]" for each in effects_on(model.scene) if each.load is not None)
-    if not names:
+    if not names or step is None:
         return ""
-    torque, varying = (float(np.abs(load).max()) for load in (model.drivetrain.load, sum(load(step) for load in model.loads)))
+    loads = model.drivetrain.load, sum(load(step) for load in model.loads)
+    torque, varying = (float(np.abs(load).max()) for load in loads)
     if varying <= torque:
         return ""
-    ways = "a longer ramp (motion.mesh_cycles), ends of [speed_ramp] nearer to each other" if model.scene.speed_ramp is not None else "smaller amplitudes"
-    return f". The torque loads the teeth with {torque:.4g} N, {names} with {varying:.4g} N, which can pull them apart or wedge them. Allowed: {ways} or a higher torque"
+    ways = "smaller amplitudes"
+    if model.scene.speed_ramp is not None:
+        ways = "a longer ramp (motion.mesh_cycles), ends of [speed_ramp] nearer to each other"
+    return (
+        f". The torque loads the teeth with {torque:.4g} N, {names} with {varying:.4g} N, which can pull them apart or "
+        f"wedge them. Allowed: {ways} or a higher torque"
+    )
 
 
 def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Progress) -> xr.Dataset:

@@ -9,7 +9,7 @@ from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.face_cycle import FaceCycle
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
-from fenics_gears.contact.operator import displacement_jacobian
+from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, Place, coast_place, flank_points, interpolations, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
@@ -105,8 +105,9 @@ def test_misalignment_opens_the_coast_flanks_as_a_tilt_does(hand):
     tilts = np.zeros(13)
     # Axes that move by z along x are tilted about y, by z along y about -x.
     tilts[[11, 12]] = pair.wheel.base_radius / pair.face_width * np.array([-0.007, 0.010])
-    # The misalignment is about the middle of the common face, tilts about the wheel's mid-width.
+    # The misalignment is about the pitch point in the middle of the common face, tilts about the wheel's mid-width: the wheel is displaced in its plane, and along its axis.
     tilts[[3, 4]] = even.face.middles[1] / pair.face_width * np.array([0.010, 0.007])
+    tilts[COORDINATES.index("axial_2")] = (0.007 * pair.wheel.base_radius - 0.010 * (pair.line_of_action_length - pair.pitch_point)) / pair.face_width
     one, other = (each.position(5).operator for each in (even, cycle))
     rows = displacement_jacobian(one.pairs, one.base_radii, one.normal_lever_arms, False, face=one.face)
     seen = {DRIVE: 0, COAST: 0}

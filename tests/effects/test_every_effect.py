@@ -103,7 +103,7 @@ def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(sec
 
 def imports_of_hooks(section):
     """Modules of this program that an effect's own module imports inside the functions a run calls."""
-    tree = ast.parse(inspect.getsource(sys.modules[EFFECTS[SECTIONS.index(section)].text.__module__]))
+    tree = ast.parse(inspect.getsource(sys.modules[f"fenics_gears.effects.{section}"]))
     hooks = [getattr(effect_named(section), name) for name in RUN_HOOKS]
     called = {hook.__name__ for hook in hooks if hook is not None}
     functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name in called]

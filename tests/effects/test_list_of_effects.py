@@ -50,12 +50,12 @@ def test_a_scene_without_effects_is_one():
 
 
 def test_names_in_the_list_are_consistent():
-    """Authority: identity; needs and excludes name sections of the list, no variable belongs to two effects."""
+    """Authority: identity; needs and excludes name sections of the list, variables of one name are one and the same, such as the pressure at kinks of
+    either relief."""
     named = [name for effect in effects.EFFECTS for name in (*effect.needs, *effect.excludes)]
     assert set(named) <= set(SECTIONS)
-    variables = [variable.name for effect in effects.EFFECTS for variable in effect.variables]
-    variables += [variable.name for variable in effects.COMMON_VARIABLES]
-    assert len(set(variables)) == len(variables)
+    variables = {variable for effect in effects.EFFECTS for variable in effect.variables} | set(effects.COMMON_VARIABLES)
+    assert len({variable.name for variable in variables}) == len(variables)
 
 
 def test_needs_and_conflicts_are_found():

@@ -19,6 +19,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
 from fenics_gears.geometry.flank_error_data import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
 from fenics_gears.geometry.relief_data import Relief, TipRelief
+from fenics_gears.model.description import describe
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 
@@ -204,3 +205,13 @@ def test_the_example_is_a_scene():
     """The demonstration: four measured teeth of the pinion; ISO 1328-1 class 6 allows slopes of 10 um."""
     scene = checked_scene(DEMOS / "flank_errors" / "measured_curves.toml")
     assert [each.tooth for each in scene.flank_errors.pinion.measured_profile.curves] == [1, 5, 9, 13]
+
+
+def test_check_tells_where_curves_are_zero(tmp_path):
+    """Definition: ISO 21771, d + 2 x m = 72 + 2 * 0.196 * 4.5 mm; or the mean by choice, which needs curves."""
+    rows = {label: value for label, value, _ in dict(describe(scene_with(tmp_path, POINTS)))["Model"]}
+    assert rows["pinion profile curves are zero"] == "at diameter 73.764 mm"
+    rows = {label: value for label, value, _ in dict(describe(scene_with(tmp_path, POINTS, 'anchor = "mean"')))["Model"]}
+    assert rows["pinion profile curves are zero"] == "in their mean"
+    with pytest.raises(SceneError, match="has no curves to hold"):
+        scene_from_text(f'{text_of("tooth_elasticity")}\n[flank_errors.pinion]\nanchor = "mean"\n')

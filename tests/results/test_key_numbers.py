@@ -8,10 +8,12 @@ from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth
 
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
+from fenics_gears.geometry.profile_modification_data import ProfileModification, ProfileModifications
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import plane_contact_modulus
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.key_numbers import HARMONIC_NAMES, STUDIED
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.simulate import simulate
 
@@ -39,6 +41,18 @@ def test_mesh_stiffness_is_load_over_deflection(paper_scene):
     result = simulate(replace(scene, accuracy=replace(COARSE, contact_length=2.0, contact_nodes=101, steps_per_mesh_cycle=20)))
     deflection = result.transmission_error.values * model_of(scene).pair.wheel.base_radius
     assert result.mesh_stiffness.values == pytest.approx(result.normal_force.values / deflection, rel=1e-3)
+
+
+def test_the_printed_stiffness_is_the_tangent(paper_scene):
+    """Definition: a gap that opens the flanks alike at all steps, here by a slope of the profile, is deflection to the secant alone; the tangent hardly moves."""
+    scene = replace(frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))), accuracy=replace(COARSE, steps_per_mesh_cycle=20))
+    modifications = ProfileModifications(ProfileModification(slope=0.02))
+    plain, run = (simulate(each) for each in (scene, replace(scene, profile_modifications=modifications)))
+    plain, sloped = plain.attrs, run.attrs
+    assert sloped["mean_mesh_stiffness"] < 0.9 * plain["mean_mesh_stiffness"]
+    assert sloped["mean_mesh_stiffness_tangent"] == pytest.approx(plain["mean_mesh_stiffness_tangent"], rel=0.01)
+    row = next(value for label, value, _ in summary_rows(run) if label == "mesh stiffness, tangent")
+    assert row.startswith(f"{sloped['mean_mesh_stiffness_tangent']:.4g} N/(mm um)")
 
 
 def test_peak_pressure_is_that_of_hertz(static, paper_scene):

@@ -13,9 +13,10 @@ from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.results.validity import warnings_of_energy, worst_first
-from fenics_gears.scene.data import Accuracy, Load, Motion
+from fenics_gears.results.validity import _yielding, warnings_of_energy, worst_first
+from fenics_gears.scene.data import Accuracy, Load, Material, Motion
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
@@ -49,6 +50,31 @@ def test_what_takes_the_load_off_a_sharp_edge_is_what_the_scene_lacks(coarse, ef
     scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, **effects)
     (warning,) = [each for each in simulate(scene).attrs["warnings"].splitlines() if "sharp edge" in each]
     assert all(words in warning for words in said) and not any(words in warning for words in unsaid)
+
+
+def test_stresses_above_the_yield_strength_are_named(coarse):
+    """Brute force: Hertz's stresses below a line contact (Johnson, Contact Mechanics, 1985, eq. 4.45) with Tresca's criterion, the shear strength half of that in tension."""
+    depth = np.linspace(0.0, 3.0, 30001)
+    root = np.sqrt(1.0 + depth**2)
+    largest_shear = 0.5 * np.abs(-((1.0 + 2.0 * depth**2) / root - 2.0 * depth) + 1.0 / root).max()
+    limit = 0.5 / largest_shear * 650.0
+    scene = replace(coarse, gears=replace(coarse.gears, material=Material(206e3, 0.3, 650.0)))
+
+    def said(pressure, root_stress=0.0):
+        return _yielding(scene, {"peak_contact_pressure": pressure, "largest_root_stress_wheel": root_stress})
+
+    assert not said(0.997 * limit, 649.0) and not _yielding(coarse, {"peak_contact_pressure": 1e4})
+    assert [line.split(",")[0] for line in said(1.003 * limit)] == ["the peak contact pressure"] * 2
+    (line,) = said(0.0, 651.0)
+    assert "root stress of the wheel, 651 MPa, is above its yield strength of 650 MPa" in line
+
+
+def test_a_run_with_a_named_steel_says_that_it_yields(coarse):
+    """The interface: the paper's pair presses its flanks with 1.6 GPa, C45 quenched and tempered has 370 MPa (EN ISO 683-1)."""
+    scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None)
+    named = replace(scene, gears=replace(scene.gears, material=MATERIALS["C45 QT"][0]))
+    assert "1.67 times its yield strength of 370 MPa" in simulate(named).attrs["warnings"]
+    assert "yield" not in simulate(scene).attrs["warnings"]
 
 
 @pytest.mark.parametrize(("shape", "kinked"), [(LINEAR, True), (PARABOLIC, False)])

@@ -97,7 +97,9 @@ def _where(attributes) -> str:
     if "peak_contact_pressure_diameter" not in attributes:
         return "over five contact nodes"
     at = f"at diameter {attributes['peak_contact_pressure_diameter']:.4g} mm of the pinion"
-    return at + (f"; {digits(attributes['peak_edge_pressure'])} MPa at edges" if "peak_edge_pressure" in attributes else "")
+    largest = attributes["peak_contact_pressure"]
+    more = [words for name, words in (("edge", "edges"), ("kink", "kinks of relief")) if attributes.get(f"peak_{name}_pressure", 0.0) > largest]
+    return at + (f"; more at {' and '.join(more)}, see the warnings" if more else "")
 
 
 def _conditions(run: Run) -> Iterator[Tile]:
