@@ -95,6 +95,7 @@ def accuracy(line):
 REFUSED = [
     (HELICAL + accuracy('element = "Q1 incompatible"'), 'accuracy.element = "Q1 incompatible"', ["beside gears.helix_angle", 'Take "P2"']),
     (SPUR + LEAD + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"', ["beside [lead_modifications]", 'Take "once"']),
+    (SPUR + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"', ["of one face width without axial_offset", 'take condensation = "once"']),
     (SPUR + MISALIGNED + accuracy('model = "rigid teeth"'), 'accuracy.model = "rigid teeth"', ["beside [misalignment]", 'Take "elastic"']),
     (HELICAL + accuracy('model = "ISO 6336-1"'), 'accuracy.model = "ISO 6336-1"', ["resolved over the face"]),
     (HELICAL + accuracy('model = "stiffness table"'), 'accuracy.model = "stiffness table"', ["resolved over the face"]),
@@ -141,7 +142,8 @@ def test_gears_that_do_not_overlap_axially_are_refused():
 
 
 def test_check_shows_the_third_dimension(tmp_path, capsys):
-    """Authority: design.md on `gears check`; numbers by the formulas of ISO 21771: eps_beta = 28 sin(15 deg)/(3 pi) = 0.769, beta_b = 14.08 deg."""
+    """Authority: design.md on `gears check`; numbers by the formulas of ISO 21771: eps_beta = 28 sin(15 deg)/(3 pi) =
+    0.769, beta_b = 14.08 deg."""
     file = tmp_path / "pair.toml"
     file.write_text(HELICAL + LEAD + MISALIGNED, encoding="utf-8")
     assert main(["check", str(file)]) == 0
