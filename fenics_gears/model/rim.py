@@ -43,8 +43,8 @@ def rim_warnings(model: Model) -> list[str]:
         )
         found.append(
             f"{name}: thin rim: {rim:.4g} mm = {rim / gear.normal_module:.3g} modules between bore and root circle, "
-            f"and the bore is a rigid ring: tooth and rim are about {off:.0f}% "
-            "stiffer than in a solid body, where a rim on a flexible seat is softer than that: take a smaller "
+            f"and the bore is a rigid ring: tooth and rim give way about {off:.0f}% less than in a solid body, "
+            "where a rim on a flexible seat gives way more: take a smaller "
             f"gears.{name}.bore_diameter where rim and shaft are one body{others}"
         )
     return found
