@@ -24,7 +24,7 @@ from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
 from fenics_gears.errors import ComputationError
 
 # Over the slice's own width, by which all is divided in the end.
-UNIT_WIDTH = (1.0, 1.0)
+UNIT_WIDTH = 1.0
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class FacePairing:
     def __init__(self, flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face):
         self.face, self._nodes = face, tuple(len(body.roll_angle) for body in bodies)
         self.sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
-        self._fine, self._shares = CompliancePairing(flanks, widths=UNIT_WIDTH), face.cosine / face.widths
+        self._fine, self._shares = CompliancePairing(flanks, width=UNIT_WIDTH), face.cosine / face.widths
         self._bodies = tuple(
             (
                 on_slices(body.blocks, slice_averages(body.heights, body.element_order, face.positions - middle, face.widths), body.flanks),

@@ -161,10 +161,11 @@ NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
 class CompliancePairing:
     """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
 
-    def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None, widths: tuple[float, float] | None = None):
-        """`kept`: where blocks of either gear are kept; pairings of the same bodies may share it. `widths` (mm): over which a force spreads in
-        either body, its face width unless given."""
-        self._widths, self._gears = widths or flanks.pair.face_widths, flanks.compliance
+    def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None, width: float | None = None):
+        """`kept`: where blocks of either gear are kept; pairings of the same bodies may share it. `width` (mm): over
+        which a force spreads, the
+        common face width unless given."""
+        self._width, self._gears = width or flanks.pair.face_width, flanks.compliance
         self._blocks = ({}, {}) if kept is None else kept
 
     def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> np.ndarray:
@@ -192,7 +193,7 @@ class CompliancePairing:
                 row, near, first, axes = own
                 if tangential:
                     axes = np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
-                own = row, near, first, axes / self._widths[gear]
+                own = row, near, first, axes / self._width
                 for other, loaded, loaded_before in loads:
                     # The other half follows by symmetry.
                     loaded = loaded if loaded[0] <= row else NO_NODES

@@ -70,8 +70,8 @@ class RemeshedCycle(Cycle):
         return RemeshedPosition(operator, carried, index, partial(self._own_stiffness, index))
 
     def _own_stiffness(self, index: int) -> tuple[np.ndarray, np.ndarray]:
-        pairs, widths = self.pairs_at(index), self.pair.face_widths
-        return tuple(by_direction(widths[gear] * self._stiffness[index][gear], pairs, gear) for gear in range(2))
+        pairs, width = self.pairs_at(index), self.pair.face_width
+        return tuple(by_direction(width * self._stiffness[index][gear], pairs, gear) for gear in range(2))
 
     def _compliance(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         """Flank compliance of either gear, hub held."""

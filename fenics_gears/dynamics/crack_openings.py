@@ -28,7 +28,8 @@ def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
     for nodes, pair in zip(node_slices(operator.pairs), operator.pairs):
         rows = body.openings.get((first + pair.place.ahead(gear)) % body.teeth)
         if rows is not None and forces[nodes].any():
-            total += rows @ (flank_rows(gear, pair, len(by_kind) > 1) @ by_kind[:, nodes].ravel()) / cycle.pair.face_widths[gear]
+            line = flank_rows(gear, pair, len(by_kind) > 1) @ by_kind[:, nodes].ravel() / cycle.pair.face_width
+            total += rows @ line
     return total
 
 

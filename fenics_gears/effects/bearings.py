@@ -99,13 +99,31 @@ def _axial_stiffness_has_places(both: Tree) -> Iterator[Problem]:
 
 
 def warnings(bearings: Bearings, model) -> list[str]:
-    """A sentence where gears turn so fast that gyroscopic moments could matter."""
+    """Sentences on bearings within a gear, and where gears turn so fast that gyroscopic moments could matter."""
     if bearings.places is None:
         return []
     from fenics_gears.dynamics.tilting import gyroscopic_warnings
 
     fastest = model.scene.mesh_frequencies[1]
-    return gyroscopic_warnings(model.vibrations, {gear: fastest / getattr(model.scene.gears, gear).teeth for gear in GEARS})
+    turns = {gear: fastest / getattr(model.scene.gears, gear).teeth for gear in GEARS}
+    return within_gears(bearings, model) + gyroscopic_warnings(model.vibrations, turns)
+
+
+def within_gears(bearings: Bearings, model) -> list[str]:
+    """A sentence on each bearing that stands within its gear's own face, where there is no room for one."""
+    found = []
+    for gear, width in zip(GEARS, model.pair.face_widths):
+        inside = [place for place in bearings.places_of(gear) or () if abs(place) < 0.5 * width]
+        if inside:
+            places = " and ".join(f"{place:g} mm" for place in inside)
+            said = f"the bearing at {places} stands" if len(inside) == 1 else f"the bearings at {places} stand"
+            found.append(
+                f"bearings.places.{gear}: {said} within the gear, which reaches {0.5 * width:g} mm to either side of "
+                "its mid-width; places are "
+                "counted from there, not from an end or the other gear: move the bearing out, unless the gear turns "
+                "on it"
+            )
+    return found
 
 
 EFFECT = Effect(

@@ -54,7 +54,8 @@ def _of_width(web: Web | None, mesh, stress):
     if web is None:
         return stress
     place = ufl.SpatialCoordinate(mesh)
-    inner, outer, share = (adapter.constant(mesh, value) for value in (web.hub_radius**2, web.rim_radius**2, web.share))
+    values = web.hub_radius**2, web.rim_radius**2, web.stiff_share or web.share
+    inner, outer, share = (adapter.constant(mesh, value) for value in values)
     square = ufl.inner(place, place)
     return ufl.conditional(ufl.And(ufl.gt(square, inner), ufl.lt(square, outer)), share, 1.0) * stress
 

@@ -62,6 +62,11 @@ class Gear:
         """Radius (mm) of the circle that rolls on the generating rack."""
         return 0.5 * self.teeth * self.module
 
+    @property
+    def body_depth(self) -> float:
+        """Thickness (mm) of the solid body below the teeth, down to the bore, of a gear with a web that of its rim."""
+        return self.root_radius - (self.bore_radius if self.web is None else self.web.rim_radius)
+
     @cached_property
     def base_radius(self) -> float:
         """Radius (mm) of the circle whose involute the flank is."""
@@ -78,7 +83,7 @@ class Gear:
         web = self.web
         if web is not None:
             hub, rim = self.in_modules(web.hub_radius, web.rim_radius)
-            web = Web(hub, rim, web.share)
+            web = replace(web, hub_radius=hub, rim_radius=rim)
         return replace(self, module=1.0, web=web, **dict(zip(lengths, self.in_modules(*(getattr(self, length) for length in lengths)))))
 
     @property

@@ -19,11 +19,16 @@ class Material:
 
 @dataclass(frozen=True)
 class Web:
-    """A part of the gear's body that is thinner than the face, from the hub's radius to the rim's inner radius (mm); `share`: its width over the face width."""
+    """A part of the gear's body that is thinner than the face, from the hub's radius to the rim's inner radius (mm);
+    `share`: its width over the face width.
+
+    `stiff_share`: its width over that part of the face width that counts in the plane; None where all of it does.
+    """
 
     hub_radius: float
     rim_radius: float
     share: float
+    stiff_share: float | None = None
 
 
 @dataclass(frozen=True)

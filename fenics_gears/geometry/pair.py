@@ -6,9 +6,9 @@ drives, so that contact runs from the wheel's tip (path_start) to the pinion's t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from math import acos, cos, floor, pi, sin, sqrt, tan
+from math import acos, cos, exp, floor, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING
 
 from fenics_gears.geometry.gear import Gear, transverse_gear
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.helix import Helix
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
+# Reach, in normal modules, from the load into a face that stands out beyond the mate: of the teeth on a thin rim, what
+# a solid body has more, and the depth of the body over which this grows. Found against three dimensions
+# (docs/third_dimension.md).
+REACH_OF_TEETH, REACH_OF_BODY, DEPTH_OF_BODY = 1.1, 1.6, 7.0
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,7 @@ class GearPair:
 
     @property
     def face_widths(self) -> tuple[float, float]:
-        """Width (mm) of the pinion and of the wheel, over which a line load spreads in its body."""
+        """Width (mm) of the pinion and of the wheel."""
         return self.own_face_widths or (self.face_width, self.face_width)
 
     @property
@@ -55,6 +59,29 @@ class GearPair:
         ends = [(offset - 0.5 * width, offset + 0.5 * width) for offset, width in zip(self.axial_offsets, self.face_widths)]
         middle = 0.5 * (max(low for low, _ in ends) + min(high for _, high in ends))
         return self.axial_offsets[0] - middle, self.axial_offsets[1] - middle
+
+    @property
+    def overhangs(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """How far (mm) pinion and wheel stand out of the common face, at its left and its right end."""
+        low, high = self.common_face
+        pinion, wheel = (
+            (max(low - middle + 0.5 * width, 0.0), max(middle + 0.5 * width - high, 0.0))
+            for middle, width in zip(self.gear_middles, self.face_widths)
+        )
+        return pinion, wheel
+
+    @property
+    def effective_face_widths(self) -> tuple[float, float]:
+        """Width (mm) of pinion and wheel that counts in the plane: the common width, and of what stands out of it as
+        much as helps to carry.
+
+        At either end r (1 - exp(-o/r)) of an overhang o, with a reach r that grows with the depth of the gear's body.
+        """
+        module, found = self.pinion.normal_module, []
+        for gear, overhangs in zip((self.pinion, self.wheel), self.overhangs):
+            reach = module * (REACH_OF_TEETH + REACH_OF_BODY * (1.0 - exp(-gear.body_depth / (DEPTH_OF_BODY * module))))
+            found.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
+        return found[0], found[1]
 
     @cached_property
     def slope(self) -> float:
@@ -174,6 +201,12 @@ class GearPair:
         return self.pinion_roll_angle(self.path_start), self.wheel_roll_angle(self.path_end)
 
     @property
+    def eap_roll_angles(self) -> tuple[float, float]:
+        """Roll angles (rad) of pinion and wheel at their ends of active profile: the pinion's is in contact last, the
+        wheel's first."""
+        return self.pinion_roll_angle(self.path_end), self.wheel_roll_angle(self.path_start)
+
+    @property
     def backlash(self) -> float:
         """Gap (mm) along the line of action between the coast flanks while the drive flanks touch.
 
@@ -217,7 +250,17 @@ def gear_pair(data: GearPairData) -> GearPair:
     check_gear(wheel, "wheel")
     pair = GearPair(pinion, wheel, data.centre_distance, data.face_width, data.face_widths, _helix(data), data.axial_offsets)
     check_pair(pair)
-    return pair
+    return _with_web_as_it_counts(pair)
+
+
+def _with_web_as_it_counts(pair: GearPair) -> GearPair:
+    """A web is as wide as it is, however much of the face counts."""
+    found = []
+    for gear, own, counts in zip((pair.pinion, pair.wheel), pair.face_widths, pair.effective_face_widths):
+        if gear.web is not None and own != counts:
+            gear = replace(gear, web=replace(gear.web, stiff_share=gear.web.share * own / counts))
+        found.append(gear)
+    return replace(pair, pinion=found[0], wheel=found[1])
 
 
 def _helix(data: GearPairData) -> Helix | None:

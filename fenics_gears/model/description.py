@@ -17,7 +17,9 @@ from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.scene.data import Scene
+from fenics_gears.model.plane_strain import NOTABLE as NOTABLE_STIFFNESS
+from fenics_gears.model.plane_strain import too_stiff
+from fenics_gears.scene.data import ISO_6336, Scene
 
 Rows = list[tuple[str, object, str]]
 
@@ -91,7 +93,7 @@ def _face_rows(model: Model) -> Rows:
         each = (f"{name} {width:g} mm" + ("" if middle is None else f" about {middle:g} mm") for name, width, middle in zip(GEARS, pair.face_widths, places))
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
     if not scene.three_dimensional:
-        return widths
+        return [*widths, *_plane_rows(model)]
     low, high = pair.common_face
     found: Rows = [*widths, ("flanks are resolved over the face", f"z from {low:g} mm to {high:g} mm", "from its middle, left to right")]
     if pair.helix is not None:
@@ -119,6 +121,25 @@ def _curve_rows(model: Model) -> Rows:
         if own.measured_helix is not None:
             rows.append((f"{name} helix curves are zero", zero or "at mid-width", ""))
     return rows
+
+
+def _plane_rows(model: Model) -> Rows:
+    """Of elastic gears in the plane: the widths that count where a gear is wider than the common face, and what plane
+    strain leaves out of a narrow face."""
+    pair, scene, found = model.pair, model.scene, []
+    if scene.tooth_elasticity is None or scene.accuracy.model == ISO_6336:
+        return []
+    if pair.effective_face_widths != (pair.face_width, pair.face_width):
+        counts = ", ".join(f"{name} {width:.4g} mm" for name, width in zip(GEARS, pair.effective_face_widths))
+        words = "of the bodies: the common width, and of what stands out beyond it as much as helps to carry"
+        found.append(("face width that counts", counts, words))
+    modules = pair.face_width / pair.pinion.module
+    softer = too_stiff(modules, scene.gears.materials)
+    if softer >= NOTABLE_STIFFNESS:
+        way_out = "over the face it is not, with the section [lead_modifications.pinion] and crowning = \"0 um\""
+        words = f"too stiff (mean transmission error) for a face of {modules:.3g} modules; {way_out}"
+        found.append(("plane strain", f"about {softer:.1f}%", words))
+    return found
 
 
 def _amounts(data, names: tuple[str, ...]) -> list[tuple[str, float]]:

@@ -23,6 +23,7 @@ from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
 from fenics_gears.model.modification import corner, removals
 from fenics_gears.model.resolution import Resolution, locking_warnings, resolution_warnings, resolve
+from fenics_gears.model.rim import rim_warnings
 from fenics_gears.model.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
@@ -152,8 +153,9 @@ class Model:
     @property
     def warnings(self) -> list[str]:
         """Sentences for the user before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
-        found = [*self._of_a_part(), *self._without_fields(), *design_warnings(self.pair), *resolution_warnings(self.resolution)]
-        found += locking_warnings(self.resolution, self.scene.gears.materials)
+        found = [*self._of_a_part(), *self._without_fields(), *self._unusual()]
+        found += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
+        found += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
         for sentences in from_effects(self.scene, "warnings", self):
             found += sentences
         if self.face is not None:
@@ -183,6 +185,10 @@ class Model:
             f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and the transmission error and all other "
             f"numbers are of a part of them; motion.mesh_cycles = {period}{words} goes through all"
         ]
+
+    def _unusual(self) -> list[str]:
+        """Sentences on derived figures that are not usual."""
+        return [each.unusual for each in self.scene.derived if each.unusual]
 
     def _without_fields(self) -> list[str]:
         """A sentence where a large result leaves out contact fields that the scene did not ask to leave out."""

@@ -100,15 +100,11 @@ def relative_radius(pair: GearPair, xi: float) -> float:
 
 
 def plane_contact_modulus(scene: Scene) -> float:
-    """E* (MPa) of the two gears, for the line load over the width at which they meet.
-
-    1/E* is the sum of (1 - nu^2)/E; a gear of a larger width spreads the load over that.
-    """
-    (first, second), widths = scene.gears.materials, scene.gears.face_widths
-    if first == second and widths[0] == widths[1]:
+    """E* (MPa) of the two gears: 1/E* is the sum of (1 - nu^2)/E."""
+    first, second = scene.gears.materials
+    if first == second:
         return 0.5 * first.youngs_modulus / (1.0 - first.poissons_ratio**2)
-    shares = [scene.gears.face_width / width for width in widths]
-    return 1.0 / sum(share * (1.0 - each.poissons_ratio**2) / each.youngs_modulus for share, each in zip(shares, (first, second)))
+    return 1.0 / sum((1.0 - each.poissons_ratio**2) / each.youngs_modulus for each in (first, second))
 
 
 def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:

@@ -44,7 +44,7 @@ class RootStress:
         matrix = np.zeros((2, len(teeth), points, (2 if tangential else 1) * count))
         for gear, data in enumerate((self.pair.pinion, self.pair.wheel)):
             for nodes, pair in zip(node_slices(pairs), pairs):
-                line = flank_rows(gear, pair, tangential) / self.pair.face_widths[gear]
+                line = flank_rows(gear, pair, tangential) / self.pair.face_width
                 line = unmirrored(data, line) if pair.place.flank == COAST else line
                 columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
                 for place, index in enumerate(teeth):

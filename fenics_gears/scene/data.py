@@ -34,12 +34,14 @@ class Load:
 
 @dataclass(frozen=True)
 class Derived:
-    """A figure that a scene leaves out: what `gears check` calls it, its value and unit, and the formula that it comes from."""
+    """A figure that a scene leaves out: what `gears check` calls it, its value and unit, the formula that it comes
+    from, and a remark if it is `unusual`."""
 
     name: str
     value: float
     unit: str
     formula: str
+    unusual: str = ""
 
 
 # Mesh cycles until every tooth has met every other: the least common multiple of the numbers of teeth.

@@ -21,6 +21,7 @@ from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
+from fenics_gears.scene import unusual
 from fenics_gears.scene.data import Derived, Load, Motion
 from fenics_gears.scene.gear_schema import MEASURES, Gears
 from fenics_gears.scene.gear_schema import Gear as GearText
@@ -30,6 +31,8 @@ from fenics_gears.scene.schema import Load as LoadText
 LARGEST_ALLOWANCE = 0.5
 # Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2 tan(alpha_n)), 4.3 at 20 deg.
 LARGEST_SHIFT = 2.0
+# Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
+NOTABLE_OVERLAP = 0.01
 
 
 def with_material_sections(tree: dict[str, Any]) -> dict[str, Any]:
@@ -140,7 +143,11 @@ def _cut(pair: Gears, drawn: GearText, name: str, found: list[Derived]) -> float
         than = f"profile_shift = {nominal:g}" if nominal else "none"
         refuse(name, f"{written} is that of a profile shift of {shift:.4g}; allowed are {allowed:g} modules more or less than {than}: check both, and gears.module")
     words = "profile shift" if drawn.profile_shift is None else "profile shift of its tooth thickness"
-    found.append(Derived(f"{name} {words}", shift, "modules", f"of its {measure.replace('_', ' ')}"))
+    if drawn.profile_shift is None:
+        odd = unusual.of_profile_shift(name, shift)
+    else:
+        odd = unusual.of_allowance(pair, name, shift - nominal, pair.centre_distance or 0.0)
+    found.append(Derived(f"{name} {words}", shift, "modules", f"of its {measure.replace('_', ' ')}", odd))
     return shift
 
 
@@ -179,8 +186,20 @@ def _thinned(pair: Gears, cut: list[float], distance: float, found: list[Derived
         )
     # Thickness along the line of action, 2 r_b psi_b, per unit of x: 2 m_t cos(alpha_t) tan(alpha_n).
     each = 0.5 * missing * cos(rack_pair.operating_pressure_angle) / (2.0 * pinion.module * cos(pinion.pressure_angle) * tan(pair.pressure_angle))
-    lowered = [shift - each for shift in cut]
-    found += [Derived(f"{name} profile shift of its tooth thickness", shift, "modules", "half of the backlash by each gear") for name, shift in zip(GEARS, lowered)]
+    lowered, overlap = [shift - each for shift in cut], -rack_pair.circumferential_backlash
+    nominal = rack_pair.centre_distance_without_backlash
+    thinner = 2.0 * each * pair.module * tan(pair.pressure_angle)
+    words = "half of the backlash by each gear"
+    if overlap > NOTABLE_OVERLAP * pair.module:
+        words = (
+            f"half by each gear of the backlash and of {overlap:.4g} mm by which teeth with the given profile shifts would "
+            "overlap at this centre distance"
+        )
+    odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
+    found += [
+        Derived(f"{name} profile shift of its tooth thickness", shift, "modules", words, remark)
+        for name, shift, remark in zip(GEARS, lowered, odd)
+    ]
     return lowered
 
 
@@ -192,7 +211,8 @@ def _tip_shortening(pair: Gears, drawn: Iterable[GearText], shifts: list[float],
         return 0.0
     reference = 0.5 * pair.module * sum(gear.teeth for gear in drawn) / cos(pair.helix_angle or 0.0)
     shortening = max(0.0, round(sum(shifts) - (distance - reference) / pair.module, DECIMALS_IN_MODULES))
-    found.append(Derived("tip shortening -k", shortening, "modules", "k m_n = a - a_d - (x1 + x2) m_n, not above 0"))
+    formula = "k m_n = a - a_d - (x1 + x2) m_n, not above 0"
+    found.append(Derived("tip shortening -k", shortening, "modules", formula, unusual.of_shortening(shortening)))
     return shortening
 
 

@@ -69,7 +69,7 @@ class Gear(Section):
     tip_chamfer: Optional[float] = quantity(
         "0 mm", "1 m", "0.3 mm", meaning="radial height h_K of the chamfer between flank and tip circle, as long on the one as on the other; the involute ends at d_Fa = d_a - 2 h_K", otherwise="0 mm"
     )
-    bore_diameter: float = _diameter("30 mm", "bore diameter; the bore is a rigid ring on the shaft")
+    bore_diameter: float = _diameter("30 mm", "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff")
     rack_tip_radius: Optional[float] = number(
         0.38, meaning="tip radius of the generating rack, in modules; the same as `tip_radius` of `[gears.pinion.rack]`", lowest=0, highest=2, otherwise="`tip_radius` of the rack; 0.38, or what has room on the rack's tip"
     )
@@ -121,7 +121,7 @@ class Gears(Section):
         too_low="It is -k: write the amount by which the tips are shorter, without sign.",
         otherwise="what keeps the tip clearance of the rack: k m_n = a - a_d - (x1 + x2) m_n, and 0 where that is not negative",
     )
-    face_width: Optional[float] = _length("15 mm", "face width of both gears; gears of unequal width mesh over the smaller one, centred unless they have an `axial_offset`", "each gear has its own `face_width`")
+    face_width: Optional[float] = _length("15 mm", "face width of both gears; gears of unequal width mesh over the smaller one, centred unless they have an `axial_offset`; in the plane one to three modules of what stands out help to carry (`gears check` says which width counts)", "each gear has its own `face_width`")
     pinion: Gear
     wheel: Gear
     rack: Optional[RackText] = None

@@ -14,7 +14,7 @@ from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.names import nearest
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.synonyms import meant
-from fenics_gears.inputs.tree import GEARS, Tree, given_for, load_in, material_sections, quantity_at, quantity_in, table, teeth_in, value_at
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, load_in, material_sections, over_the_face, quantity_at, quantity_in, table, teeth_in, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
 from fenics_gears.scene.drawing_rules import DRAWING_RULES
@@ -151,6 +151,18 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
 
+def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
+    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
+    asked = value_at(tree, "accuracy", "condensation")
+    common = quantity_at(tree, "gears", "face_width")
+    widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
+    offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
+    if asked == EVERY_STEP and not over_the_face(tree) and (len(widths) > 1 or len(offsets) > 1):
+        remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
+        message = f"is for gears of one face width without axial_offset. {remedy}"
+        yield Problem(("accuracy", "condensation"), as_written(asked), message)
+
+
 def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
     accuracy = table(tree, "accuracy") or {}
     chosen = accuracy.get("model")
@@ -223,6 +235,7 @@ _RULES = (
     _resolution_fits_the_teeth,
     _body_is_no_finer_than_the_flank,
     _remeshing_has_its_own_nodes,
+    _remeshed_gears_have_one_width,
     _root_stress_has_its_teeth,
     _cheaper_models_have_what_they_need,
     _a_target_chooses_alone,

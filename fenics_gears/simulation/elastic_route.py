@@ -44,7 +44,7 @@ def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) 
 def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
     cycle = _cycle_of(compliances)(
-        Flanks(model.pair, compliances, model.removal),
+        flanks_of(model, compliances),
         model.resolution.contact_grid,
         model.resolution.steps_per_mesh_cycle,
         model.drivetrain.indices,
@@ -52,6 +52,22 @@ def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
         corner=model.corner,
     )
     return deviating(model, cycle)
+
+
+def flanks_of(model: Model, compliances: Compliances) -> Flanks:
+    """Both gears as contact in the plane sees them: a load over the common face spreads in a gear that is wider."""
+    pair = model.pair
+    if pair.effective_face_widths == (pair.face_width, pair.face_width):
+        return Flanks(pair, compliances, model.removal)
+    # Imported here: gears of one width have none.
+    from fenics_gears.elasticity.overhang import with_overhang
+
+    gears, materials = (pair.pinion, pair.wheel), model.scene.gears.materials
+    pinion, wheel = (
+        with_overhang(body, gear, material, pair.face_width / width)
+        for body, gear, material, width in zip(compliances, gears, materials, pair.effective_face_widths)
+    )
+    return Flanks(pair, (pinion, wheel), model.removal)
 
 
 def _cycle_of(compliances: Compliances):

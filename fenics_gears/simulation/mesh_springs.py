@@ -11,13 +11,13 @@ from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle, Springs
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, coast_place, drive_place, facing_points
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.deviations import deviating
-from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
+from fenics_gears.simulation.elastic_route import Compliances, flanks_of, gear_compliances
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -47,7 +47,7 @@ def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...]
     """
     begun, resolution = perf_counter(), model.resolution
     full = MeshCycle(
-        Flanks(model.pair, compliances, model.removal),
+        flanks_of(model, compliances),
         resolution.contact_grid,
         min(resolution.steps_per_mesh_cycle, MOST_PHASES),
         [CENTRE_COORDINATES.index("rotation_2")],

@@ -41,7 +41,7 @@ class StoredForces:
     def on_flanks(self, model: Model, gear: int) -> dict[int, np.ndarray]:
         """Line forces (N/mm) on the flank nodes of a gear's loaded teeth; see `contact.flank_forces`."""
         data = (model.pair.pinion, model.pair.wheel)[gear]
-        return flank_forces(gear, data, self.pairs, self.forces, model.pair.face_widths[gear])
+        return flank_forces(gear, data, self.pairs, self.forces, model.pair.face_width)
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:

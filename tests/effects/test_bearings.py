@@ -6,12 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.helical import wide_pair
 
 from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Support
 from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.drivetrain import drivetrain
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 
@@ -192,3 +194,17 @@ def test_a_run_over_the_face_has_its_variables_and_no_others(placed_run, paper_s
     found = {variable.name for variable in result_variables(replace(scene, bearings=replace(PLACED, places=None)))}
     assert (tilts | over_face) & found == over_face
     assert not (tilts | over_face) & {variable.name for variable in result_variables(paper_scene)}
+
+
+def test_bearings_within_the_gear_are_remarked():
+    """Authority: the rule; a gear of 20 mm reaches 10 mm from its mid-width, and each gear has its own width."""
+    places = 'places = { pinion = ["-40 mm", "9 mm"], wheel = ["-9 mm", "8 mm"] }'
+    scene = wide_pair(f'[bearings]\nstiffness = "0.2e6 N/mm"\n{places}\n')
+    pinion, wheel = (0.5 * width for width in model_of(scene).pair.face_widths)
+    assert min(pinion, wheel) > 9.0
+    first, second = (words for words in model_of(scene).warnings if "within the gear" in words)
+    said = f"bearings.places.pinion: the bearing at 9 mm stands within the gear, which reaches {pinion:g} mm"
+    assert first.startswith(said) and "the bearings at -9 mm and 8 mm stand" in second
+    places = BearingPlaces((-pinion, pinion), (-wheel - 1.0, wheel + 5.0))
+    outside = replace(scene, bearings=replace(scene.bearings, places=places))
+    assert not any("within the gear" in words for words in model_of(outside).warnings)

@@ -12,6 +12,7 @@ from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import RACKS
 from fenics_gears.geometry.materials import MATERIALS
 from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import GearData, GearPairData, Material
 from fenics_gears.scene.read import build_scene, load_scene
 from fenics_gears.studies.fields import changed
@@ -225,3 +226,43 @@ def test_a_load_is_given_once_and_a_power_at_a_speed(sections, message):
     with pytest.raises(SceneError) as caught:
         scene_of(**sections)
     assert message in str(caught.value)
+
+
+def remarks(*changes) -> list[str]:
+    return [each.unusual for each in scene_of(*changes).derived if each.unusual]
+
+
+def test_a_centre_distance_that_is_off_is_remarked():
+    """Authority: ISO/TR 10064-2, annex A: at 76 mm and 3 mm a backlash of 0.125 mm is the least that is recommended;
+    half a millimetre less of centre distance takes
+    about 2 tan(alpha_wt) times as much along the pitch circles, 0.4 mm, and 0.7 mm more than 0.2 modules of the
+    tips."""
+    fitting = scene_of({"backlash": "0.12 mm"}).gears.centre_distance
+
+    def nearer(by: float) -> list[str]:
+        return remarks({"backlash": "0.12 mm", "centre_distance": f"{fitting - by:.4f} mm"})
+
+    assert remarks({"backlash": "0.12 mm"}) == nearer(0.1) == []
+    found = nearer(0.5)
+    assert len(found) == 1
+    for words in ("0.5 mm less than", "overlap by 0.398", "gears.backlash = 0.12 mm", "less than 0.13 mm", "check gears."):
+        assert words in found[0]
+    found = nearer(0.7)
+    assert len(found) == 2 and "tips were shortened by 0.2" in found[1]
+
+
+def test_a_remark_is_a_warning_of_the_run():
+    """Authority: the rule; what is derived from a wrong figure is not refused."""
+    scene = scene_of({"backlash": "0.12 mm", "centre_distance": "75.6 mm"})
+    said = [words for words in model_of(scene).warnings if "overlap" in words or "shortened" in words]
+    assert [each.unusual for each in scene.derived if each.unusual] == said != []
+
+
+def test_measures_that_stand_for_unusual_shifts_are_remarked():
+    """Authority: DIN 3960, a thickness of pi m/2 + 2 x m tan(alpha): 8.2 mm at 3 mm are x = 1.6; beside x = 0.3, 6 mm
+    are 0.632 mm more than its 5.368 mm."""
+    assert remarks(None, {"profile_shift": None, "tooth_thickness": "5.1 mm"}) == []
+    (alone,) = remarks({"centre_distance": "80 mm"}, {"profile_shift": None, "tooth_thickness": "7.4 mm"})[:1]
+    assert "1.23 modules; usual are -0.5 to 1" in alone
+    (beside,) = remarks({"centre_distance": "77.5 mm"}, {"tooth_thickness": "6 mm"})[:1]
+    assert "0.632 mm more than that of profile_shift" in beside

@@ -1,6 +1,7 @@
 """Whole pairs against numbers that others have printed."""
 
 from dataclasses import replace
+from itertools import permutations
 from math import atan, cos, degrees, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
 from fenics_gears.scene.read import load_scene
 
+PROFILE_ENDS = "start of active profile (SAP)", "end of active profile (EAP)"
 SCENES = Path(__file__).parents[1] / "benchmarks" / "third_dimension" / "cited"
 
 PAPER = {
@@ -202,3 +204,16 @@ def test_centre_distances_of_an_industrial_gearbox(cut_gear, stage):
     gears = [cut_gear(z, x, module=module, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]
     pair = GearPair(*gears, centre_distance=distance, face_width=1.0)
     assert pair.centre_distance_without_backlash == pytest.approx(distance, abs=1e-4 * module)
+
+
+def test_diameters_of_the_active_profile(paper_pair):
+    """Authority: ISO 21771, 5.4.1: d_Nf1 = sqrt((2 a sin(alpha_wt) - sqrt(d_Na2^2 - d_b2^2))^2 + d_b1^2), with d_Na =
+    d_a where nothing is cut away; and the other way round."""
+    rows = {name: value for name, value, _ in characteristics(paper_pair)}
+    for (name, gear), (other, mate) in permutations((("pinion", paper_pair.pinion), ("wheel", paper_pair.wheel))):
+        starts, ends = (rows[f"{name} diameter, {each}"] for each in PROFILE_ENDS)
+        assert ends == pytest.approx(2.0 * gear.tip_radius, rel=1e-12) == rows[f"{name} tip form diameter"]
+        line = 2.0 * paper_pair.centre_distance * sin(paper_pair.operating_pressure_angle)
+        used = line - 2.0 * sqrt(mate.tip_radius**2 - mate.base_radius**2)
+        assert starts == pytest.approx(sqrt(used**2 + (2.0 * gear.base_radius) ** 2), rel=1e-12)
+        assert rows[f"{name} form diameter"] < starts

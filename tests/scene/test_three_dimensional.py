@@ -95,6 +95,7 @@ def accuracy(line):
 REFUSED = [
     (HELICAL + accuracy('element = "Q1 incompatible"'), 'accuracy.element = "Q1 incompatible"', ["beside gears.helix_angle", 'Take "P2"']),
     (SPUR + LEAD + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"', ["beside [lead_modifications]", 'Take "once"']),
+    (SPUR + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"', ["of one face width without axial_offset", 'take condensation = "once"']),
     (SPUR + MISALIGNED + accuracy('model = "rigid teeth"'), 'accuracy.model = "rigid teeth"', ["beside [misalignment]", 'Take "elastic"']),
     (HELICAL + accuracy('model = "ISO 6336-1"'), 'accuracy.model = "ISO 6336-1"', ["resolved over the face"]),
     (HELICAL + accuracy('model = "stiffness table"'), 'accuracy.model = "stiffness table"', ["resolved over the face"]),

@@ -9,7 +9,7 @@ from pathlib import Path
 from tests.benchmarks.marked_section import write_section
 
 PAGE = Path(__file__).parents[3] / "docs" / "third_dimension.md"
-NAMES = ("plane_limits", "overlap", "misaligned", "crowned", "tooth_stiffness", "stiffness_function", "root_stress", "cited", "resolved")
+NAMES = ("plane_limits", "face_widths", "overlap", "misaligned", "crowned", "tooth_stiffness", "stiffness_function", "root_stress", "cited", "resolved")
 
 
 def main(words: list[str]) -> None:
