@@ -153,7 +153,7 @@ class Accuracy(Section):
         1000,
         40,
         meaning="slices of the common face in which contact is resolved, best a multiple of `layers`; of three-dimensional scenes",
-        otherwise=f"{defaults.SLICES_OF_A_LAYER} a layer",
+        otherwise=f"{defaults.SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the multiple of it nearest to that number",
     )
     layers: Optional[int] = whole_number(
         1,
@@ -163,7 +163,7 @@ class Accuracy(Section):
         "scenes",
         otherwise=f"a thickness of {defaults.LAYER_THICKNESS:g} modules, in helical pairs at most so thick that the line of contact moves by "
         f"{defaults.LAYER_TURN:g} of the base pitch along the path of contact within a layer; at least {defaults.FEWEST_LAYERS} "
-        f"layers. With `slices`, so many that there are {defaults.SLICES_OF_A_LAYER} slices to a layer",
+        f"layers. With `slices`, {defaults.SLICES_OF_A_LAYER} slices to a layer or fewer, if possible so that slices end where layers do",
     )
     condensation: Optional[Literal["once", "every step"]] = choice(
         "once",
