@@ -66,7 +66,7 @@ class FaceDiscretisation:
         if self.layers < 1:
             raise SceneError(f"layers is {self.layers}, must be 1 or more")
         if not self.largest_turn <= LARGEST_TURN:
-            least = int(np.ceil(self.layers * self.largest_turn / LARGEST_TURN))
+            least = int(np.ceil(self.layers * self.largest_turn / LARGEST_TURN - 1e-9))
             raise SceneError(
                 f"accuracy.layers = {self.layers}: a layer would turn by {self.largest_turn:.3g} rad, at most {LARGEST_TURN} is accurate; take {least} or more"
             )
