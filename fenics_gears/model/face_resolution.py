@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import ceil
+from math import ceil, floor
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,21 +13,47 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
 from fenics_gears.scene.data import Scene
+from fenics_gears.scene.defaults import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, SECTION_SIZE, SLICES_OF_A_LAYER
 
 if TYPE_CHECKING:
     from fenics_gears.model.model import Model
 
-# Width of a slice, in normal modules. The peak-to-peak transmission error of a helical pair is then some 2 % off, and an error falls as the square of it; the
-# mean is within 0.2 %.
-SLICE_WIDTH = 0.35
-FEWEST_SLICES = 5
+# A layer tells two slices apart. With 16 in it, line loads that vary over it err by up to half; the mean over the face does not.
+MOST_SLICES_OF_A_LAYER = 4
+# Where part of the face carries.
+FEWEST_LOADED_SLICES = 6
+# Layers may be so much thicker or thinner than asked for, that slices end where they do.
+THICKER, THINNER = 1.3, 0.67
+# An overhang of less than this part of a layer belongs to the layer beside it.
+LEAST_OVERHANG = 0.1
 
 
 def face_of(scene: Scene, pair: GearPair) -> Face:
     """The slices of the common face, all of one width."""
-    slices = scene.accuracy.slices or max(ceil(pair.face_width / (SLICE_WIDTH * scene.gears.module)), FEWEST_SLICES)
-    positions, widths = even_slices(pair.face_width, slices)
-    return Face(positions, widths, pair.slope, pair.gear_middles)
+    least = _fewest_layers(scene, pair)
+    slices = scene.accuracy.slices or _multiple(scene.accuracy.layers, SLICES_OF_A_LAYER * least) or SLICES_OF_A_LAYER * least
+    return Face(*even_slices(pair.face_width, slices), pair.slope, pair.gear_middles)
+
+
+def layers_of_common_face(scene: Scene, pair: GearPair, slices: int) -> int:
+    """How many layers of either body are on the common face: as many as the scene asks for, or so many that slices end where layers do."""
+    if scene.accuracy.layers:
+        return scene.accuracy.layers
+    wanted = max(_fewest_layers(scene, pair), ceil(slices / SLICES_OF_A_LAYER))
+    allowed = range(ceil(wanted / THICKER), floor(wanted / THINNER) + 1)
+    fitting = [layers for layers in allowed if slices % layers == 0 or layers % slices == 0]
+    return min(fitting, key=lambda layers: abs(layers - wanted), default=wanted)
+
+
+def _fewest_layers(scene: Scene, pair: GearPair) -> int:
+    """Layers of the common face by their thickness and, of a helical pair, by how far its line of contact moves within one."""
+    moves = LAYER_TURN * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
+    return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, moves) - 1e-9), FEWEST_LAYERS)
+
+
+def _multiple(layers: int | None, slices: int) -> int | None:
+    """The multiple of a number of layers nearest to a number of slices; a layer has one slice at least."""
+    return layers and layers * max(round(slices / layers), 1)
 
 
 # Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per face width, as a part of Young's modulus:
@@ -44,33 +70,49 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
     return INNER_HALF_WIDTHS * half_width_of(line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening)))
 
 
-# Elements of the body's section and its layers, in normal modules.
-SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.7
-FEWEST_LAYERS = 4
-# A layer is of second order and tells two slices apart. With 16 slices in a layer, line loads that vary over it err by up to half; the mean over the face does not.
-SLICES_OF_A_LAYER, MOST_SLICES_OF_A_LAYER = 2, 4
-
-
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     """How the body of the pinion (0) or the wheel (1) is divided over its face."""
-    asked, pair, module = model.scene.accuracy, model.pair, model.scene.gears.module
-    width = pair.face_widths[gear]
-    slices = model.face.slices * width / pair.face_width
-    layers = asked.layers or max(ceil(width / (LAYER_THICKNESS * module)), ceil(slices / SLICES_OF_A_LAYER - 1e-9), FEWEST_LAYERS)
-    body = (pair.pinion, pair.wheel)[gear]
-    twist = (1.0, -1.0)[gear] * pair.slope / body.base_radius
-    return FaceDiscretisation(asked.body_element_size or SECTION_SIZE * module, layers, width, twist)
+    pair, common = model.pair, layers_of_common_face(model.scene, model.pair, model.face.slices)
+    width, thickness = pair.face_widths[gear], pair.face_width / common
+    overhang, beyond = 0.5 * (width - pair.face_width), 0
+    # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the gear reaches as far beyond it at either end.
+    if overhang > LEAST_OVERHANG * thickness and abs(pair.gear_middles[gear]) < LEAST_OVERHANG * thickness:
+        beyond = ceil(overhang / thickness - LEAST_OVERHANG)
+    layers = common + 2 * beyond if beyond else ceil(width / thickness - LEAST_OVERHANG)
+    twist = (1.0, -1.0)[gear] * pair.slope / (pair.pinion, pair.wheel)[gear].base_radius
+    section_size = model.scene.accuracy.body_element_size or SECTION_SIZE * model.scene.gears.module
+    return FaceDiscretisation(section_size, layers, width, twist, overhang if beyond else 0.0, beyond)
+
+
+def check_layers(model: Model) -> None:
+    """Raise SceneError for layers over which a body turns too far."""
+    for gear in range(2):
+        face_discretisation(model, gear).check()
 
 
 def face_warnings(model: Model) -> list[str]:
-    """A sentence where the layers of a body do not tell the slices of the face apart."""
-    found = []
-    for gear, name in enumerate(("pinion", "wheel")):
-        division = face_discretisation(model, gear)
-        slices = model.face.slices * division.face_width / model.pair.face_width
-        if slices > MOST_SLICES_OF_A_LAYER * division.layers:
-            found.append(
-                f"accuracy.layers = {division.layers}: the {name}'s body has {slices / division.layers:.3g} slices of the face to a layer, which it cannot tell apart; a line load that "
-                f"varies over a layer is then wrong. Take accuracy.layers = {ceil(slices / SLICES_OF_A_LAYER - 1e-9)}, or fewer accuracy.slices"
-            )
+    """Sentences where the layers of the bodies do not tell the slices of the face apart, and where too few slices carry the load."""
+    slices, layers, found = model.face.slices, layers_of_common_face(model.scene, model.pair, model.face.slices), []
+    if slices > MOST_SLICES_OF_A_LAYER * layers:
+        found.append(
+            f"accuracy.layers = {layers}: the gears' bodies have {slices / layers:.3g} slices of the face to a layer, which they cannot tell apart; a line "
+            f"load that varies over a layer is then wrong. Take accuracy.layers = {ceil(slices / SLICES_OF_A_LAYER)}, or fewer accuracy.slices"
+        )
+    part = loaded_part(model)
+    if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:
+        found.append(
+            f"accuracy.slices = {slices}: about {part:.2g} of the face carries under this load, {part * slices:.2g} slices of it; pairs that carry on less than a "
+            f"slice are missed. Take accuracy.slices = {SLICES_OF_A_LAYER * ceil(FEWEST_LOADED_SLICES / part / SLICES_OF_A_LAYER)}"
+        )
     return found
+
+
+def loaded_part(model: Model) -> float:
+    """About which part of the face carries, from its opening at the pitch point and the mesh stiffness."""
+    places = np.linspace(*model.pair.common_face, 401)
+    # How far each place stands back from the first that touches, by increasing distance, and the approach at which the load reaches so far.
+    opening = np.sort(model.face_opening(places))
+    stiffness = MESH_STIFFNESS * mean_youngs_modulus(model.scene.tooth_elasticity)
+    carried = stiffness * (opening * np.arange(len(places)) - np.cumsum(np.insert(opening[:-1], 0, 0.0))) / len(places)
+    line_load = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius / model.pair.face_width
+    return float((carried <= line_load).mean())

@@ -209,12 +209,16 @@ MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 def model_of(scene: Scene) -> Model:
     """The model of a scene: all that follows from it before anything expensive is computed.
 
-    Raises GeometryError for impossible gears, SceneError for a result too large to be held, or for files that do not fit the scene.
+    Raises GeometryError for impossible gears, SceneError for a result too large to be held, for layers that turn too far, or for files that do not fit the scene.
     """
     pair = gear_pair(scene.gears)
     check_files(scene, pair)
     shafts = drivetrain(scene, pair)
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
+    if model.face is not None:
+        from fenics_gears.model.face_resolution import check_layers
+
+        check_layers(model)
     cycles = scene.motion.recorded_cycles if scene.output.contact_fields and scene.resolves_contact else 0
     whole = replace(model, contact_cycles=cycles)
     if cycles and scene.motion.fewer_where_too_large and whole.stored_bytes > MOST_UNASKED_BYTES:

@@ -23,33 +23,29 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import ISO_6336, Material, Scene
+from fenics_gears.scene.defaults import (
+    COARSEST_ELEMENT,
+    ELEMENTS_PER_HALF_WIDTH,
+    ELEMENTS_PER_HALF_WIDTH_ON_FACE,
+    FINEST_ELEMENT,
+    MOST_STEPS_PER_MESH_CYCLE,
+    NODE_SPACING,
+    STEPS_PER_MESH_CYCLE,
+    STEPS_PER_MESH_CYCLE_ON_FACE,
+    STEPS_PER_PERIOD,
+)
 
 DEFAULT_ELEMENT = "P2"
-# The transmission error of the paper's pair is then within 0.15 % of its limit, the peak pressure within 0.1 %. Two would do for sharp tips, but rounded
-# edges of a sixtieth of the module would err by 2 %.
-ELEMENTS_PER_HALF_WIDTH = 3.0
-# Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
-FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
 # Half of the rough stiffness of a pair bounds its deflection from above.
 LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
 HALF_WIDTHS_BESIDE = 2.0
-# Over a face, where there are many of them: elements in a half-width.
-ELEMENTS_PER_HALF_WIDTH_ON_FACE = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
-# Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart.
-NODE_SPACING = 0.7
 # Where the mate's tip edge presses, along the flank from the start of its active profile, in modules. Of the paper's pair a longer part changes the
 # transmission error by 0.01 % at 144 and at 575 N/mm, by 0.04 % at 1700 N/mm; 0.15 below and 0.06 above would err by 0.01, 0.14 and 0.26 %.
 BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.03, 0.18
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
-# Between steps curves are seen as straight lines, 0.4 % off in L2 for the transmission error of the paper's pair; its extremes are located between them.
-STEPS_PER_MESH_CYCLE = 200
-# Over a face a step costs more, and curves of helical pairs are smoother.
-STEPS_PER_MESH_CYCLE_ON_FACE = 100
-STEPS_PER_PERIOD = 20
-MOST_STEPS_PER_MESH_CYCLE = 1000
 # Above this Poisson's ratio these first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at 0.499).
 LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.

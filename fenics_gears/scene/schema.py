@@ -15,6 +15,7 @@ from fenics_gears.effects import top_level
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.inputs.fields import Allowed, Section, choice, quantity, refused, section_within, switch, text, whole_number
 from fenics_gears.inputs.written import as_written
+from fenics_gears.scene import defaults
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.gear_schema import Gears
 
@@ -104,7 +105,9 @@ class Accuracy(Section):
         "1 m",
         "0.08 mm",
         meaning="size of the elements on the flank",
-        otherwise="a quarter of the smallest Hertz half-width of one pair under the whole load, but at least 1/200 and at most 1/25 of the module",
+        otherwise=f"1/{defaults.ELEMENTS_PER_HALF_WIDTH:g} of the smallest Hertz half-width of one pair under the whole load, "
+        f"1/{defaults.ELEMENTS_PER_HALF_WIDTH_ON_FACE:g} of it in three-dimensional scenes, but at least 1/{1.0 / defaults.FINEST_ELEMENT:g} and at most "
+        f"1/{1.0 / defaults.COARSEST_ELEMENT:g} of the module",
     )
     body_element_size: Optional[float] = quantity(
         "1e-6 mm",
@@ -121,7 +124,7 @@ class Accuracy(Section):
         otherwise="so long that beyond it the gap is larger than the deflection of the teeth",
     )
     contact_nodes: Optional[int] = whole_number(
-        2, MOST_CONTACT_NODES, 20, meaning="number of contact nodes of a tooth pair", otherwise="a spacing of 0.7 flank elements, or of 1 flank element of first order"
+        2, MOST_CONTACT_NODES, 20, meaning="number of contact nodes of a tooth pair", otherwise=f"a spacing of {defaults.NODE_SPACING:g} flank elements, or of 1 flank element of first order",
     )
     interpolation: Optional[Literal["averaged", "collocated"]] = choice(
         "averaged",
@@ -141,13 +144,26 @@ class Accuracy(Section):
         1_000_000,
         100,
         meaning="time steps of a mesh cycle",
-        otherwise="200; with `[inertia]` as many as give the highest natural frequency 20 steps per period, at most 1000; with `[inertia]` and rigid flanks 1000",
+        otherwise=f"{defaults.STEPS_PER_MESH_CYCLE}, in three-dimensional scenes {defaults.STEPS_PER_MESH_CYCLE_ON_FACE}; with `[inertia]` as many as give the "
+        f"highest natural frequency {defaults.STEPS_PER_PERIOD} steps per period, at most {defaults.MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks "
+        f"{defaults.MOST_STEPS_PER_MESH_CYCLE}",
     )
     slices: Optional[int] = whole_number(
-        2, 1000, 40, meaning="slices of the common face in which contact is resolved; of three-dimensional scenes", otherwise="a width of 0.35 modules"
+        2,
+        1000,
+        40,
+        meaning="slices of the common face in which contact is resolved, best a multiple of `layers`; of three-dimensional scenes",
+        otherwise=f"{defaults.SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the multiple of it nearest to that number",
     )
     layers: Optional[int] = whole_number(
-        1, 1000, 12, meaning="layers of elements over the face of a gear; of three-dimensional scenes", otherwise="a thickness of one module, at least 4 layers"
+        1,
+        1000,
+        12,
+        meaning="layers of elements of either gear over the common face; a gear that is wider has more beyond it; of three-dimensional "
+        "scenes",
+        otherwise=f"a thickness of {defaults.LAYER_THICKNESS:g} modules, in helical pairs at most so thick that the line of contact moves by "
+        f"{defaults.LAYER_TURN:g} of the base pitch along the path of contact within a layer; at least {defaults.FEWEST_LAYERS} "
+        f"layers. With `slices`, {defaults.SLICES_OF_A_LAYER} slices to a layer or fewer, if possible so that slices end where layers do",
     )
     condensation: Optional[Literal["once", "every step"]] = choice(
         "once",

@@ -26,8 +26,8 @@ from tests.benchmarks.accuracy_of_paper import PAGE, PICTURES, markers, scenes
 from tests.benchmarks.accuracy_overview import TITLES
 from tests.benchmarks.marked_section import write_section
 
-from fenics_gears.model.resolution import NODE_SPACING
 from fenics_gears.scene.data import Scene
+from fenics_gears.scene.defaults import NODE_SPACING
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.studies.accuracy.measures import CURVE, SPAN, distance
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS

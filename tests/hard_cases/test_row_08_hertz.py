@@ -21,8 +21,9 @@ from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.model.model import model_of
-from fenics_gears.model.resolution import NODE_SPACING, hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.scene.defaults import NODE_SPACING
 from fenics_gears.simulation.simulate import simulate
 
 NIGHTLY = pytest.mark.nightly

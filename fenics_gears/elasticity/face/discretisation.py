@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.face.layers import GRADING, Sweep, graded_layers
+from fenics_gears.elasticity.face.layers import Sweep, even_layers
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 
@@ -19,14 +19,17 @@ LARGEST_TURN = 0.5
 class FaceDiscretisation:
     """A section of elements, second order, that is swept along the face in layers.
 
-    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face, thinner towards its ends.
-    face_width: mm. twist: rad/mm, of the section along z, counter-clockwise positive.
+    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face. face_width: mm.
+    twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond that on which the mate touches;
+    it has overhang_layers of the layers at either end, and layers are of one thickness in it and beside it.
     """
 
     section_size: float
     layers: int
     face_width: float
     twist: float = 0.0
+    overhang: float = 0.0
+    overhang_layers: int = 0
 
     @property
     def sizes(self) -> ElementSizes:
@@ -41,12 +44,19 @@ class FaceDiscretisation:
     @property
     def sweep(self) -> Sweep:
         """Layers and twist of the body."""
-        return Sweep(graded_layers(self.layers, self.face_width), self.twist)
+        inner = self.layers - 2 * self.overhang_layers, self.face_width - 2.0 * self.overhang
+        return Sweep(even_layers(*inner, self.overhang_layers, self.overhang), self.twist)
+
+    @property
+    def largest_turn(self) -> float:
+        """Rad, by which the section turns over the thickest layer."""
+        return abs(self.twist) * float(np.diff(self.sweep.boundaries).max())
 
     def in_modules_of(self, gear: Gear) -> FaceDiscretisation:
         """The same with lengths as multiples of a gear's module."""
-        size, width = gear.in_modules(self.section_size, self.face_width)
-        return replace(self, section_size=size, face_width=width, twist=round(self.twist * gear.module, DECIMALS_IN_MODULES))
+        size, width, overhang = gear.in_modules(self.section_size, self.face_width, self.overhang)
+        twist = round(self.twist * gear.module, DECIMALS_IN_MODULES)
+        return replace(self, section_size=size, face_width=width, twist=twist, overhang=overhang)
 
     def check(self) -> None:
         """Raise SceneError for a value that has no meaning."""
@@ -55,7 +65,8 @@ class FaceDiscretisation:
                 raise SceneError(f"{name} is {value} mm, must be positive and finite")
         if self.layers < 1:
             raise SceneError(f"layers is {self.layers}, must be 1 or more")
-        turned = abs(self.twist) * self.face_width / self.layers * (1.0 + GRADING)
-        if not turned <= LARGEST_TURN:
-            least = int(np.ceil(self.layers * turned / LARGEST_TURN))
-            raise SceneError(f"layers = {self.layers}: a layer would turn by {turned:.3g} rad, at most {LARGEST_TURN} is accurate; take {least} or more")
+        if not self.largest_turn <= LARGEST_TURN:
+            least = int(np.ceil(self.layers * self.largest_turn / LARGEST_TURN - 1e-9))
+            raise SceneError(
+                f"accuracy.layers = {self.layers}: a layer would turn by {self.largest_turn:.3g} rad, at most {LARGEST_TURN} is accurate; take {least} or more"
+            )

@@ -13,9 +13,6 @@ from fenics_gears.errors import ComputationError
 # Gauss's rule of three points on (-1, 1): exact to the fifth power, which the patch test of a twisted layer needs.
 POINTS = (-sqrt(0.6), 0.0, sqrt(0.6))
 WEIGHTS = (5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0)
-# Thickness falls from 1 + g at mid-width to 1 - 2 g of the mean one at the ends. It lowers the error of a deflection under loads over a whole face
-# by a third, with 4 to 8 layers, spur and 15 degrees, 15 and 30 mm of face at module 4.5 mm; 0.1 lowers it less, 0.22 no more.
-GRADING = 0.17
 
 
 @dataclass(frozen=True)
@@ -40,10 +37,12 @@ class Sweep:
         return np.round(thick / thick.max(), 12) * thick.max()
 
 
-def graded_layers(layers: int, face_width: float) -> np.ndarray:
-    """Boundaries (layers + 1,), mm from mid-width, each the exact opposite of another; layers are thinner towards the free end faces."""
-    even = np.arange(-layers, layers + 1, 2) / layers
-    return 0.5 * face_width * ((1.0 + GRADING) * even - GRADING * even**3)
+def even_layers(layers: int, width: float, overhang_layers: int = 0, overhang: float = 0.0) -> np.ndarray:
+    """Boundaries, mm from mid-width, each the exact opposite of another, of layers of one thickness over a width (mm) and of `overhang_layers` over an
+    `overhang` (mm) beyond it at either end."""
+    inner = 0.5 * width * (np.arange(-layers, layers + 1, 2) / layers)
+    beyond = 0.5 * width + overhang * np.arange(1, overhang_layers + 1) / max(overhang_layers, 1)
+    return np.concatenate([-beyond[::-1], inner, beyond])
 
 
 def shapes(place: float) -> tuple[np.ndarray, np.ndarray]:

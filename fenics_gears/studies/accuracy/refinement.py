@@ -8,8 +8,9 @@ from math import isclose
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.model.resolution import EVERY_STEP, NODE_SPACING, ONCE
+from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Scene
+from fenics_gears.scene.defaults import NODE_SPACING
 from fenics_gears.studies.accuracy import over_face
 from fenics_gears.studies.accuracy.over_face import LAYERS, SLICES
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings

@@ -8,8 +8,9 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.model.model import model_of
-from fenics_gears.model.resolution import CLOSEST_NODES, ELEMENTS_PER_HALF_WIDTH, ELEMENTS_PER_HALF_WIDTH_ON_FACE, EVERY_STEP, ONCE
+from fenics_gears.model.resolution import CLOSEST_NODES, EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.scene.defaults import ELEMENTS_PER_HALF_WIDTH, ELEMENTS_PER_HALF_WIDTH_ON_FACE, SECTION_SIZE
 
 
 @dataclass(frozen=True)
@@ -77,12 +78,7 @@ class Setting:
 
 def body_size(order: int, over_face: bool) -> float:
     """The default size of body elements, in modules."""
-    if not over_face:
-        return DEFAULT_SIZES[order].body
-    # Imported here: plane scenes have none.
-    from fenics_gears.model.face_resolution import SECTION_SIZE
-
-    return SECTION_SIZE
+    return SECTION_SIZE if over_face else DEFAULT_SIZES[order].body
 
 
 def half_width(scene: Scene) -> float:
@@ -98,9 +94,9 @@ def own_setting(scene: Scene) -> Setting:
     grid, size = resolution.contact_grid, resolution.body_element_size
     order = 2 if resolution.element.endswith("2") else 1
     if model.face is not None:
-        from fenics_gears.model.face_resolution import face_discretisation
+        from fenics_gears.model.face_resolution import layers_of_common_face
 
-        slices, layers = model.face.slices, max(face_discretisation(model, gear).layers for gear in (0, 1))
+        slices, layers = model.face.slices, layers_of_common_face(scene, model.pair, model.face.slices)
     body = 1.0 if size is None else size / (body_size(order, slices is not None) * scene.gears.module)
     return Setting(
         resolution.element, resolution.flank_element_size, grid.spacing, grid.length, body, resolution.steps_per_mesh_cycle,

@@ -13,8 +13,8 @@ from math import cos, radians
 from tests.benchmarks.growth.axis import Axis, Theory, logarithmic
 from tests.benchmarks.third_dimension.pairs import MODULE, TEETH, scene_of, standard_gear, standard_pair
 
-from fenics_gears.model.face_resolution import LAYER_THICKNESS, SECTION_SIZE
 from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.scene.defaults import LAYER_THICKNESS, SECTION_SIZE
 
 HELIX_ANGLE, FACE_WIDTH = radians(15.0), 24.0
 # mm, of the body: coarse where something else grows.

@@ -31,7 +31,8 @@ from fenics_gears.system.memory import MEMORY_VARIABLE
 
 BOTH = Reach(1, (-1, 1))
 COARSEST = FaceDiscretisation(9.0, 1, 3.0, 0.006)
-TWISTED_PINION = FaceDiscretisation(2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius)
+# Wider than its mate, so that layers are of two thicknesses.
+TWISTED_PINION = FaceDiscretisation(2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius, overhang=4.0, overhang_layers=1)
 
 
 def difference(first, second):
@@ -173,7 +174,7 @@ def test_limits_of_a_spur_gear(width, layers, limit):
 def test_similar_gears_share_an_entry(both, tmp_path):
     """Exact scaling: of similar gears displacement per force goes with 1/(E m); lengths go with the module."""
     twice = replace(PINION, **{name: 2.0 * getattr(PINION, name) for name in ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")})
-    larger = replace(TWISTED_PINION, section_size=2.0 * 2.7, face_width=30.0, twist=0.5 * TWISTED_PINION.twist)
+    larger = replace(TWISTED_PINION, section_size=2.0 * 2.7, face_width=30.0, twist=0.5 * TWISTED_PINION.twist, overhang=8.0)
     cache = Cache(tmp_path)
     first = face_compliance(PINION, STEEL, TWISTED_PINION, BOTH, cache)
     second = face_compliance(twice, replace(STEEL, youngs_modulus=2.0 * STEEL.youngs_modulus), larger, BOTH, cache)
@@ -185,7 +186,7 @@ def test_similar_gears_share_an_entry(both, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "message"), [({"section_size": 0.0}, "section_size is 0.0 mm"), ({"layers": 0}, "layers is 0"), ({"twist": 0.2}, "take 8 or more")]
+    ("change", "message"), [({"section_size": 0.0}, "section_size is 0.0 mm"), ({"layers": 0}, "layers is 0"), ({"twist": 0.2}, "take 9 or more")]
 )
 def test_impossible_bodies_are_refused(change, message):
     """What is wrong, and what is allowed."""
