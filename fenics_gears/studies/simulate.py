@@ -38,7 +38,7 @@ def simulate(
     """Run a scene and return its result (docs/result.md).
 
     With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`, `estimated_error`, and
-    `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`; the scene that it carries has the
+    `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`, over the face `slices` and `layers`; the scene that it carries has the
     settings in place of the target, so that it repeats the run. Arguments, results and errors are those of `simulation.simulate.simulate`;
     with a target also TargetNotReached.
     """
@@ -55,6 +55,8 @@ def simulate(
     remark = OTHER_SETTINGS if "accuracy." in result.attrs["warnings"] else ""
     parts = {f"{ESTIMATED}{name}": part for name, part in chosen.parts.items()}
     how = {"target_runs": chosen.runs, "target_remarks": remark, "time_choose": seconds}
+    if chosen.accuracy.slices:
+        how |= {"slices": chosen.accuracy.slices, "layers": chosen.accuracy.layers}
     return result.assign_attrs({"target": target, "estimated_error": chosen.estimated_error, **parts, **how})
 
 
