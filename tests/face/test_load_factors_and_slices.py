@@ -50,6 +50,5 @@ def test_twice_as_many_slices_and_layers_give_the_same_factors(misalignment):
         found.append(simulate(scene_from_text(f'{GEARBOX}{divided}[misalignment]\nin_plane = "{misalignment}"\n')).attrs)
     for name in ("face_load_factor", "largest_line_load_factor", "transverse_load_factor"):
         assert found[1][name] == pytest.approx(found[0][name], rel=0.02), name
-    # The outermost slice has the more of the end's line load the narrower it is.
-    assert found[1]["edge_line_load_factor"] > 1.05 * found[0]["edge_line_load_factor"]
+    # What is left out is there.
     assert found[0]["edge_line_load_factor"] > 1.2 * found[0]["largest_line_load_factor"]
