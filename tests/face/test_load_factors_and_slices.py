@@ -44,10 +44,13 @@ body_element_size = "1.4 mm"
 @pytest.mark.nightly
 @pytest.mark.parametrize("misalignment", ["0 um", "10 um"])
 def test_twice_as_many_slices_and_layers_give_the_same_factors(misalignment):
-    """Another resolution: the two factors away from edges and that between tooth pairs move by less than 2 % with twice the slices and layers, aligned and misaligned."""
+    """Another resolution: the two factors away from edges and that between tooth pairs move by less than 2 % with
+    twice the slices and layers, aligned and misaligned."""
     found = []
     for divided in ("slices = 14\nlayers = 8\n", "slices = 28\nlayers = 16\n"):
-        found.append(simulate(scene_from_text(f'{GEARBOX}{divided}[misalignment]\nin_plane = "{misalignment}"\n')).attrs)
+        found.append(
+            simulate(scene_from_text(f'{GEARBOX}{divided}[misalignment]\nin_plane = "{misalignment}"\n')).attrs
+        )
     for name in ("face_load_factor", "largest_line_load_factor", "transverse_load_factor"):
         assert found[1][name] == pytest.approx(found[0][name], rel=0.02), name
     # What is left out is there.

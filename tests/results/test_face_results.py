@@ -36,7 +36,8 @@ def test_studies_take_the_load_factors(monkeypatch):
 
 
 def test_measures_of_accuracy_are_of_the_middle_slice():
-    """Identity: but for line loads along the face, what settings are compared by is what the middle slice alone gives."""
+    """Identity: but for line loads along the face, what settings are compared by is what the middle slice alone
+    gives."""
     whole, middle = (answer(each, 1.0) for each in (helical_run(), in_middle_slice(helical_run())))
     assert whole.keys() == middle.keys() | set(OVER_FACE)
     for name, values in middle.items():
@@ -44,8 +45,8 @@ def test_measures_of_accuracy_are_of_the_middle_slice():
 
 
 def test_line_loads_that_settings_are_judged_by():
-    """By hand: in the middle of an odd number of slices the load is that of the middle one, averaged over the cycle, whose first and last step count half; the factors are
-    the result's."""
+    """By hand: in the middle of an odd number of slices the load is that of the middle one, averaged over the cycle,
+    whose first and last step count half; the factors are the result's."""
     run = helical_run()
     found, load = answer(run, 1.0), run["line_load"].sum("slot").values
     assert found[LINE_LOAD][len(found[LINE_LOAD]) // 2] == pytest.approx((0.5 * (load[0] + load[-1]) + load[1:-1].sum(axis=0))[2] / (len(load) - 1), rel=1e-12)
@@ -54,8 +55,8 @@ def test_line_loads_that_settings_are_judged_by():
 
 
 def test_peak_pressure_is_not_of_an_end_of_the_face():
-    """By definition, from the result's own fields: of a misaligned pair the ends of the face, as deep as a tenth of it, press most. Theirs is a pressure at edges, the headline's that of
-    the rest of the face."""
+    """By definition, from the result's own fields: of a misaligned pair the ends of the face, as deep as a tenth of
+    it, press most. Theirs is a pressure at edges, the headline's that of the rest of the face."""
     model = model_of(helical_scene('[misalignment]\nin_plane = "20 um"\n', helix=0.0, width=8.0, accuracy="slices = 12\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"))
     result = run_of(model, on_stand_in_bodies(model)).result
     order = "contact_time", "slot", "face_position", "contact_node"

@@ -85,7 +85,8 @@ def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch)
 
 
 def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them():
-    """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the face."""
+    """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the
+    face."""
     one = {CURVE: np.ones(4), SPAN: np.ones(1), DEFECT: np.zeros(1), LINE_LOAD: np.full(3, 100.0), FACE_LOAD: np.array([1.2]), LARGEST_LOAD: np.array([1.5])}
     other = one | {LINE_LOAD: np.array([100.0, 100.0, 103.0]), FACE_LOAD: np.array([1.206]), LARGEST_LOAD: np.array([1.53])}
     errors = distances(other, one)

@@ -1,4 +1,5 @@
-"""`[accuracy] target` of pairs whose flanks are resolved over the face: all that it promises holds against a finer run."""
+"""`[accuracy] target` of pairs whose flanks are resolved over the face: all that it promises holds against a finer
+run."""
 
 from dataclasses import replace
 
@@ -15,7 +16,10 @@ from fenics_gears.studies.simulate import simulate
 TARGET = 0.03
 PAIRS = {
     "helical": ("", 15.0),
-    "helical, misaligned, crowned": ('[misalignment]\nin_plane = "12 um"\n[lead_modifications.pinion]\ncrowning = "6 um"\n', 25.0),
+    "helical, misaligned, crowned": (
+        '[misalignment]\nin_plane = "12 um"\n[lead_modifications.pinion]\ncrowning = "6 um"\n',
+        25.0,
+    ),
     "spur, misaligned": ('[misalignment]\nin_plane = "10 um"\n', 0.0),
 }
 
@@ -23,9 +27,20 @@ PAIRS = {
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", PAIRS)
 def test_all_that_a_target_promises_holds(name):
-    """Another resolution: flank elements, contact nodes, slices and layers twice as fine as what was chosen, body elements by half. None of what was chosen is warned of."""
+    """Another resolution: flank elements, contact nodes, slices and layers twice as fine as what was chosen, body
+    elements by half. None of what was chosen is warned of."""
     more, helix = PAIRS[name]
-    run = simulate(helical_scene(more, teeth=(19, 31), helix=helix, width=10.0, torque=60e3, module=2.0, accuracy=f'target = "{100.0 * TARGET} %"'))
+    run = simulate(
+        helical_scene(
+            more,
+            teeth=(19, 31),
+            helix=helix,
+            width=10.0,
+            torque=60e3,
+            module=2.0,
+            accuracy=f'target = "{100.0 * TARGET} %"',
+        )
+    )
     scene = scene_from_text(run.attrs["scene"])
     assert not face_warnings(model_of(scene)) and run.attrs["estimated_error"] <= TARGET
     own, said = scene.accuracy, "\n".join(" ".join(map(str, row)) for row in summary_rows(run))
