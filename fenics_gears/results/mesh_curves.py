@@ -63,8 +63,7 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray]) -> Curv
     if nodes.cycle.face is not None:
         from fenics_gears.results.face_ends import in_end_zone
 
-        face = nodes.cycle.face
-        edge |= np.tile(in_end_zone(nodes.cycle.pair, face.positions), edge.shape[1] // face.slices)
+        edge |= np.tile(in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions), edge.shape[1] // nodes.cycle.face.slices)
     repeated = np.repeat(nodes.pair_number, highest[0].shape[1] // nodes.pair_number.shape[1], axis=1)
     numbers = np.concatenate([repeated] * len(highest), axis=1)
     off_edge = np.where(edge, 0.0, pressure)

@@ -29,8 +29,7 @@ def has_pressure(run: Run) -> bool:
 
 
 def largest_pressures(run: Run) -> list[Chart]:
-    """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with an edge; none
-    of results without them."""
+    """Largest contact pressure off the flanks' edges at every step, and that of pairs that press with an edge; none of results without them."""
     names = {"largest_contact_pressure": "off the flanks' edges", "largest_edge_pressure": "at edges"}
     if "largest_edge_pressure" in run.dataset and not run.dataset["largest_edge_pressure"].any():
         del names["largest_edge_pressure"]

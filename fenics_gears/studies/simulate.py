@@ -38,10 +38,10 @@ def simulate(
     """Run a scene and return its result (docs/result.md).
 
     With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`, `estimated_error`, and
-    `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`, over the
-    face `slices` and `layers`; the scene that it carries has the settings in place of the target, so that it repeats
-    the run. Arguments, results and errors are those of `simulation.simulate.simulate`; with a target also
-    TargetNotReached. """
+    `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`; the scene that it carries has the
+    settings in place of the target, so that it repeats the run. Arguments, results and errors are those of `simulation.simulate.simulate`;
+    with a target also TargetNotReached.
+    """
     arguments = {"progress": progress or SilentProgress(), "cache": cache, "preparation": preparation, "comm": comm, "journal": journal}
     target = scene.accuracy.target
     if target is None:
