@@ -92,11 +92,13 @@ def _face(operation: Operation, finish: Finish, dynamic: float) -> float:
 
 
 def mesh_misalignment(operation: Operation, finish: Finish) -> float:
-    """F_betax (um) over the face, from manufacture alone (f_sh = 0): the scene's own, else helix slopes of both gears within their class."""
+    """F_betax (um) over the face, from manufacture alone (f_sh = 0): the scene's own, else helix slopes of both gears
+    within their class."""
     if operation.misalignment is not None:
         return abs(operation.misalignment)
     gears = operation.pair.pinion, operation.pair.wheel
-    return 1e3 * hypot(*(helix_tolerance(2.0 * gear.reference_radius, operation.face_width, finish.tolerance_class).slope for gear in gears))
+    face, grade = operation.face_width, finish.tolerance_class
+    return 1e3 * hypot(*(helix_tolerance(2.0 * gear.reference_radius, face, grade).slope for gear in gears))
 
 
 def _transverse(operation: Operation, finish: Finish, deviations: _Deviations, before: float) -> float:

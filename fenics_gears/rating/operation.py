@@ -14,7 +14,8 @@ from fenics_gears.geometry.tooth_thickness import base_helix_angle
 
 @dataclass(frozen=True)
 class Operation:
-    """The pair with its load: torque of the pinion (N mm), speed of the pinion (1/min), tip relief C_a (um), reduced mass of both gears (kg/mm of face width).
+    """The pair with its load: torque of the pinion (N mm), speed of the pinion (1/min), tip relief C_a (um), reduced
+    mass of both gears (kg/mm of face width).
 
     `misalignment`: of unloaded flanks over the common face (um), as the scene has it; None where it names none.
     """

@@ -42,7 +42,7 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     flank, roots = flank_stress(operation, finish, factors), root_stresses(operation, finish, factors)
     rows = [
         Row("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
-        Row("F_betax, misalignment over the face", "um", mesh_misalignment(operation, finish), _computed_misalignment(operation, scene)),
+        _misalignment_row(operation, finish, scene),
         Row("K_Hbeta, face load factor", "1", factors.face, found.get("face_load_factor", nan)),
         Row("K_Halpha, transverse load factor", "1", factors.transverse, found.get("transverse_load_factor", nan)),
     ]
@@ -79,10 +79,11 @@ def _operation(scene: Scene) -> Operation:
 
 
 def _misalignment(scene: Scene, pair: GearPair) -> float | None:
-    """Misalignment (um) over the common face of the scene's axes and helix slopes, in the plane of action; None of a scene that names neither.
+    """Misalignment (um) over the common face of the scene's axes and helix slopes, in the plane of action; None of a
+    scene that names neither.
 
-    It is the straight part of the gap between the unloaded flanks along the face, in which crowning and end relief have none.
-    """
+    It is the straight part of the gap between the unloaded flanks along the face, in which crowning and end relief
+    have none. """
     leads = scene.lead_modifications
     sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
     if scene.misalignment is None and not sloped:
@@ -93,17 +94,20 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     return 1e3 * pair.face_width * float(np.polyfit(z, face_opening(pair, leads, scene.misalignment, z), 1)[0])
 
 
-def _computed_misalignment(operation: Operation, scene: Scene) -> float:
-    """What the run has of it: the scene's own; nan in the plane, where there is no face."""
-    return abs(operation.misalignment or 0.0) if scene.three_dimensional else nan
+def _misalignment_row(operation: Operation, finish: Finish, scene: Scene) -> Row:
+    """That which K_Hbeta counts; a run in the plane has none."""
+    computed = abs(operation.misalignment or 0.0) if scene.three_dimensional else nan
+    return Row("F_betax, misalignment over the face", "um", mesh_misalignment(operation, finish), computed)
 
 
 def of_misalignment(scene: Scene, finish: Finish) -> str:
     """A sentence on the misalignment that the standard's K_Hbeta counts, and whether the run has the same."""
     if _misalignment(scene, gear_pair(scene.gears)) is not None:
-        return "K_Hbeta of ISO 6336 is of the scene's misalignment and helix slopes (method C, less running-in); shafts do not bend in it."
+        which = "the scene's misalignment and helix slopes (method C, less running-in)"
+        return f"K_Hbeta of ISO 6336 is of {which}; shafts do not bend in it."
     own = ", which this run has not" if scene.three_dimensional else ""
-    return f"K_Hbeta of ISO 6336 is of helix slopes of tolerance class {finish.tolerance_class} (method C){own}: the scene has no misalignment."
+    which = f"helix slopes of tolerance class {finish.tolerance_class} (method C)"
+    return f"K_Hbeta of ISO 6336 is of {which}{own}: the scene has no misalignment."
 
 
 def _tip_relief(scene: Scene) -> float:

@@ -131,6 +131,8 @@ RESULT_ATTRIBUTES = (
     ResultAttribute("target", "1", "the error allowed by `accuracy.target` (0.01 for 1 %)", WITH_TARGET),
     ResultAttribute("estimated_error", "1", "the larger of the estimated errors of the curve and of the peak-to-peak value of the transmission error, in three dimensions also of line load, face load factor and largest line load", WITH_TARGET),
     ResultAttribute("target_runs", "1", "number of test runs by which the settings were chosen", WITH_TARGET),
+    ResultAttribute("slices", "1", "chosen number of slices of the common face", f"{WITH_TARGET}, and {OVER_FACE}"),
+    ResultAttribute("layers", "1", "chosen number of layers of either gear's body", f"{WITH_TARGET}, and {OVER_FACE}"),
     ResultAttribute("target_remarks", "", "a remark on the choice, where a warning recommends other settings", WITH_TARGET),
     ResultAttribute("steps", "1", "number of time steps of the run"),
     ResultAttribute("newton_iterations_total", "1", "number of Newton iterations of the run"),

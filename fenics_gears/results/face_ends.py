@@ -1,4 +1,5 @@
-"""Where the face of a result ends: its slices with their widths, and the zone at either end whose line load and pressure are those of an edge."""
+"""Where the face of a result ends: its slices with their widths, and the zone at either end whose line load and
+pressure are those of an edge."""
 
 from __future__ import annotations
 
@@ -7,8 +8,9 @@ import xarray as xr
 
 from fenics_gears.geometry.pair import GearPair
 
-# Depth of the zone at either end of the common face, in normal modules, and the largest part of the face that it takes. The tooth's free end, or the edge of
-# the narrower gear on the wider one, changes the line load within that depth; further in a line load is the flank's own.
+# Depth of the zone at either end of the common face, in normal modules, and the largest part of the face that it
+# takes. The tooth's free end, or the edge of the narrower gear on the wider one, changes the line load within that
+# depth; further in a line load is the flank's own.
 END_DEPTH, LARGEST_PART = 0.5, 0.1
 ROUNDING = 1e-9
 
@@ -46,8 +48,8 @@ def slice_ends(result: xr.Dataset) -> np.ndarray:
 
 
 def windows(result: xr.Dataset, pair: GearPair) -> np.ndarray:
-    """Shares (k, S) of the slices in windows of the face as long as an end zone is deep, outside the end zones: all windows over which the mean of values of
-    slices can be largest.
+    """Shares (k, S) of the slices in windows of the face as long as an end zone is deep, outside the end zones: all
+    windows over which the mean of values of slices can be largest.
 
     What differs from slice to slice within a layer of the bodies is not resolved; its mean over such a window is.
     """

@@ -1,8 +1,7 @@
 """How unevenly a mesh carries along the face and between its tooth pairs, read off the computed contact.
 
-Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A); its methods B and C estimate them. None of the factors has the
-dynamic factor in it: each compares loads of the same steps.
-"""
+Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A); its methods B and C
+estimate them. None of the factors has the dynamic factor in it: each compares loads of the same steps."""
 
 from __future__ import annotations
 
@@ -28,7 +27,10 @@ def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
     side = carrying_side(counted)
     pressed = counted[f"{side}normal_force"].values > NO_FORCE
     if pressed.any():
-        largest = counted[f"pair_{side}normal_force"].values[pressed].max(axis=1) / counted[f"{side}normal_force"].values[pressed]
+        largest = (
+            counted[f"pair_{side}normal_force"].values[pressed].max(axis=1)
+            / counted[f"{side}normal_force"].values[pressed]
+        )
         found["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
     if counted.sizes.get("contact_time"):
         settled = counted.isel(contact_time=counted["contact_time"].values >= counted["time"].values[0])
@@ -42,7 +44,8 @@ def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
 
 
 def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the line load averaged over whole mesh cycles: its largest mean over a window, over that of the whole face; nothing of less than a cycle."""
+    """Of the line load averaged over whole mesh cycles: its largest mean over a window, over that of the whole face;
+    nothing of less than a cycle."""
     load, widths = mean_line_load(settled, side), slice_widths(settled)
     if load is None or not load.any():
         return {}
@@ -51,7 +54,8 @@ def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float
 
 
 def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
-    """Line load (S,), N/mm, of all tooth pairs together on those flanks, mean over as many whole mesh cycles as are stored; None of less than one."""
+    """Line load (S,), N/mm, of all tooth pairs together on those flanks, mean over as many whole mesh cycles as are
+    stored; None of less than one."""
     phase = result["contact_mesh_phase"].values
     cycles = np.floor(np.ptp(phase) + BESIDE)
     if cycles < 1:
@@ -63,8 +67,9 @@ def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
 
 
 def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the largest line load of one tooth pair at any stored step, the mean over a window away from edges, and of a slice at edges: over the line load that the mesh's force of that step
-    makes if it spreads evenly along the lines of contact of rigid gears when they are shortest."""
+    """Of the largest line load of one tooth pair at any stored step, the mean over a window away from edges, and of a
+    slice at edges: over the line load that the mesh's force of that step makes if it spreads evenly along the lines
+    of contact of rigid gears when they are shortest."""
     loads, z = line_loads(settled, side), settled["face_position"].values
     force = (loads @ slice_widths(settled)).sum(axis=1)
     ended, shares = _line_ends(settled, pair, side, z), windows(settled, pair)
@@ -79,13 +84,15 @@ def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, fl
 
 
 def at_edges(result: xr.Dataset, pair: GearPair, side: str) -> np.ndarray:
-    """Whether the contact of each tooth pair in each slice (n, slots, S) is near an end of the face, or where its line of contact ends on the flank."""
+    """Whether the contact of each tooth pair in each slice (n, slots, S) is near an end of the face, or where its
+    line of contact ends on the flank."""
     z = result["face_position"].values
     return _line_ends(result, pair, side, z) | in_end_zone(pair, z)
 
 
 def _line_ends(result: xr.Dataset, pair: GearPair, side: str, z: np.ndarray) -> np.ndarray:
-    """Whether each tooth pair's line of contact ends at a tip or form circle near places z (mm) of the face (n, slots, len(z)), or has ended before them.
+    """Whether each tooth pair's line of contact ends at a tip or form circle near places z (mm) of the face (n,
+    slots, len(z)), or has ended before them.
 
     Near is the depth of the end zones, along the face. The line of a spur pair ends nowhere along the face.
     """
@@ -126,8 +133,8 @@ def shortest_lines(pair: GearPair) -> float:
 
 
 def _lengths_where_they_turn(pair: GearPair) -> np.ndarray:
-    """Lengths (phases, pairs), mm, beside the phases at which a line begins or ends to reach an end of the face: between them lengths are linear and
-    shares monotonic."""
+    """Lengths (phases, pairs), mm, beside the phases at which a line begins or ends to reach an end of the face:
+    between them lengths are linear and shares monotonic."""
     lead = 0.5 * pair.face_width * abs(pair.slope)
     ends = [end + side * lead for end in (pair.path_start, pair.path_end) for side in (-1.0, 1.0)]
     phases = np.mod(np.array(ends) / pair.base_pitch, 1.0)[:, None] + [-BESIDE, BESIDE]

@@ -185,7 +185,9 @@ def _estimated_error(attributes) -> list[Row]:
         f"{attributes['element']}, flank elements {attributes['flank_element_size']:.3g} mm, {attributes['contact_nodes']} contact nodes over "
         f"{attributes['contact_length']:.3g} mm, {attributes['steps_per_mesh_cycle']} steps per mesh cycle"
     )
-    judged = "T_E, T_EPP, line load" if "overlap_ratio" in attributes else "T_E and T_EPP"
+    judged = "T_E and T_EPP"
+    if "slices" in attributes:
+        judged, settings = "T_E, T_EPP, line load", f"{settings}, {attributes['slices']} slices on {attributes['layers']} layers"
     return [
         (f"estimated error of {judged}", f"{attributes['estimated_error']:.2%}, target {attributes['target']:.3%}", ""),
         ("what limits it", f"{worst}: {parts[worst]:.2%}", ""),

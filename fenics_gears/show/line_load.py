@@ -78,19 +78,28 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
     ]
     drawn = [Curve(words, z, values, colour) for (words, values), colour in zip(curves, PALETTE)]
     highest = 1.08 * float(max(np.nanmax(values) for _, values in curves))
+    upright = np.array([0.0, highest])
+    low, high = (np.full(2, place) for place in inner_face(run.pair))
     ends = [
-        Curve("edge zone at either end" if first else "", np.full(2, place), np.array([0.0, highest]), DARK, "dot", 1.0, listed=first)
-        for place, first in zip(inner_face(run.pair), (True, False))
+        Curve("edge zone at either end", low, upright, DARK, "dot", 1.0),
+        Curve("", high, upright, DARK, "dot", 1.0, listed=False),
     ]
     return Chart(
-        f"Line load along the face{_factors(run)}", drawn + ends, ACROSS, TITLE, x_range=run.pair.common_face, y_range=(0.0, highest),
-        note="Of the mesh: tooth pairs summed. Of a tooth pair: the largest at each place at any time. Edges: the ends of the face, and tips and form circles where a line of contact ends.",
+        f"Line load along the face{_factors(run)}", drawn + ends, ACROSS, TITLE,
+        x_range=run.pair.common_face, y_range=(0.0, highest),
+        note="Of the mesh: tooth pairs summed. Of a tooth pair: the largest at each place at any time. "
+        "Edges: the ends of the face, and tips and form circles where a line of contact ends. "
+        "The factors away from edges are of means over half a module.",
     )  # fmt: skip
 
 
 def _factors(run: Run) -> str:
     """The load factors of the settled run."""
-    names = {"face_load_factor": "face load factor", "largest_line_load_factor": "largest line load over even one", "edge_line_load_factor": "at edges"}
+    names = {
+        "face_load_factor": "face load factor",
+        "largest_line_load_factor": "largest line load over even one",
+        "edge_line_load_factor": "at edges",
+    }
     found = [f"{words} {run.dataset.attrs[name]:.3f}" for name, words in names.items() if name in run.dataset.attrs]
     return f": {', '.join(found)}" if found else ""
 

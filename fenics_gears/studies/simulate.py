@@ -71,4 +71,6 @@ def simulate(
     remark = OTHER_SETTINGS if "accuracy." in result.attrs["warnings"] else ""
     parts = {f"{ESTIMATED}{name}": part for name, part in chosen.parts.items()}
     how = {"target_runs": chosen.runs, "target_remarks": remark, "time_choose": seconds}
+    if chosen.accuracy.slices:
+        how |= {"slices": chosen.accuracy.slices, "layers": chosen.accuracy.layers}
     return result.assign_attrs({"target": target, "estimated_error": chosen.estimated_error, **parts, **how})

@@ -64,8 +64,8 @@ def test_a_run_without_speed_is_refused(tmp_path, capsys, paper_scene):
 
 
 def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
-    """By definition: the standard's F_betax is the scene's misalignment less the helix slope that corrects a part of it; without either that of the tolerance class, which
-    the aligned run has not."""
+    """By definition: the standard's F_betax is the scene's misalignment less the helix slope that corrects a part of
+    it; without either that of the tolerance class, which the aligned run has not."""
     model = model_of(helical_scene())
     result = run_of(model, on_stand_in_bodies(model)).result
     # By hand, ISO 1328-1: slopes of 8.61 and 8.82 um.

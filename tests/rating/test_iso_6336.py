@@ -76,8 +76,9 @@ def test_root_stress_of_another_program():
 
 
 def test_face_load_factor_counts_the_scene_s_misalignment():
-    """ISO 6336-1:2006 section 7.6, by hand: case-hardened flanks run in by 15 %, at most 6 um; F_betay c_gamma_beta b / (2 F_m) is added to 1, or from 1 on is twice its root.
-    Without a misalignment of the scene it is of the helix slopes of the class by ISO 1328-1."""
+    """ISO 6336-1:2006 section 7.6, by hand: case-hardened flanks run in by 15 %, at most 6 um; F_betay c_gamma_beta b
+    / (2 F_m) is added to 1, or from 1 on is twice its root. Without a misalignment of the scene it is of the helix
+    slopes of the class by ISO 1328-1."""
     data, _ = H501
     found = replace(operation(data, 200e3, 1000.0), misalignment=-20.0)
     factors = load_factors(found, Finish())

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 import xarray as xr
-from tests.helical import wide_pair
+from tests.hard_cases.invariants import run_of
+from tests.helical import helical_scene, on_stand_in_bodies, wide_pair
 from tests.over_face import MORE, helical_run
 
+from fenics_gears.contact.pressure import read_off
+from fenics_gears.model.model import model_of
 from fenics_gears.results import journal
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.pairs import by_pair, in_middle_slice
@@ -33,7 +36,8 @@ def test_studies_take_the_load_factors(monkeypatch):
 
 
 def test_measures_of_accuracy_are_of_the_middle_slice():
-    """Identity: but for line loads along the face, what settings are compared by is what the middle slice alone gives."""
+    """Identity: but for line loads along the face, what settings are compared by is what the middle slice alone
+    gives."""
     whole, middle = (answer(each, 1.0) for each in (helical_run(), in_middle_slice(helical_run())))
     assert whole.keys() == middle.keys() | set(OVER_FACE)
     for name, values in middle.items():
@@ -41,13 +45,27 @@ def test_measures_of_accuracy_are_of_the_middle_slice():
 
 
 def test_line_loads_that_settings_are_judged_by():
-    """By hand: in the middle of an odd number of slices the load is that of the middle one, averaged over the cycle, whose first and last step count half; the factors are
-    the result's."""
+    """By hand: in the middle of an odd number of slices the load is that of the middle one, averaged over the cycle,
+    whose first and last step count half; the factors are the result's."""
     run = helical_run()
     found, load = answer(run, 1.0), run["line_load"].sum("slot").values
     assert found[LINE_LOAD][len(found[LINE_LOAD]) // 2] == pytest.approx((0.5 * (load[0] + load[-1]) + load[1:-1].sum(axis=0))[2] / (len(load) - 1), rel=1e-12)
     assert len(np.unique(found[LINE_LOAD])) > 4 and PART_OF_FACE <= 0.8
     assert found[FACE_LOAD][0] == run.attrs["face_load_factor"]
+
+
+def test_peak_pressure_is_not_of_an_end_of_the_face():
+    """By definition, from the result's own fields: of a misaligned pair the ends of the face, as deep as a tenth of
+    it, press most. Theirs is a pressure at edges, the headline's that of the rest of the face."""
+    model = model_of(helical_scene('[misalignment]\nin_plane = "20 um"\n', helix=0.0, width=8.0, accuracy="slices = 12\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"))
+    result = run_of(model, on_stand_in_bodies(model)).result
+    order = "contact_time", "slot", "face_position", "contact_node"
+    pressure = read_off(result["contact_pressure"].transpose(*order).values, result["contact_roll_angle"].transpose(*order).values).max(axis=(1, 3))
+    ends, rest = pressure[:, [0, -1]].max(axis=1), pressure[:, 1:-1].max(axis=1)
+    largest, edge = (result[f"largest_{name}_pressure"].values for name in ("contact", "edge"))
+    assert (ends > rest).any() and (edge >= ends).all() and (largest <= rest).all()
+    # Tips press at the other steps.
+    assert (largest == rest).any() and result.attrs["peak_contact_pressure"] == largest[:-1].max() < result.attrs["peak_edge_pressure"]
 
 
 def test_pairs_have_their_own_fields():

@@ -28,11 +28,15 @@ def helical():
 
 
 def run_of(pair, line_load, slices=SLICES, reach: float = 0.0) -> xr.Dataset:
-    """Two mesh cycles of a result whose line load, N/mm, is that function of contact (mm from T1) and place on the face (mm), up to `reach` (mm) off the path.
+    """Two mesh cycles of a result whose line load, N/mm, is that function of contact (mm from T1) and place on the
+    face (mm), up to `reach` (mm) off the path.
 
     slices: how many, or the ends of unequal ones in parts of the face.
     """
-    ends = pair.face_width * (np.linspace(0.0, 1.0, slices + 1) if np.ndim(slices) == 0 else np.array(slices)) - 0.5 * pair.face_width
+    ends = (
+        pair.face_width * (np.linspace(0.0, 1.0, slices + 1) if np.ndim(slices) == 0 else np.array(slices))
+        - 0.5 * pair.face_width
+    )
     phase, z, widths = np.arange(2 * STEPS + 1) / STEPS, 0.5 * (ends[1:] + ends[:-1]), np.diff(ends)
     loads, numbers = np.zeros((len(phase), SLOTS, len(z))), np.zeros((len(phase), SLOTS), dtype=int)
     for entered in range(-4, 6):
@@ -43,7 +47,11 @@ def run_of(pair, line_load, slices=SLICES, reach: float = 0.0) -> xr.Dataset:
         numbers[there.any(axis=1), slot] = entered + FIRST
     forces = loads @ widths
     along = {"face_position": z, "face_slice_width": ("face_position", widths)}
-    time = {"time": ("time", phase), "contact_time": ("contact_time", phase), "contact_mesh_phase": ("contact_time", phase)}
+    time = {
+        "time": ("time", phase),
+        "contact_time": ("contact_time", phase),
+        "contact_mesh_phase": ("contact_time", phase),
+    }
     numbered = ("contact_time", "slot"), numbers, {"number_at_phase_0": FIRST}
     values = {
         "line_load": (("contact_time", "slot", "face_position"), loads),
@@ -56,7 +64,11 @@ def run_of(pair, line_load, slices=SLICES, reach: float = 0.0) -> xr.Dataset:
 def on_coast_flanks(result: xr.Dataset) -> xr.Dataset:
     """A result with what its drive flanks carry on its coast flanks."""
     renamed = result.rename(line_load="coast_line_load", pair_normal_force="pair_coast_normal_force")
-    return renamed.assign(line_load=0.0 * result["line_load"], coast_normal_force=result["normal_force"], normal_force=0.0 * result["normal_force"])
+    return renamed.assign(
+        line_load=0.0 * result["line_load"],
+        coast_normal_force=result["normal_force"],
+        normal_force=0.0 * result["normal_force"],
+    )
 
 
 def of_one_force(result: xr.Dataset) -> xr.Dataset:
@@ -64,26 +76,32 @@ def of_one_force(result: xr.Dataset) -> xr.Dataset:
     share = result["normal_force"].mean() / result["normal_force"]
     of_fields = share.rename(time="contact_time")
     return result.assign(
-        line_load=result["line_load"] * of_fields, pair_normal_force=result["pair_normal_force"] * share, normal_force=result["normal_force"] * share
+        line_load=result["line_load"] * of_fields,
+        pair_normal_force=result["pair_normal_force"] * share,
+        normal_force=result["normal_force"] * share,
     )
 
 
 @pytest.mark.parametrize("slices", [10, 40, [0.0, 0.02, 0.05, 0.2, 0.5, 0.78, 0.82, 0.9, 1.0]])
 def test_line_load_that_grows_along_a_spur_gear(spur, slices):
-    """Closed form: pairs in contact share evenly a line load 1 + a z over a width b. Its largest mean over a window as long as an end zone, beside the end zone, is
-    1 + a (b/2 - 1.5 times their depth), averaged over time or of a single pair, however the face is divided (but for steps within the window); the outermost slice has the edge's."""
+    """Closed form: pairs in contact share evenly a line load 1 + a z over a width b. Its largest mean over a window
+    as long as an end zone, beside the end zone, is 1 + a (b/2 - 1.5 times their depth), averaged over time or of a
+    single pair, however the face is divided (but for steps within the window); the outermost slice has the edge's."""
     result = of_one_force(run_of(spur, lambda xi, z: 100.0 * (1.0 + 0.05 * z) + 0.0 * xi, slices))
     factors = load_factors(result, spur)
     expected = 1.0 + 0.05 * (0.5 * spur.face_width - 1.5 * end_depth(spur))
     assert factors["face_load_factor"] == pytest.approx(expected, rel=5e-3)
     assert factors["largest_line_load_factor"] == pytest.approx(factors["face_load_factor"], rel=1e-12)
-    assert factors["edge_line_load_factor"] == pytest.approx(1.0 + 0.05 * result["face_position"].values.max(), rel=1e-12)
+    assert factors["edge_line_load_factor"] == pytest.approx(
+        1.0 + 0.05 * result["face_position"].values.max(), rel=1e-12
+    )
     assert factors["transverse_load_factor"] == pytest.approx(1.0, abs=1e-12)
     assert factors["overlap_ratio"] == 0.0 and factors["total_contact_ratio"] == spur.contact_ratio
 
 
 def test_windows_find_the_largest_running_mean(spur):
-    """Brute force: the mean over a window of half a module at a hundred thousand places, of random values in slices of random widths."""
+    """Brute force: the mean over a window of half a module at a hundred thousand places, of random values in slices
+    of random widths."""
     random = np.random.default_rng(3)
     ends = np.sort(np.concatenate([[0.0, 1.0], random.uniform(size=30)]))
     result = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z, list(ends))
@@ -91,19 +109,29 @@ def test_windows_find_the_largest_running_mean(spur):
     low, high = inner_face(spur)
     starts = np.linspace(low, high - end_depth(spur), 100_000)
     integral = np.append(0.0, np.cumsum(values * np.diff(slice_ends(result))))
-    brute = (np.interp(starts + end_depth(spur), slice_ends(result), integral) - np.interp(starts, slice_ends(result), integral)) / end_depth(spur)
+    brute = (
+        np.interp(starts + end_depth(spur), slice_ends(result), integral)
+        - np.interp(starts, slice_ends(result), integral)
+    ) / end_depth(spur)
     found = windows(result, spur)
     assert found.sum(axis=1) == pytest.approx(1.0, abs=1e-12)
-    assert (found @ values).max() == pytest.approx(brute.max(), rel=1e-4) and (found @ values).max() >= brute.max() - 1e-12
+    assert (found @ values).max() == pytest.approx(brute.max(), rel=1e-4) and (
+        found @ values
+    ).max() >= brute.max() - 1e-12
     assert end_depth(spur) == min(0.5 * spur.pinion.normal_module, 0.1 * spur.face_width)
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
-    """Identity: each slice has passed all its path of contact after a mesh cycle, so that of a line load f(xi) g(z) the average over time goes as g(z)."""
+    """Identity: each slice has passed all its path of contact after a mesh cycle, so that of a line load f(xi) g(z)
+    the average over time goes as g(z)."""
     pair = helical if hand == "right" else replace(helical, helix=replace(helical.helix, pinion_hand="left"))
-    result = run_of(pair, lambda xi, z: 100.0 * (1.0 + 0.3 * np.sin(xi)) * (1.0 + 0.02 * z), slices=[0.0, 0.04, 0.1, 0.35, 0.85, 0.9, 0.95, 1.0])
+    result = run_of(
+        pair,
+        lambda xi, z: 100.0 * (1.0 + 0.3 * np.sin(xi)) * (1.0 + 0.02 * z),
+        slices=[0.0, 0.04, 0.1, 0.35, 0.85, 0.9, 0.95, 1.0],
+    )
     found = load_factors(on_coast_flanks(result) if side else result, pair)["face_load_factor"]
     # To the steps at which a slice begins and ends its path.
     assert found == pytest.approx(1.0 + 0.02 * (inner_face(pair)[1] - 0.5 * end_depth(pair)), rel=5e-3)
@@ -111,8 +139,8 @@ def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
 
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_even_line_load_of_a_helical_pair(helical, side):
-    """Identity: one line load along all lines of contact is largest when these are shortest, and is then what the factors compare with (but for the slices, steps of
-    the lines' lengths)."""
+    """Identity: one line load along all lines of contact is largest when these are shortest, and is then what the
+    factors compare with (but for the slices, steps of the lines' lengths)."""
     result = of_one_force(run_of(helical, lambda xi, z: 100.0 + 0.0 * xi * z, slices=400))
     factors = load_factors(on_coast_flanks(result) if side else result, helical)
     assert factors["transverse_load_factor"] == pytest.approx(1.0, abs=3e-3)
@@ -123,11 +151,15 @@ def test_even_line_load_of_a_helical_pair(helical, side):
 @pytest.mark.parametrize("end", ["start", "end"])
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_edges_have_a_factor_of_their_own(helical, end, side):
-    """By definition: a line load three times as large where a line of contact ends on the flank, no further than the depth of the end zones along the face, is of
-    an edge; twice as far it is not. Coast flanks have their path where drive flanks, seen in the mirror of the line of centres, have theirs."""
+    """By definition: a line load three times as large where a line of contact ends on the flank, no further than the
+    depth of the end zones along the face, is of an edge; twice as far it is not. Coast flanks have their path where
+    drive flanks, seen in the mirror of the line of centres, have theirs."""
+
     def line_load(within: float):
         near = within * end_depth(helical) * abs(helical.slope)
-        beside = (lambda xi: xi < helical.path_start + near) if end == "start" else (lambda xi: xi > helical.path_end - near)
+        beside = (
+            (lambda xi: xi < helical.path_start + near) if end == "start" else (lambda xi: xi > helical.path_end - near)
+        )
         return lambda xi, z: np.where(beside(on_path(xi)), 300.0, 100.0) + 0.0 * z
 
     def on_path(xi):
@@ -157,14 +189,26 @@ def test_lengths_of_contact_lines(helical):
     """Brute force: lengths, summed over points along the face whose contact is on the path; and all pairs together are the path times the face over the base pitch on average."""
     positions = np.linspace(helical.path_start - 10.0, helical.path_end + 10.0, 301)
     z = helical.face_width * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
-    there = [np.mean((xi + helical.slope * z >= helical.path_start) & (xi + helical.slope * z <= helical.path_end)) for xi in positions]
-    assert contact_line_lengths(helical, positions) == pytest.approx(helical.face_width * np.array(there), abs=1e-3 * helical.face_width)
+    there = [
+        np.mean((xi + helical.slope * z >= helical.path_start) & (xi + helical.slope * z <= helical.path_end))
+        for xi in positions
+    ]
+    assert contact_line_lengths(helical, positions) == pytest.approx(
+        helical.face_width * np.array(there), abs=1e-3 * helical.face_width
+    )
     phases = np.linspace(0.0, helical.base_pitch, 10_000, endpoint=False)
     all_lines = contact_line_lengths(helical, phases[:, None] + helical.base_pitch * np.arange(-5, 9)).sum(axis=1)
     assert all_lines.mean() == pytest.approx(helical.contact_ratio * helical.face_width, rel=1e-6)
-    assert shortest_lines(helical) == pytest.approx(all_lines.min(), rel=1e-4) and shortest_lines(helical) <= all_lines.min() + 1e-6
-    brute = (contact_line_lengths(helical, phases[:, None] + helical.base_pitch * np.arange(-5, 9)).max(axis=1) / all_lines).max()
-    assert largest_even_share(helical) == pytest.approx(brute, rel=1e-4) and largest_even_share(helical) >= brute - 1e-12
+    assert (
+        shortest_lines(helical) == pytest.approx(all_lines.min(), rel=1e-4)
+        and shortest_lines(helical) <= all_lines.min() + 1e-6
+    )
+    brute = (
+        contact_line_lengths(helical, phases[:, None] + helical.base_pitch * np.arange(-5, 9)).max(axis=1) / all_lines
+    ).max()
+    assert (
+        largest_even_share(helical) == pytest.approx(brute, rel=1e-4) and largest_even_share(helical) >= brute - 1e-12
+    )
 
 
 def test_nothing_of_flanks_without_load(spur):

@@ -1,6 +1,7 @@
 """`gears accuracy` and `[accuracy] target` of scenes whose flanks are resolved over the face: what is refined and chosen, without running it."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +10,19 @@ from tests.helical import wide_pair
 from fenics_gears.model.face_resolution import face_discretisation, face_warnings
 from fenics_gears.model.model import model_of
 from fenics_gears.studies.accuracy import report as reports
-from fenics_gears.studies.accuracy.measures import CURVE, DEFECT, FACE_LOAD, LARGEST_LOAD, LINE_LOAD, SPAN, distances, judged
+from fenics_gears.studies.accuracy import table
+from fenics_gears.studies.accuracy.measures import (
+    CURVE,
+    DEFECT,
+    FACE_LOAD,
+    LARGEST_LOAD,
+    LINE_LOAD,
+    MEASURES,
+    OVER_FACE,
+    SPAN,
+    distances,
+    judged,
+)
 from fenics_gears.studies.accuracy.over_face import LAYERS, PLANE, SLICES, in_the_plane
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS, fine, refinements
 from fenics_gears.studies.accuracy.setting import own_setting
@@ -85,9 +98,20 @@ def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch)
 
 
 def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them():
-    """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the face."""
+    """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the
+    face."""
     one = {CURVE: np.ones(4), SPAN: np.ones(1), DEFECT: np.zeros(1), LINE_LOAD: np.full(3, 100.0), FACE_LOAD: np.array([1.2]), LARGEST_LOAD: np.array([1.5])}
     other = one | {LINE_LOAD: np.array([100.0, 100.0, 103.0]), FACE_LOAD: np.array([1.206]), LARGEST_LOAD: np.array([1.53])}
     errors = distances(other, one)
     assert errors[FACE_LOAD] == pytest.approx(0.005) and errors[LINE_LOAD] == pytest.approx(0.03 / np.sqrt(3.0)) and judged(errors) == pytest.approx(0.02)
     assert judged(distances({CURVE: one[CURVE], SPAN: np.array([1.001]), DEFECT: np.zeros(1)}, one)) == pytest.approx(0.001)
+
+
+def test_tables_list_the_measures_over_the_face():
+    """Interface: columns for what a run over the face is judged by besides, with units; none in the plane."""
+    over_face, plane = (SimpleNamespace(uncertainty=dict.fromkeys(names)) for names in ((*MEASURES, *OVER_FACE), MEASURES))
+    for made in (table.headings, table.whole_headings):
+        words, units = made(over_face)
+        assert len(words) == len(units) and {units[words.index(name)] for name in OVER_FACE} == {"%"}
+        assert [word for word in words if word not in OVER_FACE] == list(made(plane)[0])
+    assert (table.judged_by(over_face), table.judged_by(plane)) == ("T_E, T_EPP and line loads", "T_E and T_EPP")

@@ -23,5 +23,18 @@ def face(run: Run) -> Section:
     if not run.has_curves:
         return Section("face", HEADING, [Words(TOO_FEW, warns=True)])
     charts = [*contact_patterns(run), *line_loads(run)]
-    said = [Words(sentence.format(run.dataset.attrs[name])) for name, sentence in FACTORS.items() if name in run.dataset.attrs]
-    return Section("face", HEADING, [*charts, *said] or [Words("There are none: the run has stored no contact fields (`[output] contact_fields`), or no flank is loaded.")])
+    said = [
+        Words(sentence.format(run.dataset.attrs[name]))
+        for name, sentence in FACTORS.items()
+        if name in run.dataset.attrs
+    ]
+    return Section(
+        "face",
+        HEADING,
+        [*charts, *said]
+        or [
+            Words(
+                "There are none: the run has stored no contact fields (`[output] contact_fields`), or no flank is loaded."
+            )
+        ],
+    )

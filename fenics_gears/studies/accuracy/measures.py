@@ -22,9 +22,11 @@ MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, ROOT, DEFECT)
 # Of flanks resolved over the face: the line load averaged over the mesh cycle, and two load factors.
 LINE_LOAD, FACE_LOAD, LARGEST_LOAD = "line load", "face load factor", "largest line load"
 OVER_FACE = (LINE_LOAD, FACE_LOAD, LARGEST_LOAD)
-# Settings are judged by both of these: a curve may have the right height and the wrong shape. Over the face they are judged by its measures too.
+# Settings are judged by both of these: a curve may have the right height and the wrong shape. Over the face they are
+# judged by its measures too.
 JUDGED = (CURVE, SPAN)
-# Places at which line loads are compared, and the part of the face that these take: further out line loads are those of edges.
+# Places at which line loads are compared, and the part of the face that these take: further out line loads are those
+# of edges.
 PLACES, PART_OF_FACE = 41, 0.8
 # Curves are compared at the phases that all of them have, unless these are fewer.
 FEWEST_PHASES = 20
@@ -51,7 +53,8 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
 
 
 def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
-    """The measures that settings are judged by; `every`: take every n-th step only, as in a quasi-static run of longer steps.
+    """The measures that settings are judged by; `every`: take every n-th step only, as in a quasi-static run of
+    longer steps.
 
     The curve (n,), mm at the wheel's base circle, is T_E at the steps of the last mesh cycle, of which the last has phase 1, its mean removed.
     T_EPP does not depend on `every`: its extremes are located between steps.
@@ -60,12 +63,14 @@ def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
     if len(last_cycle) % every:
         raise ValueError(f"every {every}-th of {len(last_cycle)} steps in a mesh cycle: these are no steps of equal length; take a divisor")
     curve, height = last_cycle[every - 1 :: every], run.attrs["peak_to_peak_transmission_error"]
-    found = {CURVE: (curve - curve.mean()) * run.attrs["base_radius_wheel"], SPAN: np.array([height * run.attrs["base_radius_wheel"]])}
+    radius = run.attrs["base_radius_wheel"]
+    found = {CURVE: (curve - curve.mean()) * radius, SPAN: np.array([height * radius])}
     return found | _over_face(run) if "face_position" in run.dims else found
 
 
 def _over_face(run: xr.Dataset) -> Answer:
-    """Line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the face; and the load factors, as far as the run has them."""
+    """Line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the face; and the
+    load factors, as far as the run has them."""
     # Imported here: plane runs have none.
     from fenics_gears.results.face_ends import slice_widths
     from fenics_gears.results.load_factors import mean_line_load
@@ -123,13 +128,15 @@ def distances(one: Answer, other: Answer) -> dict[str, float]:
 
 
 def measures_of(names: Container[str]) -> tuple[str, ...]:
-    """All measures of a plane run, and those over the face that are among some names, such as the keys of an answer or of errors."""
+    """All measures of a plane run, and those over the face that are among some names, such as the keys of an answer
+    or of errors."""
     return MEASURES + tuple(name for name in OVER_FACE if name in names)
 
 
 def judged(errors: dict[str, float]) -> float:
     """The one number by which settings are compared; the plane beside a face is not charged for what it lacks."""
-    return max([errors[name] for name in JUDGED] + [errors[name] for name in OVER_FACE if not np.isnan(errors.get(name, np.nan))])
+    over_face = [errors[name] for name in OVER_FACE if not np.isnan(errors.get(name, np.nan))]
+    return max([errors[name] for name in JUDGED] + over_face)
 
 
 def _last_cycle(run: xr.Dataset) -> np.ndarray:

@@ -22,14 +22,16 @@ ORDER_OFF, NO_INFLUENCE = 0.5, 1e-6
 def headings(report: AccuracyReport) -> list[tuple[str, ...]]:
     """Headings and units above `table_rows`."""
     names = measures_of(report.uncertainty)
-    return [("setting", "value", *names, "time", "order T_E", *ORDERED[1:], "expected"), ("", "", *["%"] * len(names), "s", *[""] * len(ORDERED), "")]
+    words = ("setting", "value", *names, "time", "order T_E", *ORDERED[1:], "expected")
+    return [words, ("", "", *["%"] * len(names), "s", *[""] * len(ORDERED), "")]
 
 
 def whole_headings(report: AccuracyReport) -> list[tuple[str, ...]]:
     """Headings and units above `whole_rows`."""
     names = measures_of(report.uncertainty)
     stages = "meshing", "condensing", "time stepping", "time"
-    return [("settings", "total error", *names, *stages, "what limits it"), ("", "%", *["%"] * len(names), *["s"] * len(stages), "")]
+    words = ("settings", "total error", *names, *stages, "what limits it")
+    return [words, ("", "%", *["%"] * len(names), *["s"] * len(stages), "")]
 
 
 def judged_by(report: AccuracyReport) -> str:

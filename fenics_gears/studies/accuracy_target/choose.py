@@ -51,7 +51,8 @@ class Chosen:
 
 
 def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
-    """The cheapest settings that reach a relative error in T_E (L2, mean removed) and in T_EPP, over the face also in line load and load factors.
+    """The cheapest settings that reach a relative error in T_E (L2, mean removed) and in T_EPP, over the face also in
+    line load and load factors.
 
     Raises TargetNotReached where none does within the limits; ComputationError where a run fails.
     """

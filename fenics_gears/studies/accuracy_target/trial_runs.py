@@ -1,9 +1,9 @@
 """The trial runs from which the errors of settings are estimated: three that are coarse in different ways.
 
 Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together from their defaults, and the
-number of steps. Over a face there is a third, the number of slices; layers of the bodies go with these, since a layer tells but a few slices apart. All errors fall with the square of the size, so that a run
-with twice the size differs by three times the error.
-"""
+number of steps. Over a face there is a third, the number of slices; layers of the bodies go with these, since a layer
+tells but a few slices apart. All errors fall with the square of the size, so that a run with twice the size differs
+by three times the error. """
 
 from __future__ import annotations
 
@@ -76,7 +76,8 @@ class TrialRuns:
         if not self.slices:
             return found
         slices = sizes.slices or self.slices
-        return replace(found, slices=slices, layers=max(ceil(default.layers * slices / default.slices - ROUNDING), FEWEST_LAYERS))
+        layers = ceil(default.layers * slices / default.slices - ROUNDING)
+        return replace(found, slices=slices, layers=max(layers, FEWEST_LAYERS))
 
     @property
     def slices(self) -> int:
