@@ -26,7 +26,7 @@ from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 CHECKOUT = Path(__file__).parents[3]
 pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = [
-    "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
+    "summary", "warnings", "motion", "forces", "pressure", "stress", "root-stress", "spectra", "geometry", "numbers", "effects", "energy", "solver",
     "versions", "scene",
 ]  # fmt: skip
 
