@@ -14,7 +14,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.show.chart import WORDS, Chart, Curve
 from fenics_gears.show.motion import LEAST_LENGTH
 from fenics_gears.show.panels import DARK, shades
-from fenics_gears.show.units import factor, in_unit
+from fenics_gears.show.units import digits, factor, in_unit
 
 CYCLES, MOST_NAMED = 2.0, 20
 # Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the chart's height.
@@ -35,7 +35,7 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str =
     values, unit = _micrometres(error, result.attrs), _unit_of(error["load"])
     loads = in_unit(error["load"], unit)
     phase = error["mesh_phase"].values
-    curves = [Curve(f"{load:g} {unit}", *_two_cycles(phase, each), colour, listed=False) for load, each, colour in zip(loads, values, shades(len(loads)))]
+    curves = [Curve(f"{digits(load)} {unit}", *_two_cycles(phase, each), colour, listed=False) for load, each, colour in zip(loads, values, shades(len(loads)))]
     drawn = [*curves, *_names(curves)]
     return Chart(caption, drawn, "Mesh phase (mesh cycles)", "Transmission error along the line of action (µm)", note, 520, least=LEAST_LENGTH, x_range=(0.0, CYCLES + ROOM))
 

@@ -5,8 +5,8 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 import xarray as xr
-from tests.helical import wide_pair
 from scipy.integrate import quad
+from tests.helical import wide_pair
 
 from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.flash_temperature import STEEL, flash_temperature, standard_share

@@ -16,8 +16,8 @@ from fenics_gears.geometry.face_data import Misalignment
 from fenics_gears.scene.data import Accuracy, Motion, Output
 from fenics_gears.show import stress_animation
 from fenics_gears.show.face_grid import save_vtu, surface
-from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.face_picture import colour_limit, frames, root_tension, still
+from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.run_stresses import standing

@@ -119,7 +119,7 @@ def test_a_scene_without_speed_has_none_on_its_page(paper_scene, tmp_path):
     run = Run(made_up_run(scene=text), tmp_path / "run.nc")
     assert run.scene is not None and not run.scene.motion.speed_given
     assert "Mesh frequency" not in tiles_of(run.dataset, tmp_path) and "rpm" not in str(summary(run))
-    assert " s," not in dict((label, value) for label, value, _ in _extent(run))["stored"]
+    assert " s," not in {label: value for label, value, _ in _extent(run)}["stored"]
 
 
 def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal(paper_scene, tmp_path):
