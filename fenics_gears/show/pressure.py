@@ -8,7 +8,7 @@ from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
 from fenics_gears.show.panels import DARK
 from fenics_gears.show.run import Run
-from fenics_gears.show.units import factor
+from fenics_gears.show.units import digits, factor
 
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
 EDGE_NOTE = " The pressure at a tip's edge does not converge with the mesh."
@@ -75,8 +75,8 @@ def _peaks(run: Run) -> str:
     attributes = run.dataset.attrs
     if "peak_contact_pressure" not in attributes:
         return ""
-    words = f"The peak contact pressure of the settled run, averaged over five nodes, is {attributes['peak_contact_pressure']:.4g} MPa"
-    edge = f" off the flanks' edges and {attributes['peak_edge_pressure']:.4g} MPa at tips' edges" if "peak_edge_pressure" in attributes else ""
+    words = f"The peak contact pressure of the settled run, averaged over five nodes, is {digits(attributes['peak_contact_pressure'])} MPa"
+    edge = f" off the flanks' edges and {digits(attributes['peak_edge_pressure'])} MPa at tips' edges" if "peak_edge_pressure" in attributes else ""
     return f"{words}{edge}."
 
 
