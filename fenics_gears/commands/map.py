@@ -33,7 +33,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     add_scene_argument(command)
     command.add_argument(
         "--loads", nargs="+", metavar="TORQUE", default=[],
-        help='torques on the wheel, such as "100 N m" "200 N m"; or ranges, "50 .. 500 N m in 10", "50 .. 500 N m by 50 N m" (default: that of the scene)',
+        help='torques on the wheel, such as "100 N m" "200 N m"; or ranges, "50 .. 500 N m in 10", "50 .. 500 N m by 50 N m"; torques on the pinion, or powers such as "15 kW", if the scene gives its load so (default: that of the scene)',
     )  # fmt: skip
     command.add_argument(
         "--speeds", nargs="+", metavar="SPEED", default=[],

@@ -110,6 +110,7 @@ def _show(rows) -> None:
     for row in rows:
         unit = "" if row.unit == "1" else f" {row.unit}"
         print(f"{row.name + (',' + unit if unit else ''):50}{_written(row.standard, 4):>10}{_written(row.computed, 4) or '-':>10}")
+    print("K_v of this run: largest force of a tooth pair over that without inertia. Safeties: the same limit over the standard's stress and over the largest of this run.")
     if any(isnan(row.computed) for row in rows):
         print("-: not in this run. Root stress needs [output] root_stress, the dynamic factor [inertia], face and transverse factors a three-dimensional scene.")
 

@@ -33,7 +33,7 @@ class ProfileModificationText(Section):
 
 
 class ProfileModificationsText(Section):
-    """``[profile_modifications]``: amounts normal to the flank, the same on all teeth of a gear."""
+    """``[profile_modifications]``: amounts normal to the flank in the transverse section, which is along the line of action there, the same on all teeth of a gear."""
 
     pinion: Optional[ProfileModificationText] = None
     wheel: Optional[ProfileModificationText] = None

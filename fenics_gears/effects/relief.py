@@ -43,7 +43,7 @@ class TipReliefOfGearText(Section):
         "1e-6 um",
         "100 mm",
         "31 um",
-        meaning="depth at the end of the relief, normal to the flank",
+        meaning="depth at the end of the relief, normal to the flank in the transverse section, which is along the line of action there",
         otherwise="no relief",
         below="For a gear without relief, leave its depth out.",
     )

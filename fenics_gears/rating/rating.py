@@ -140,5 +140,7 @@ def _flash(operation: Operation, finish: Finish, result: xr.Dataset) -> list[Row
     places = pair.path_start + since * pair.base_pitch
     # Teeth that bend touch a little before and after the path of contact, where the formula's speeds are not theirs.
     on_path = (places >= pair.path_start) & (places <= pair.path_end) & np.isfinite(forces)
-    computed = flash_temperature(pair, operation.materials, places[on_path], forces[on_path] / pair.face_width, friction, operation.pinion_speed)
+    # The standard's line force is in the transverse section; those of the run are along the contact normal.
+    transverse = pair.cosine * forces[on_path] / pair.face_width
+    computed = flash_temperature(pair, operation.materials, places[on_path], transverse, friction, operation.pinion_speed)
     return [Row("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]

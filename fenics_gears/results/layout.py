@@ -14,8 +14,9 @@ from fenics_gears.model.storage import CONTACT_COORDINATES, COORDINATES, ROOT_ST
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 
 GEARS = ["pinion", "wheel"]
-# Without these nothing can be drawn or said of a run.
-REQUIRED = (*COORDINATES, "slot", "gear", "transmission_error", "normal_force", "pair_normal_force")
+# Without these nothing can be drawn or said of a result; and what this program writes with them into each.
+REQUIRED = ("time", "mesh_phase", "transmission_error")
+WRITTEN = (*COORDINATES, "slot", "gear", "normal_force", "pair_normal_force")
 TEXTS = ("title", "scene", "scene_name", "warnings")
 
 
@@ -25,7 +26,8 @@ def mistake_in(result: xr.Dataset) -> str:
 
 
 def _mistakes(result: xr.Dataset) -> Iterator[str]:
-    if missing := [name for name in REQUIRED if name not in result.variables]:
+    needed = (*REQUIRED, *(WRITTEN if "fenics_gears_version" in result.attrs else ()))
+    if missing := [name for name in dict.fromkeys(needed) if name not in result.variables]:
         yield f"it has no {', '.join(missing)}"
     for name, allowed in _known_dims().items():
         if name not in result.variables:
@@ -55,21 +57,21 @@ def _known_dims() -> dict[str, list[tuple[str, ...]]]:
 
 def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:
     """Of the coordinates: steps in the order of time, contact fields at some of them, tooth pairs in their slots."""
-    if list(result["gear"].values) != GEARS:
+    if "gear" in result.dims and list(result["gear"].values) != GEARS:
         yield "its gears are not pinion and wheel"
     for name in ("time", "mesh_phase"):
         values = result[name].values
         if not np.isfinite(values).all() or (np.diff(values) < 0.0).any():
             yield f"{name} does not go on from step to step"
-    slots, both = result.sizes["slot"], ["pair_number"]
+    both = ["pair_number"] if "slot" in result.dims else []
     if "contact_time" in result.dims:
         if missing := [name for name in CONTACT_COORDINATES if name not in result.variables]:
             yield f"it has contact fields and no {', '.join(missing)}"
-        if not np.isin(result["contact_time"].values, result["time"].values).all():
+        elif not np.isin(result["contact_time"].values, result["time"].values).all():
             yield "its contact fields are not at its steps"
         both.append("contact_pair_number")
     for name in both:
-        numbers = result[name]
+        numbers, slots = result[name], result.sizes["slot"]
         if not isinstance(numbers.attrs.get("number_at_phase_0"), (int, np.integer)):
             yield f"{name} has no whole number as its attribute number_at_phase_0"
         wrong = (numbers.values != 0) & (numbers.values % max(slots, 1) != np.arange(slots)) | (numbers.values < 0)

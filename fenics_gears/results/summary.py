@@ -87,7 +87,7 @@ def _pair_force(attributes) -> list[Row]:
     rows = [("largest force of a tooth pair", f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.6g}", "")]
     if "dynamic_factor_by_force" in attributes:
         stress = f", {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""
-        rows.append(("dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f} by force{stress}", ""))
+        rows.append(("dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f} by force of a tooth pair{stress}, over that without inertia", ""))
     if "dynamic_factor_unknown" in attributes:
         rows.append(("dynamic factor", attributes["dynamic_factor_unknown"], ""))
     return rows
@@ -128,7 +128,7 @@ def _power(attributes) -> list[Row]:
     if "friction_loss" in attributes:
         watts = f"{attributes['friction_power']:.4g} W = " if "friction_power" in attributes else ""
         efficiency = f"efficiency of the mesh {attributes['mesh_efficiency']:.3%}" if "mesh_efficiency" in attributes else "of wedged or locked teeth, which have no efficiency"
-        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%}, {efficiency}", ""))
+        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%} of the drive's work, {efficiency}", ""))
     return rows
 
 

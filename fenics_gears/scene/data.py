@@ -22,6 +22,7 @@ from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.geometry.profile_modification_data import ProfileModifications
 from fenics_gears.geometry.relief_data import RootRelief, TipRelief
+from fenics_gears.inputs.tree import wheel_torque
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,10 @@ class Load:
 
     wheel_torque: float
     given: str = "wheel_torque"
+
+
+# How a scene can give its load: unit and name for people.
+LOAD_WORDS = {"wheel_torque": ("N m", "torque on the wheel"), "pinion_torque": ("N m", "torque on the pinion"), "power": ("kW", "power")}
 
 
 @dataclass(frozen=True)
@@ -161,6 +166,12 @@ class Scene:
         """The lowest and the highest mesh frequency of the run, Hz."""
         ends = [self.motion.mesh_frequency] + ([self.speed_ramp.end_frequency] if self.speed_ramp is not None else [])
         return min(ends), max(ends)
+
+    @property
+    def given_load(self) -> float:
+        """The load as the scene gives it: torque of the wheel or of the pinion, N mm, or power, N mm/s."""
+        teeth = self.gears.pinion.teeth, self.gears.wheel.teeth
+        return self.load.wheel_torque / wheel_torque(self.load.given, 1.0, teeth, self.motion.mesh_frequency)
 
     @property
     def tooth_elasticity(self) -> tuple[Material, Material] | None:

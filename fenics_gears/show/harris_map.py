@@ -14,7 +14,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.show.chart import WORDS, Chart, Curve
 from fenics_gears.show.motion import LEAST_LENGTH
 from fenics_gears.show.panels import DARK, shades
-from fenics_gears.show.units import factor, in_unit
+from fenics_gears.show.units import digits, factor, in_unit
 
 CYCLES, MOST_NAMED = 2.0, 20
 # Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the chart's height.
@@ -22,7 +22,7 @@ ROOM, APART = 0.245, 0.042
 
 
 def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str = "") -> Chart:
-    """The chart of a transmission error with the dimensions `load` (torque on the wheel) and `mesh_phase` (mesh cycles), in um along the line of action.
+    """The chart of a transmission error with the dimensions `load` (a torque, or a power in kW) and `mesh_phase` (mesh cycles), in um along the line of action.
 
     result: a variable in a unit of length; or a dataset with `transmission_error` in a unit of length, or in rad of the wheel beside the
     attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are drawn twice; of more than two the first two
@@ -32,11 +32,17 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str =
     if not {"load", "mesh_phase"} <= set(error.coords) or set(error.dims) != {"load", "mesh_phase"}:
         raise ComputationError(f"a Harris map needs the dimensions load and mesh_phase with their coordinates; there are {', '.join(map(str, error.dims)) or 'none'}")
     error = error.transpose("load", "mesh_phase").sortby("load").dropna("load", how="all")
-    values, loads = _micrometres(error, result.attrs), in_unit(error["load"], "N m")
+    values, unit = _micrometres(error, result.attrs), _unit_of(error["load"])
+    loads = in_unit(error["load"], unit)
     phase = error["mesh_phase"].values
-    curves = [Curve(f"{load:g} N m", *_two_cycles(phase, each), colour, listed=False) for load, each, colour in zip(loads, values, shades(len(loads)))]
+    curves = [Curve(f"{digits(load)} {unit}", *_two_cycles(phase, each), colour, listed=False) for load, each, colour in zip(loads, values, shades(len(loads)))]
     drawn = [*curves, *_names(curves)]
     return Chart(caption, drawn, "Mesh phase (mesh cycles)", "Transmission error along the line of action (µm)", note, 520, least=LEAST_LENGTH, x_range=(0.0, CYCLES + ROOM))
+
+
+def _unit_of(loads: xr.DataArray) -> str:
+    """Powers stay in their unit; torques are in N m."""
+    return "kW" if loads.attrs.get("units") == "kW" else "N m"
 
 
 def _micrometres(error: xr.DataArray, attributes: dict) -> np.ndarray:

@@ -15,7 +15,7 @@ from fenics_gears.show.noise_charts import stems
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
 
 MESH_ORDERS = 5
-LOAD, SPEED, FREQUENCY = "Torque on the wheel (N m)", "Mesh frequency (Hz)", "Frequency (Hz)"
+SPEED, FREQUENCY = "Mesh frequency (Hz)", "Frequency (Hz)"
 # Of a waterfall: decibels from the base line to the highest line, which is as high as so many steps of the speed.
 DECIBELS, STEPS_HIGH = 40.0, 2.5
 # Room right of and above the lines of a Campbell diagram for their words, in parts of the axes.
@@ -34,7 +34,7 @@ def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
     pictures: dict[str, tuple[str, list[Chart]]] = {}
     if "transmission_error" in found:
         error = found["transmission_error"]
-        captions = ("Transmission error by torque on the wheel", "The same, each curve without its mean")
+        captions = (f"Transmission error by {found['load'].attrs['long_name']}", "The same, each curve without its mean")
         both = zip(captions, (error, error - error.mean("mesh_phase")))
         pictures["harris_map.png"] = ("Harris map", [harris_map(each.assign_attrs(error.attrs), caption) for caption, each in both])
     if several:
@@ -43,8 +43,9 @@ def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
         if found.sizes["mesh_frequency"] > 1:
             pictures["over_speed.png"] = ("Steady speeds", over_speed(found))
         pictures["campbell.png"] = ("Campbell diagram", [campbell(found)])
+        unit = found["load"].attrs["units"]
         for load in found["load"].values if found.sizes["mesh_frequency"] > 1 else ():
-            pictures[f"waterfall_{load:g}_N_m.png"] = (f"Waterfall at {load:g} N m", waterfall(found.sel(load=load)))
+            pictures[f"waterfall_{load:g}_{unit.replace(' ', '_')}.png"] = (f"Waterfall at {load:g} {unit}", waterfall(found.sel(load=load)))
     return pictures
 
 
@@ -58,7 +59,8 @@ def over_load(found: xr.Dataset) -> list[Chart]:
         (harmonics, "Harmonics of the transmission error", "Amplitude (µm)"),
         (stiffness, "Mesh stiffness over the face width, mean of the mesh cycle", "N/(mm µm)"),
     )
-    return [_curves(curves, "load", LOAD, *titles) for curves, *titles in kinds if curves]
+    axis = f"{found['load'].attrs['long_name'].capitalize()} ({found['load'].attrs['units']})"
+    return [_curves(curves, "load", axis, *titles) for curves, *titles in kinds if curves]
 
 
 def over_speed(found: xr.Dataset) -> list[Chart]:
@@ -70,7 +72,7 @@ def over_speed(found: xr.Dataset) -> list[Chart]:
         "dynamic_rms_transmission_error": ("Transmission error without its mean, r.m.s.", "R.m.s. (µm)"),
         "dynamic_rms_normal_force": ("Mesh force without its mean, r.m.s.", "R.m.s. (N)"),
     }
-    of_loads = {name: {f"{load:g} N m": found[name].sel(load=load) for load in found["load"].values} for name in kinds if name in found}
+    of_loads = {name: {f"{load:g} {found['load'].attrs['units']}": found[name].sel(load=load) for load in found["load"].values} for name in kinds if name in found}
     return [_curves(curves, "mesh_frequency", _speed(found), *kinds[name], shades(len(curves))) for name, curves in of_loads.items()]
 
 

@@ -158,5 +158,5 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     rows = [("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""), ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", "")]
     compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh))
     rows += [(f"{called(goal.name)}{words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1")) for goal in outcome.design.goals for words, each in compared.items()]
-    rows += [(called(each.name), f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.5g}", each.unit) for each in outcome.design.variables]
+    rows += [(called(each.name), f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.4g}", each.unit) for each in outcome.design.variables]
     return [*rows, ("remark", no_gain(outcome), "")] if no_gain(outcome) else rows

@@ -8,7 +8,7 @@ from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
 from fenics_gears.show.panels import DARK
 from fenics_gears.show.run import Run
-from fenics_gears.show.units import factor
+from fenics_gears.show.units import digits, factor
 
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
 APART_NOTE = " The pressure at edges and kinks does not converge with the mesh."
@@ -74,9 +74,9 @@ def _peaks(run: Run) -> str:
     attributes = run.dataset.attrs
     if "peak_contact_pressure" not in attributes:
         return ""
-    words = f"The peak contact pressure of the settled run, averaged over five nodes, is {attributes['peak_contact_pressure']:.4g} MPa"
+    words = f"The peak contact pressure of the settled run, averaged over five nodes, is {digits(attributes['peak_contact_pressure'])} MPa"
     places = {"edge": "at edges", "kink": "at kinks of relief"}
-    apart = [f"{attributes[f'peak_{name}_pressure']:.4g} MPa {at}" for name, at in places.items() if f"peak_{name}_pressure" in attributes]
+    apart = [f"{digits(attributes[f'peak_{name}_pressure'])} MPa {at}" for name, at in places.items() if f"peak_{name}_pressure" in attributes]
     return f"{words} away from edges and kinks, {' and '.join(apart)}." if apart else f"{words}."
 
 

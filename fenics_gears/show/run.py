@@ -18,7 +18,7 @@ from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.results.carried_scene import carried_scene
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
-from fenics_gears.scene.data import Scene
+from fenics_gears.scene.data import LOAD_WORDS, Scene
 from fenics_gears.show.units import digits, factor, in_unit
 
 NO_SCENE = "The scene in this file is none that this version of the program can read, so that this section cannot be made; run the scene again."
@@ -204,11 +204,9 @@ def conditions(scene: Scene) -> str:
 
 def load_in_words(scene: Scene) -> str:
     """The load as the scene gives it: torque of the wheel or of the pinion, or power."""
-    torque, gears = scene.load.wheel_torque * factor("N mm", "N m"), scene.gears
-    if scene.load.given == "power":
-        return f"{digits(torque * 2.0 * np.pi * scene.motion.mesh_frequency / gears.wheel.teeth * factor('W', 'kW'))} kW"
-    on_pinion = scene.load.given == "pinion_torque"
-    return f"{digits(torque * gears.pinion.teeth / gears.wheel.teeth)} N m on the pinion" if on_pinion else f"{digits(torque)} N m on the wheel"
+    unit, words = LOAD_WORDS[scene.load.given]
+    value = digits(scene.given_load * factor("N mm/s" if unit == "kW" else "N mm", unit))
+    return f"{value} {unit}{words.removeprefix('torque').removeprefix('power')}"
 
 
 def design(scene: Scene) -> str:

@@ -5,18 +5,19 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isfinite, sqrt
+from math import isfinite, pi, sqrt
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.effects import common_period, effects_on
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs import units
+from fenics_gears.inputs.tree import wheel_torque
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settling_time
-from fenics_gears.scene.data import Load, Scene
+from fenics_gears.scene.data import LOAD_WORDS, Load, Scene
 from fenics_gears.simulation.dynamic_factor import quasi_static
 from fenics_gears.studies.axis import AxisError, values_in_words
 from fenics_gears.studies.study import Study
@@ -25,19 +26,39 @@ from fenics_gears.system.progress import seconds_in_words
 
 QUASI_STATIC, OVER_SPEED = "quasi_static", "over_speed"
 LOADS, SPEEDS = "--loads", "--speeds"
-TORQUE, FREQUENCY, PINION_SPEED = "load.wheel_torque", "motion.mesh_frequency", "motion.pinion_speed"
+FREQUENCY, PINION_SPEED = "motion.mesh_frequency", "motion.pinion_speed"
 SPEED_KINDS = (units.A_FREQUENCY, units.AN_ANGULAR_SPEED)
 NOTHING_DONE = "Nothing was computed or written."
 
 
 @dataclass(frozen=True)
 class LoadMap:
-    """A scene's file with the scene, torques on the wheel and speeds as they are written ("437 N m"; "200 Hz" or "750 rpm"; none: no speeds)."""
+    """A scene's file with the scene, loads and speeds as they are written ("437 N m", "15 kW"; "200 Hz" or "750 rpm"; none: no speeds).
+
+    Loads are what the scene gives: torques on the wheel, torques on the pinion, or powers, which go through the pair at every speed.
+    """
 
     file: Path
     scene: Scene
     loads: tuple[str, ...]
     speeds: tuple[str, ...] = ()
+
+    @property
+    def load_field(self) -> str:
+        """The field that the loads are values of."""
+        return f"load.{self.scene.load.given}"
+
+    @property
+    def numbers(self) -> list[float]:
+        """The loads as numbers in the unit of their pictures."""
+        return [units.quantity(each)[0] / units.quantity(f"1 {LOAD_WORDS[self.scene.load.given][0]}")[0] for each in self.loads]
+
+    def wheel_torque(self, load: str, mesh_frequency: float | None = None) -> float:
+        """Torque (N mm) on the wheel at a load, a power at a mesh frequency (Hz), the scene's unless given."""
+        teeth = self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth
+        torque = wheel_torque(self.scene.load.given, units.quantity(load)[0], teeth, mesh_frequency or self.scene.motion.mesh_frequency)
+        assert torque is not None, "a load by power has a speed"
+        return torque
 
     @property
     def count(self) -> int:
@@ -74,12 +95,15 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
     """
     if not loads and not speeds:
         raise SceneError(f'gears map: neither {LOADS} nor {SPEEDS} is given. Allowed: such as {LOADS} "100 N m" "200 N m" or {LOADS} "50 .. 500 N m in 10". {NOTHING_DONE}')
-    torques = _values(LOADS, loads, "a torque") or (f"{scene.load.wheel_torque * 1e-3:.12g} N m",)
+    unit, words = LOAD_WORDS[scene.load.given]
+    kind = "power" if unit == "kW" else "torque"
+    torques = _values(LOADS, loads, f"a {kind}", why=f"The scene gives its load as {words}. ")
+    torques = torques or (f"{scene.given_load / units.quantity(f'1 {unit}')[0]:.12g} {unit}",)
     written = _values(SPEEDS, speeds, *SPEED_KINDS)
     backwards = [each for each in torques if units.quantity(each)[0] < 0.0]
     if backwards and scene.coast_flanks is None:
         raise SceneError(
-            f"{LOADS} {backwards[0]}: a negative torque drives the pair from the wheel, on its coast flanks, and {file} has no section [coast_flanks]. "
+            f"{LOADS} {backwards[0]}: a negative {kind} drives the pair from the wheel, on its coast flanks, and {file} has no section [coast_flanks]. "
             f"Add it, or leave negative loads out. {NOTHING_DONE}"
         )
     if written and scene.inertia is None:
@@ -95,7 +119,7 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
     return found
 
 
-def _values(option: str, written: Sequence[str], *kinds: str) -> tuple[str, ...]:
+def _values(option: str, written: Sequence[str], *kinds: str, why: str = "") -> tuple[str, ...]:
     """All values of an option, each once. Raises SceneError for one that is none of these kinds of quantities."""
     found: list[str] = []
     for word in written:
@@ -103,7 +127,7 @@ def _values(option: str, written: Sequence[str], *kinds: str) -> tuple[str, ...]
             found += values_in_words(word)
             units.of_kind(found[-1], *kinds)
         except (AxisError, units.QuantityError) as error:
-            raise SceneError(f'{option} "{word}" {error} Each value stands in quotes with its unit. {NOTHING_DONE}') from None
+            raise SceneError(f'{option} "{word}" {error} Each value stands in quotes with its unit. {why}{NOTHING_DONE}') from None
     numbers = [units.of_kind(each, *kinds)[0] for each in found]
     if len(set(numbers)) < len(numbers) or not all(map(isfinite, numbers)):
         again = next(each for place, each in enumerate(found) if not isfinite(numbers[place]) or numbers[place] in numbers[:place])
@@ -114,6 +138,13 @@ def _values(option: str, written: Sequence[str], *kinds: str) -> tuple[str, ...]
 def _by_pinion(speed: str) -> bool:
     """Whether a speed is the pinion's, else a mesh frequency."""
     return units.of_kind(speed, *SPEED_KINDS)[1] == units.AN_ANGULAR_SPEED
+
+
+def _frequencies(wanted: LoadMap) -> list[float | None]:
+    """Mesh frequencies (Hz) at which a load has torques of its own: None for the scene's, of a power also those of the speeds."""
+    speeds = wanted.speeds if wanted.scene.load.given == "power" else ()
+    per_turn = wanted.scene.gears.pinion.teeth / (2.0 * pi)
+    return [None, *(units.of_kind(each, *SPEED_KINDS)[0] * (per_turn if _by_pinion(each) else 1.0) for each in speeds)]
 
 
 def _ends(values: tuple[str, ...]) -> tuple[str, ...]:
@@ -128,7 +159,7 @@ def _quasi_static(wanted: LoadMap) -> dict[str, Any]:
     alike = common_period(quasi_static(scene)) == 1
     without = [*sorted(left), "motion.settling_time", *(("motion.recorded_cycles", "output.contact_fields") if alike else ())]
     fixed = {"motion.mesh_cycles": 2} if alike else {}
-    return {"without": without, "set": {**fixed, **shared_accuracy(wanted)}, "sweep": {TORQUE: list(wanted.loads)}}
+    return {"without": without, "set": {**fixed, **shared_accuracy(wanted)}, "sweep": {wanted.load_field: list(wanted.loads)}}
 
 
 def _over_speed(wanted: LoadMap) -> dict[str, Any]:
@@ -141,7 +172,7 @@ def _over_speed(wanted: LoadMap) -> dict[str, Any]:
     if isfinite(seconds) and "settling_time" not in tomllib.loads(wanted.scene.text).get("motion", {}):
         without.append("motion.mesh_cycles")
         fixed["motion.settling_time"] = f"{seconds:.4g} s"
-    return {"without": without, "set": fixed, "sweep": {TORQUE: list(wanted.loads), PINION_SPEED if by_pinion else FREQUENCY: list(wanted.speeds)}}
+    return {"without": without, "set": fixed, "sweep": {wanted.load_field: list(wanted.loads), PINION_SPEED if by_pinion else FREQUENCY: list(wanted.speeds)}}
 
 
 def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
@@ -150,7 +181,7 @@ def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
     Flank elements are those of the geometric mean of the loads, the contact length is that of the largest.
     """
     scene, given = wanted.scene, wanted.scene.accuracy
-    torques = [abs(units.quantity(each)[0]) for each in wanted.loads if units.quantity(each)[0]]
+    torques = [abs(torque) for each in wanted.loads for speed in _frequencies(wanted) if (torque := wanted.wheel_torque(each, speed))]
     if not scene.resolves_contact or given.target is not None or not torques:
         return {}
     middle, largest = (model_of(quasi_static(replace(scene, load=Load(torque)))).resolution for torque in (sqrt(min(torques) * max(torques)), max(torques)))

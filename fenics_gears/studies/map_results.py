@@ -12,14 +12,13 @@ import fenics_gears
 from fenics_gears import results
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.inputs.units import quantity
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import model_of
 from fenics_gears.results.contact_variables import mesh_force
 from fenics_gears.results.key_numbers import HARMONIC_NAMES, MICROMETRE
 from fenics_gears.results.settled import of_settled
 from fenics_gears.results.spectrum import NO_WINDOW, order_lines
-from fenics_gears.scene.data import Load, Scene
+from fenics_gears.scene.data import LOAD_WORDS, Load, Scene
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.load_map import LoadMap
 from fenics_gears.studies.run_study import Outcome
@@ -40,12 +39,12 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
     """
     scene, pair = wanted.scene, model_of(wanted.scene).pair
     length, study = pair.wheel.base_radius / MICROMETRE, load_combined(at_rest.file)
-    found = xr.Dataset(coords={"load": ("load", np.array([quantity(each)[0] * 1e-3 for each in wanted.loads]), _labels("N m", "torque on the wheel"))})
+    found = xr.Dataset(coords={"load": ("load", np.array(wanted.numbers), _labels(*LOAD_WORDS[scene.load.given]))})
     found = found.assign(_taken(study, AT_REST, ("load",), length))
     if "mesh_phase" in study:
         found = found.assign_coords(mesh_phase=study["mesh_phase"]).assign(_taken(study, CURVES, ("load", "mesh_phase"), length))
     if scene.inertia is not None:
-        found = found.assign(frequencies_over_load(scene, found["load"].values, found.get("mean_mesh_stiffness_tangent"), pair)).set_coords(["excited", "motion"])
+        found = found.assign(frequencies_over_load(scene, np.array([1e-3 * wanted.wheel_torque(each) for each in wanted.loads]), found.get("mean_mesh_stiffness_tangent"), pair)).set_coords(["excited", "motion"])
     if over_speed is not None:
         study, dimensions = load_combined(over_speed.file), ("load", "mesh_frequency")
         found = found.assign(_spectra(over_speed, pair, found.sizes["load"])).set_coords("pinion_speed")
@@ -69,7 +68,7 @@ def _taken(study: xr.Dataset, names: Sequence[str], dimensions: tuple[str, ...],
 
 
 def frequencies_over_load(scene: Scene, loads: np.ndarray, tangents: xr.DataArray | None, pair: GearPair) -> Columns:
-    """Natural frequencies of the drivetrain (load, mode), the mesh being a spring of its mean tangent stiffness at the load."""
+    """Natural frequencies of the drivetrain (load, mode), the mesh being a spring of its mean tangent stiffness at torques (loads,), N m, on the wheel."""
     every = []
     for place, torque in enumerate(loads):
         rough = mesh_stiffness(scene)

@@ -4,9 +4,13 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.integrate import quad
+from tests.helical import wide_pair
 
+from fenics_gears.rating.finish import Finish
 from fenics_gears.rating.flash_temperature import STEEL, flash_temperature, standard_share
+from fenics_gears.rating.rating import _flash, _operation
 from fenics_gears.scene.data import Material
 
 MATERIALS = (Material(206e3, 0.3), Material(206e3, 0.3))
@@ -50,3 +54,17 @@ def test_load_share_of_unmodified_teeth(paper_pair):
     lowest, highest = paper_pair.path_end - paper_pair.base_pitch, paper_pair.path_start + paper_pair.base_pitch
     places = [paper_pair.path_start, lowest - 1e-9, 0.5 * (lowest + highest), highest + 1e-9, paper_pair.path_end]
     assert standard_share(paper_pair, places) == pytest.approx([1 / 3, 2 / 3, 1.0, 2 / 3, 1 / 3], abs=1e-6)
+
+
+def test_computed_forces_enter_in_the_transverse_section_as_the_standards_do():
+    """Statics: a tooth pair of a helical gear that carries F_bt/cos(beta_b) along the contact normal has the flash temperature of the line force F_bt/b."""
+    scene = wide_pair("[friction]\ncoefficient = 0.05\n")
+    operation = _operation(scene)
+    pair, force = operation.pair, scene.load.wheel_torque / operation.pair.wheel.base_radius
+    phase = np.linspace(0.0, 0.95 * pair.contact_ratio, 40)
+    dims = ("time", "slot")
+    coordinates = {"time": phase, "mesh_phase": ("time", phase), "pair_number": (dims, np.ones((40, 1), dtype=int), {"number_at_phase_0": 1})}
+    result = xr.Dataset({"pair_normal_force": (dims, np.full((40, 1), force / pair.cosine))}, coordinates, {"friction_coefficient": 0.05})
+    expected = flash_temperature(pair, operation.materials, pair.path_start + phase * pair.base_pitch, np.full(40, force / pair.face_width), 0.05, operation.pinion_speed)
+    (row,) = _flash(operation, Finish(), result)
+    assert pair.cosine < 0.98 and row.computed == pytest.approx(expected.max())

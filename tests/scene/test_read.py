@@ -30,12 +30,12 @@ def numbers(section):
         (
             "gears",
             [4.5, math.pi / 9, 91.5, 15.0]
-            + [16, 0.196, 82.64, 62.5, 30.0, 0.38, None, None, 0.0, 0.0, 0.0, None]
-            + [24, 0.125, 118.64, 98.37, 40.0, 0.38, None, None, 0.0, 0.0, 0.0, None]
+            + [16, 0.196, 82.64, 62.5, 30.0, 0.38, None, None, 0.0, 0.0, 0.0, None, None]
+            + [24, 0.125, 118.64, 98.37, 40.0, 0.38, None, None, 0.0, 0.0, 0.0, None, None]
             + [2.06e5, 0.3, None]
             + [0.0, "right", (0.0, 0.0)],
         ),
-        ("load", [0.437e6]),
+        ("load", [0.437e6, "wheel_torque"]),
         ("motion", [200.0, 30, 2, False, True]),
         ("shafts", [0.203e9, None, None]),
         ("bearings", [0.155e6, None, None, None, None, None, None]),

@@ -20,7 +20,7 @@ def made_up(natural=((600.0, 2500.0), (600.0, 2500.0)), damping=0.1, motion=("",
             "transmission_error_amplitude": (("load", "mesh_frequency", "order"), amplitudes), "mesh_force_amplitude": (("load", "mesh_frequency", "order"), 0.0 * amplitudes),
             "peak_to_peak_transmission_error": ("load", [1.0, 2.0]), "dynamic_factor_by_force": (("load", "mesh_frequency"), np.ones((2, 4))),
         },
-        {"load": [100.0, 200.0], "mesh_frequency": SPEEDS, "pinion_speed": ("mesh_frequency", 60.0 * np.array(SPEEDS) / 16.0), "order": ORDERS},
+        {"load": ("load", [100.0, 200.0], {"units": "N m", "long_name": "torque on the wheel"}), "mesh_frequency": SPEEDS, "pinion_speed": ("mesh_frequency", 60.0 * np.array(SPEEDS) / 16.0), "order": ORDERS},
     )  # fmt: skip
 
 

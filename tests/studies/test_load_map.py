@@ -47,6 +47,22 @@ def test_ranges_in_words_are_those_of_studies(written, values):
     assert list(values_in_words(written)) == values
 
 
+@pytest.mark.parametrize("load, loads, other", [('pinion_torque = "200 N m"', ("200 N m",), "20 kW"), ('power = "20 kW"', ("20 kW",), "200 N m")])
+def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other):
+    """Authority: T_2 = T_1 z_2/z_1 and T_2 = P/(2 pi n_2), a power being the same at every speed; and the scene's own field, in words and in the sweep."""
+    file = tmp_path / "pair.toml"
+    file.write_text(load_scene(DEMO).text.replace('wheel_torque = "437 N m"', load), encoding="utf-8")
+    wanted = load_map(file, load_scene(file), (), ("100 Hz", "400 Hz"), 10)
+    assert wanted.loads == loads and wanted.numbers == [float(loads[0].split()[0])]
+    cases = {name: [case.scene for case in study.cases] for name, study in wanted.studies.items()}
+    for scene in (*cases[QUASI_STATIC], *cases[OVER_SPEED]):
+        by_power = 20e6 / (2.0 * pi * scene.motion.mesh_frequency / 24)
+        assert scene.load.wheel_torque == pytest.approx(by_power if "power" in load else 200e3 * 24 / 16)
+    assert [scene.motion.mesh_frequency for scene in cases[OVER_SPEED]] == [100.0, 400.0]
+    with pytest.raises(SceneError, match="The scene gives its load as"):
+        load_map(file, load_scene(file), (other,), (), 10)
+
+
 @pytest.mark.parametrize("written, message", [("1 .. 5 Hz", "number of its values"), ("1 .. 5 Hz in 1", "from 2 to"), ("5 .. 5 Hz in 3", "starts where it stops"), ("1 .. 5 Hz by 1 N", "mixes")])
 def test_ranges_that_are_none_say_why(written, message):
     """Authority: the messages of a study's ranges."""

@@ -17,8 +17,9 @@ LISTED_ORDERS = 10
 
 
 def motion(run: Run) -> Section:
-    """Curves of all motions that the result has; first, which of its cycles are seen."""
-    return _section("motion", "Transmission error and motion", run, motion_charts)
+    """Curves of all motions that the result has; first, which of its cycles are seen here and in what follows."""
+    section = _section("motion", "Transmission error and motion", run, motion_charts)
+    return replace(section, blocks=[*_cycles_shown(run), *section.blocks]) if run.has_curves else section
 
 
 def forces(run: Run) -> Section:
@@ -40,13 +41,17 @@ def pressure(run: Run) -> Section:
 def _section(name: str, heading: str, run: Run, charts) -> Section:
     if not run.has_curves:
         return Section(name, heading, [Words(TOO_FEW, warns=True)])
+    return Section(name, heading, list(charts(run)))
+
+
+def _cycles_shown(run: Run) -> list[Block]:
+    """Which cycles are seen in this section and the next ones; nothing where it is all that is stored."""
     first, last = run.window
     part = (
         f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a double click shows all of them, but not of single tooth pairs."
     )
     fewer = f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
-    words = "" if run.shows_all else part + (f" {fewer}" if run.steps > MOST_POINTS else "")
-    return Section(name, heading, [*([Words(words)] if words else []), *charts(run)])
+    return [] if run.shows_all else [Words(part + (f" {fewer}" if run.steps > MOST_POINTS else ""))]
 
 
 def spectra(run: Run) -> Section:

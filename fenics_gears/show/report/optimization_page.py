@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from fenics_gears.show.optimization import (
+    BEFORE,
     called,
     front_chart,
     goal_words,
@@ -17,7 +18,9 @@ from fenics_gears.show.optimization import (
     tolerance_rows,
     variable_chart,
 )
+from fenics_gears.show.optimization import BEST as CHOSEN
 from fenics_gears.show.report.origin import made_by, scene_section
+from fenics_gears.show.report.overview import counted
 from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.report.rendering import rendered
 from fenics_gears.studies.optimization.optimize import Outcome
@@ -37,15 +40,18 @@ def write_page(outcome: Outcome) -> Path:
 def optimization_page(outcome: Outcome) -> Page:
     """The page of what an optimisation found."""
     design = outcome.design
-    sections = [_summary(outcome), _designs(outcome), Section("variables", "Each variable alone", [
-        variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals
-    ])]  # fmt: skip
+    maps = harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
+    sections = [
+        _summary(outcome),
+        Section("harris", "Harris maps before and after", [Words("Quasi-static transmission error over two mesh cycles, a curve for each torque."), *maps]),
+        Section("variables", "Each variable alone", [variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals]),
+        _designs(outcome),
+    ]
     if design.tolerances.scatters:
         sections.append(_tolerances(outcome))
-    maps = harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
-    sections.append(Section("harris", "Harris maps before and after", [Words("Quasi-static transmission error over two mesh cycles, a curve for each torque."), *maps]))
     sections += [scene_section(best_scene(outcome), f"Chosen design ({BEST})"), scene_section(design.text, "Design file", "design")]
-    subtitle = f"{len(outcome.tried)} designs of {len(design.variables)} variables at {len(design.loads.points)} operating points"
+    numbers = (counted(len(each), words) for each, words in ((outcome.tried, "design"), (design.variables, "variable"), (design.loads.points, "operating point")))
+    subtitle = "{} of {} at {}".format(*numbers)
     return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), no_gain(outcome))
 
 
@@ -54,7 +60,9 @@ def _summary(outcome: Outcome) -> Section:
     for goal in outcome.design.goals:
         note = f"before: {goal_words(outcome, goal, outcome.before)}"
         tiles.append(Tile(sentence(called(goal.name)), f"{outcome.chosen.goals[goal.name]:.4g}", goal.unit.replace("um", "µm").removeprefix("1"), note))
-    return Section("summary", "Summary", [Tiles(tiles), Facts(summary_rows(outcome))])
+    # Goals before and after are on the tiles, where there are no tolerances, of which the rows have more.
+    said = set() if outcome.design.tolerances.scatters else {f"{called(goal.name)}, {words}" for goal in outcome.design.goals for words in (BEFORE, CHOSEN)}
+    return Section("summary", "Summary", [Tiles(tiles), Facts([row for row in summary_rows(outcome) if row[0] not in said])])
 
 
 def _designs(outcome: Outcome) -> Section:
@@ -68,7 +76,7 @@ def _designs(outcome: Outcome) -> Section:
     rows = []
     for place in listed[:MOST_ROWS]:
         numbers = [outcome.tried[place].values[each.name] for each in design.variables] + [outcome.tried[place].goals[goal.name] for goal in design.goals]
-        rows.append([Cell(f"{place}{' (chosen)' if place == outcome.best else ''}", float(place)), *(Cell(each) if isinstance(each, str) else Cell(f"{each:.5g}", each) for each in numbers)])
+        rows.append([Cell(f"{place}{' (chosen)' if place == outcome.best else ''}", float(place)), *(Cell(each) if isinstance(each, str) else Cell(f"{each:.4g}", each) for each in numbers)])
     failures = [(str(place), Cell(each.failure, warns=True)) for place, each in enumerate(outcome.tried) if each.failure]
     blocks += [Words(f"The {len(rows)} {words}; `{TABLE}` has all designs."), Table(headings, rows, sortable=True)]
     blocks += [Words(f"{len(failures)} designs failed."), Table(("Design", "Why"), failures[:MOST_ROWS], numbers=9)] if failures else []

@@ -61,7 +61,7 @@ def _summary(cases: Cases) -> Section:
     for field in cases.fields:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
         shown = ", ".join(values) if len(values) <= 8 else f"{', '.join(values[:3])}, … {values[-1]}"
-        rows.append((field.path, f"{shown} {field.unit}".strip(), ""))
+        rows.append((field.called, f"{shown} {field.unit}".strip(), ""))
     remarks = [Words(f"Remark: {said}.") for said in str(cases.dataset.attrs.get("remarks", "")).splitlines()]
     return Section("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields"), *remarks])
 
@@ -142,7 +142,7 @@ def _table(cases: Cases) -> Section:
     for case in range(min(cases.count, MOST_ROWS)):
         swept = [Cell(field.words(case), float(field.values[case]) if field.numeric else None) for field in cases.fields]
         state = Cell(states[case], warns=states[case] in STATES[1:3])
-        numbers = [Cell(f"{values[case]:#.5g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case])) for values, _ in measures.values()]
+        numbers = [Cell(f"{values[case]:#.4g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case])) for values, _ in measures.values()]
         count = Cell(f"{iterations[case]:.0f}" if np.isfinite(iterations[case]) else "", float(iterations[case]))
         rows.append([Cell(str(case), float(case), cases.link(case)), *swept, state, *numbers, count])
     blocks: list[Block] = [

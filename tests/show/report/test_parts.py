@@ -1,6 +1,7 @@
 """What curves, spectra and the drawing of a report are made of."""
 
-from math import pi
+from dataclasses import replace
+from math import asin, cos, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -9,18 +10,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.path import Path
 from scipy.spatial import cKDTree
+from tests.helical import wide_pair
 from tests.show.synthetic import made_up_run
 
+from fenics_gears.scene.data import Load
 from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.orders import spectrum
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.interactive import figure
-from fenics_gears.show.report.overview import counted, digits, summary
+from fenics_gears.show.report.overview import counted, summary
 from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
-from fenics_gears.show.run import Run
+from fenics_gears.show.report.solver import _extent
+from fenics_gears.show.run import Run, conditions
 from fenics_gears.show.thinning import thinned
+from fenics_gears.show.units import digits
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
@@ -93,26 +98,67 @@ def test_the_largest_order_is_named_where_the_picture_ends_before_it(paper_scene
         assert ("at order 14, beyond the picture" in section.blocks[0].note) == said
 
 
-def tiles_and_rows(dataset, tmp_path):
-    """The summary's tiles by their labels, and its rows."""
-    tiles, facts = summary(Run(dataset, tmp_path / "run.nc")).blocks
-    return {tile.label: tile for tile in tiles.tiles}, {name: value for name, value, _ in facts.rows}
+def tiles_of(dataset, tmp_path):
+    """The summary's tiles by their labels."""
+    (tiles,) = summary(Run(dataset, tmp_path / "run.nc")).blocks
+    return {tile.label: tile for tile in tiles.tiles}
 
 
 def test_a_ramp_is_told_from_its_first_frequency_to_its_last(paper_scene, tmp_path):
     """Down is not up: 200 to 50 Hz, as the scene says."""
-    assert tiles_and_rows(ramp_of(paper_scene, 2.0), tmp_path)[1]["mesh frequency"] == "200 to 50 Hz"
+    tile = tiles_of(ramp_of(paper_scene, 2.0), tmp_path)["Mesh frequency"]
+    assert (tile.value, tile.unit) == ("200 to 50", "Hz")
+
+
+def test_a_scene_without_speed_has_none_on_its_page(paper_scene, tmp_path):
+    """Authority: the scene: without [motion] nothing depends on a speed, and its nominal 1 Hz is no figure of the pair's."""
+    text = paper_scene.text
+    for section in ("motion", "inertia", "damping"):
+        before, _, after = text.partition(f"[{section}]")
+        text = before + after[after.index("\n[") + 1 :]
+    run = Run(made_up_run(scene=text), tmp_path / "run.nc")
+    assert run.scene is not None and not run.scene.motion.speed_given
+    assert "Mesh frequency" not in tiles_of(run.dataset, tmp_path) and "rpm" not in str(summary(run))
+    assert " s," not in {label: value for label, value, _ in _extent(run)}["stored"]
+
+
+def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal(paper_scene, tmp_path):
+    """Authority: statics: F_bn = T_2/(r_b2 cos(beta_b)); a mesh force of just that size is 1.000 times the nominal one, of a helical pair too."""
+    for scene, helix in ((paper_scene.text, 0.0), (wide_pair().text, 15.0)):
+        run = made_up_run(scene=scene)
+        pair = Run(run).pair
+        run["normal_force"] = 0.0 * run["normal_force"] + Run(run).scene.load.wheel_torque / (pair.wheel.base_radius * cos(asin(sin(radians(helix)) * cos(radians(20.0)))))
+        assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 ×")
+
+
+@pytest.mark.parametrize("given, words", [("wheel_torque", "437 N m on the wheel"), ("pinion_torque", "291.3 N m on the pinion"), ("power", "22.88 kW")])
+def test_loads_are_titled_as_the_scene_gives_them(paper_scene, given, words):
+    """Arithmetic: 437 N m on 24 teeth are 291.33 on 16, and 22.88 kW at 200 Hz; a title has four digits."""
+    assert conditions(replace(paper_scene, load=Load(437e3, given))).startswith(f"{words}, 200 Hz")
+
+
+def test_the_page_has_the_profile_shift_of_the_drawing_and_that_of_the_thickness(paper_scene, tmp_path):
+    """Authority: ISO 21771: x_E is less than x by the backlash; without thinner teeth there is one shift, with them both stand on the page."""
+
+    def shifts(text):
+        table = geometry(Run(made_up_run(scene=text), tmp_path / "run.nc")).blocks[-1].blocks[0]
+        return {row[0]: row[1:] for row in table.rows if "profile shift" in row[0]}
+
+    assert shifts(paper_scene.text) == {"profile shift x (modules)": ("0.196", "0.125")}
+    thinner = shifts(paper_scene.text.replace('face_width = "15 mm"', 'face_width = "15 mm"\nbacklash = "0.2 mm"'))
+    generating = thinner["generating profile shift x_E, of the tooth thickness (modules)"]
+    assert thinner["profile shift x (modules)"] == ("0.196", "0.125") and float(generating[0]) < 0.196 and float(generating[1]) < 0.125
 
 
 def test_contact_loss_is_said_of_the_flanks_that_lose_it(paper_scene, tmp_path):
     """A wheel that drives presses on the coast flanks all the time: what is lost is the contact of the drive flanks."""
     lost = {"contact_loss_count": 1, "contact_loss_share": 1.0, "contact_loss_opening": 0.2, "contact_loss_longest": 0.15}
-    tiles, rows = tiles_and_rows(made_up_run(scene=paper_scene.text, **lost), tmp_path)
+    tiles = tiles_of(made_up_run(scene=paper_scene.text, **lost), tmp_path)
     assert (tiles["Contact lost"].value, tiles["Contact lost"].unit) == ("1", "time") and "wheel drives" not in tiles["Contact lost"].note
-    assert rows["contact of the drive flanks"] == "lost 1 time, for up to 0.15 s"
+    assert ", for up to 0.15 s, " in tiles["Contact lost"].note
     backwards = made_up_run(scene=paper_scene.text.replace('"437 N m"', '"-437 N m"') + "\n[coast_flanks]\n", **lost)
     backwards["coast_normal_force"] = backwards["normal_force"]
-    assert "the wheel drives, on the coast flanks" in tiles_and_rows(backwards, tmp_path)[0]["Contact of the drive flanks lost"].note
+    assert "the wheel drives, on the coast flanks" in tiles_of(backwards, tmp_path)["Contact of the drive flanks lost"].note
 
 
 def test_numbers_of_a_tile_fit_into_it():
@@ -175,7 +221,7 @@ def test_the_teeth_are_drawn_on_the_line_of_action_of_the_flanks_that_carry(pape
     run = made_up_run(scene=paper_scene.text)
     assert not Run(run, tmp_path / "run.nc").on_coast_flanks
     run["coast_normal_force"], run["normal_force"] = run["normal_force"], 0.0 * run["normal_force"]
-    captions = [block.caption for block in geometry(Run(run, tmp_path / "run.nc")).blocks[1:]]
+    captions = [block.caption for block in geometry(Run(run, tmp_path / "run.nc")).blocks[:-1]]
     assert captions == ["The pair", "Teeth along the path of contact of the coast flanks, which carry"]
 
 

@@ -26,7 +26,7 @@ from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 CHECKOUT = Path(__file__).parents[3]
 pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = [
-    "summary", "warnings", "numbers", "effects", "geometry", "motion", "spectra", "forces", "pressure", "stress", "root-stress", "energy", "solver",
+    "summary", "warnings", "motion", "forces", "pressure", "stress", "root-stress", "spectra", "geometry", "numbers", "effects", "energy", "solver",
     "versions", "scene",
 ]  # fmt: skip
 
@@ -245,7 +245,7 @@ def test_a_long_run_makes_a_small_page(run, tmp_path):
     assert (tmp_path / "report.html").stat().st_size < 10e6
     drawn = page.scripts[captions(page).index("Normal force of the mesh")]
     assert "123456.0" in drawn and drawn.count(",") < 20_000
-    assert "Of the 30,001 steps" in page.sections["forces"]
+    assert "Of the 30,001 steps" in page.sections["motion"]
 
 
 def refusal(capsys, *arguments):
