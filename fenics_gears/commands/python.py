@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
 
 def add(commands) -> None:
@@ -12,7 +13,7 @@ def add(commands) -> None:
     commands.add_parser("python", help="run a Python script that imports fenics_gears, or a module such as `-m jupyter lab`, in the program's own Python", add_help=False)
 
 
-def run_python(options: Sequence[str]) -> None:
+def run_python(options: Sequence[str]) -> NoReturn:
     """Become Python with these arguments, in the folder of the call; ./gears has set the path to the checkout."""
     sys.stdout.flush()
     os.execv(sys.executable, [sys.executable, *options])

@@ -17,6 +17,8 @@ from fenics_gears.show.run import Run
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
 ROWS = 200
+# Times the pressure of the step beside it, from which a peak is that of an edge and not of the flank.
+EDGE_PEAK = 2.0
 NOTE = "Averaged over five contact nodes; between steps the peak is interpolated along the flank."
 # The colours end at this part of the largest pressure off the edges, in which single nodes scatter.
 ABOVE_PEAK = 1.1
@@ -94,6 +96,8 @@ def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices:
     fill(pressure[pressed], pressure[pressed], edges[0][pressed], edges[1][pressed], np.nonzero(pressed)[2])
     node = np.where(pressed, pressure, 0.0).argmax(axis=-1)[..., None]
     peak, place = (np.take_along_axis(each, node, -1)[..., 0] for each in (pressure, 2.0 * radius(np.clip(rolls, *ends))))
-    goes_on = (peak[1:] > 0.0) & (peak[:-1] > 0.0) & (numbers[1:] == numbers[:-1])[..., None] & np.isfinite(place[1:] + place[:-1])
+    # The peak of an edge, many times that of the flank, is no larger at the steps between.
+    alike = np.maximum(peak[1:], peak[:-1]) < EDGE_PEAK * np.minimum(peak[1:], peak[:-1])
+    goes_on = alike & (numbers[1:] == numbers[:-1])[..., None] & np.isfinite(place[1:] + place[:-1])
     fill(peak[:-1][goes_on], peak[1:][goes_on], place[:-1][goes_on], place[1:][goes_on], np.nonzero(goes_on)[2])
     return Field(slices, diameters, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)
