@@ -21,7 +21,7 @@ from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
 from fenics_gears.show.units import digits, factor, in_unit
 
-NO_SCENE = "The scene in this file is none that this version of the program can read, so that this section cannot be made; run the scene again."
+NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
 TOO_FEW = "Fewer than two steps are stored; a curve needs two."
 # Most mesh cycles side by side in a chart. Of longer records the last ones are shown, and all of them cycle by cycle.
 MOST_CYCLES = 4.0

@@ -17,7 +17,7 @@ from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.scene.data import Load
 from fenics_gears.simulation.simulate import simulate
 
-# Beside the first pair, as the issue of memory asks for a hundred pairs; the first ones alone made half a gigabyte.
+# Bytes beside what is held after the first pair; when operators stayed, five pairs took half a gigabyte more.
 MOST_MORE = 150e6
 
 
