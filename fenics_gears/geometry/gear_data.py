@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST 13755-2015; A is also the rack of DIN 867.
 RACKS = {"ISO 53 A": (1.0, 1.25, 0.38), "ISO 53 B": (1.0, 1.25, 0.3), "ISO 53 C": (1.0, 1.25, 0.25), "ISO 53 D": (1.0, 1.4, 0.39)}
@@ -51,7 +51,7 @@ class GearData:
     protuberance: float = 0.0
     protuberance_angle: float = 0.0
     web: Web | None = None
-    nominal_profile_shift: float | None = None
+    nominal_profile_shift: float | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ class Load:
     """Torque on the wheel's shaft, N mm; positive when it resists the drive. `given`: the field by which the scene has it, in whose words a run is titled."""
 
     wheel_torque: float
-    given: str = "wheel_torque"
+    given: str = field(default="wheel_torque", compare=False)
 
 
 # How a scene can give its load: unit and name for people.
