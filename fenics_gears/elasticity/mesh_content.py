@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-import io
+import json
 import os
 import resource
 import signal
 import subprocess
 import sys
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -61,8 +61,7 @@ def mesh_content(path: Path) -> MeshContent:
         raise SceneError(f"body mesh {path}: gmsh has not read it after {seconds:.0f} s: {DAMAGED}") from None
     if done.returncode:
         raise SceneError(f"body mesh {path}: gmsh cannot read it ({_reason(done)})")
-    with np.load(io.BytesIO(done.stdout), allow_pickle=False) as arrays:
-        return MeshContent(*(arrays[each.name] for each in fields(MeshContent)))
+    return _unpacked(done.stdout)
 
 
 def _reason(done: subprocess.CompletedProcess) -> str:
@@ -93,6 +92,22 @@ def _read(name: str) -> MeshContent:
     return MeshContent(*map(np.asarray, arrays))
 
 
+def _packed(content: MeshContent) -> bytes:
+    """A line that says of what type and shape each array is, and all their bytes."""
+    arrays = list(vars(content).values())
+    kinds = json.dumps([(each.dtype.str, each.shape) for each in arrays])
+    return b"".join([kinds.encode(), b"\n", *(each.tobytes() for each in arrays)])
+
+
+def _unpacked(packed: bytes) -> MeshContent:
+    kinds, _, content = packed.partition(b"\n")
+    arrays, place = [], 0
+    for kind, shape in json.loads(kinds):
+        arrays.append(np.ndarray(shape, kind, content, place))
+        place += arrays[-1].nbytes
+    return MeshContent(*arrays)
+
+
 if __name__ == "__main__":
     for what, limit in ((resource.RLIMIT_AS, int(sys.argv[2])), (resource.RLIMIT_CORE, 0)):
         # Who started this may allow less, which can only be lowered.
@@ -102,6 +117,4 @@ if __name__ == "__main__":
         content = _read(sys.argv[1])
     except Exception as error:  # gmsh raises nothing more precise
         sys.exit(str(error) or type(error).__name__)
-    packed = io.BytesIO()
-    np.savez(packed, **vars(content))
-    sys.stdout.buffer.write(packed.getvalue())
+    sys.stdout.buffer.write(_packed(content))
