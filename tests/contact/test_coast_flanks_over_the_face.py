@@ -147,7 +147,8 @@ def test_load_factors_where_the_wheel_drives():
         factors.append(load_factors(run_of(model, on_stand_in_bodies(model)).result, model.pair))
     assert factors[0].keys() == factors[1].keys() and len(factors[0]) == 6
     for name, value in factors[0].items():
-        assert factors[1][name] == pytest.approx(value, rel=5e-3), name
+        # An edge passes a slice within a few steps: 1.1 % apart with 40 steps, 0.7 % with 160.
+        assert factors[1][name] == pytest.approx(value, rel=2e-2 if name == "edge_line_load_factor" else 5e-3), name
     assert factors[0]["face_load_factor"] > 1.2
 
 
