@@ -71,6 +71,8 @@ def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:
             yield "its contact fields are not at its steps"
         both.append("contact_pair_number")
     for name in both:
+        if name not in result.variables:
+            yield f"it has tooth pairs in slots and no {name}"
         numbers, slots = result[name], result.sizes["slot"]
         if not isinstance(numbers.attrs.get("number_at_phase_0"), (int, np.integer)):
             yield f"{name} has no whole number as its attribute number_at_phase_0"

@@ -33,6 +33,7 @@ def small_result(complete=1):
     steps = ("time",)
     return xr.Dataset(
         {"transmission_error": (steps, np.array([0.0, 1e-4, 2e-4])), "newton_iterations": (steps, np.array([2, 3, 4]))},
+        {"time": np.arange(3.0), "mesh_phase": (steps, np.arange(3.0) / 2.0)},
         attrs={
             "complete": complete,
             "scene": DEMO.read_text(encoding="utf-8"),

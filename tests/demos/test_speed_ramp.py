@@ -18,7 +18,7 @@ def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
     """Authority: the demonstration's own words."""
     up, down = (load_scene(sweeps.HERE / f"{name}.toml") for name in ("up", "down"))
     assert (up.motion.mesh_frequency, up.speed_ramp.end_frequency) == (down.speed_ramp.end_frequency, down.motion.mesh_frequency) == (150.0, 260.0)
-    same = {"title": "", "text": "", "name": "", "motion": down.motion, "speed_ramp": down.speed_ramp}
+    same = {"title": "", "name": "", "motion": down.motion, "speed_ramp": down.speed_ramp}
     assert replace(up, **same) == replace(down, **same)
     assert model_of(up).warnings == model_of(down).warnings == []
 

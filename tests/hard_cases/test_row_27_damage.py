@@ -38,8 +38,9 @@ def own_cache(tmp_path):
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     """A result like that of a run, small."""
-    values = {"transmission_error": ("time", np.sin(np.arange(40.0))), "contact_pressure": (("time", "node"), np.arange(120.0).reshape(40, 3))}
-    coordinates = {"gear": ("gear", ["pinion", "wheel"], {"long_name": "gear"}), "slot": ("slot", np.array([0, 1]))}
+    values = {"transmission_error": ("time", np.sin(np.arange(40.0))), "own_field": (("time", "node"), np.arange(120.0).reshape(40, 3))}
+    coordinates = {"time": np.arange(40.0), "mesh_phase": ("time", np.arange(40.0))}
+    coordinates |= {"gear": ("gear", ["pinion", "wheel"], {"long_name": "gear"})}
     made = xr.Dataset(values, coordinates).assign_attrs(scene="[gears]\n", complete=1, peak=0.25, warnings="")
     made["transmission_error"].attrs["units"] = "rad"
     return made

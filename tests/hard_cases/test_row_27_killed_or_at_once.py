@@ -133,12 +133,12 @@ def test_writers_killed_while_they_write(tmp_path, measured, pauses):
         "from pathlib import Path\n"
         "from fenics_gears import results\n"
         "from fenics_gears.elasticity.cache import Cache\n"
-        "number = 0.0\n"
+        "number, steps = 0.0, numpy.arange(400_000.0)\n"
         "while True:\n"
         "    number += 1.0\n"
         "    values = numpy.full(400_000, number)\n"
         "    Cache(Path('cache')).store('key', {'values': values})\n"
-        "    results.save(xarray.Dataset({'transmission_error': ('time', values)}, attrs={'scene': ''}), 'run.nc')\n"
+        "    results.save(xarray.Dataset({'transmission_error': ('time', values), 'mesh_phase': ('time', steps)}, {'time': steps}, {'scene': ''}), 'run.nc')\n"
     )
     seen = 0
     for pause in pauses:

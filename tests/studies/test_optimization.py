@@ -242,7 +242,7 @@ def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, mo
         found(path, folder / "here")
     assert not list((folder / "here" / "runs").iterdir())
     assert main(["optimize", str(path), "--output", str(folder / "here"), "--yes"]) == 0
-    computed = len(run_lines.kept(folder / "here" / "runs"))
+    computed = len(run_lines.kept(folder / "here" / "runs")[0])
     assert f"up to {work.runs} runs, about" in capsys.readouterr().err and 0.8 * work.runs <= computed <= work.runs
     assert expected_work(load_design(path), computed).runs == work.runs - computed
 
