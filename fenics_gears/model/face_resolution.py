@@ -13,7 +13,7 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.defaults import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, SECTION_SIZE, SLICES_OF_A_LAYER
+from fenics_gears.scene.defaults import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, LAYER_TURN_RELIEVED, SECTION_SIZE, SLICES_OF_A_LAYER
 
 if TYPE_CHECKING:
     from fenics_gears.model.model import Model
@@ -47,7 +47,9 @@ def layers_of_common_face(scene: Scene, pair: GearPair, slices: int) -> int:
 
 def _fewest_layers(scene: Scene, pair: GearPair) -> int:
     """Layers of the common face by their thickness and, of a helical pair, by how far its line of contact moves within one."""
-    moves = LAYER_TURN * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
+    relieved = scene.tip_relief is not None and None not in (scene.tip_relief.pinion, scene.tip_relief.wheel)
+    turn = LAYER_TURN_RELIEVED if relieved else LAYER_TURN
+    moves = turn * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
     return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, moves) - 1e-9), FEWEST_LAYERS)
 
 

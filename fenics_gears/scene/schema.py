@@ -162,7 +162,7 @@ class Accuracy(Section):
         meaning="layers of elements of either gear over the common face; a gear that is wider has more beyond it; of three-dimensional "
         "scenes",
         otherwise=f"a thickness of {defaults.LAYER_THICKNESS:g} modules, in helical pairs at most so thick that the line of contact moves by "
-        f"{defaults.LAYER_TURN:g} of the base pitch along the path of contact within a layer; at least {defaults.FEWEST_LAYERS} "
+        f"{defaults.LAYER_TURN:g} of the base pitch along the path of contact within a layer, {defaults.LAYER_TURN_RELIEVED:g} where both gears have tip relief; at least {defaults.FEWEST_LAYERS} "
         f"layers. With `slices`, {defaults.SLICES_OF_A_LAYER} slices to a layer or fewer, if possible so that slices end where layers do",
     )
     condensation: Optional[Literal["once", "every step"]] = choice(
