@@ -42,6 +42,10 @@ def test_slices_end_where_layers_do(width, helix, wider):
     for gear in range(2):
         on_face = boundaries(model, gear)
         on_face = on_face[np.abs(on_face) <= 0.5 * width + off]
+        if len(boundaries(model, gear)) > len(on_face):  # no free end
+            assert len(on_face) == len(whole)
+        else:  # the outermost layers are cut in two
+            on_face = np.delete(on_face, [1, -2])
         assert len(on_face) == len(whole) and np.abs(on_face - whole).max() <= off
 
 

@@ -17,7 +17,7 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     """Unknowns of a gear's sector, and those that it is condensed onto: flank or flanks, and cuts."""
     boundary = sector_boundary(gear.of_module_one, face.in_modules_of(gear).sizes)[0]
     flank, cut, hub = (2 * len(boundary.part(name)) - 1 for name in ("flank", "lower cut", "hub"))
-    of_height = 3 * (2 * face.layers + 1)
+    of_height = 3 * len(face.sweep.heights)
     nodes = NODES * len(boundary.points) ** POWER - hub
     return round(of_height * nodes), of_height * ((2 if both_flanks else 1) * flank + 2 * (cut - 1))
 

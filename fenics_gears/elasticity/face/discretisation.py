@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.face.layers import Sweep, even_layers
+from fenics_gears.elasticity.face.layers import Sweep, layers_of_face
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 
@@ -21,7 +21,7 @@ class FaceDiscretisation:
 
     section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face. face_width: mm.
     twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond that on which the mate touches;
-    it has overhang_layers of the layers at either end, and layers are of one thickness in it and beside it.
+    it has overhang_layers of the layers at either end, and layers are of one thickness in it and beside it. The outermost at a free end is cut in two.
     """
 
     section_size: float
@@ -45,7 +45,7 @@ class FaceDiscretisation:
     def sweep(self) -> Sweep:
         """Layers and twist of the body."""
         inner = self.layers - 2 * self.overhang_layers, self.face_width - 2.0 * self.overhang
-        return Sweep(even_layers(*inner, self.overhang_layers, self.overhang), self.twist)
+        return Sweep(layers_of_face(*inner, self.overhang_layers, self.overhang), self.twist)
 
     @property
     def largest_turn(self) -> float:
