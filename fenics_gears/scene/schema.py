@@ -159,7 +159,7 @@ class Accuracy(Section):
         1,
         1000,
         12,
-        meaning="layers of elements of either gear over the common face; a gear that is wider has more beyond it; of three-dimensional "
+        meaning="layers of elements of either gear over the common face, of which four or more have the outermost cut in two; a gear that is wider has more beyond it; of three-dimensional "
         "scenes",
         otherwise=f"a thickness of {defaults.LAYER_THICKNESS:g} modules, in helical pairs at most so thick that the line of contact moves by "
         f"{defaults.LAYER_TURN:g} of the base pitch along the path of contact within a layer, {defaults.LAYER_TURN_RELIEVED:g} where both gears have tip relief; at least {defaults.FEWEST_LAYERS} "
