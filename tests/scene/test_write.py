@@ -98,9 +98,9 @@ def test_random_scenes_are_written_from_their_data(scene):
 @settings(max_examples=500)
 @given(valid_scenes())
 def test_many_random_scenes_are_written_from_their_data(scene):
-    """The same, and after a change of the load, in which the other sections stay as they were written."""
+    """The same, and with a larger load (a smaller one may be less than a torque ripple), where the other sections stay as they were written."""
     assert_written(scene)
-    changed = replace(scene, load=Load(0.97 * scene.load.wheel_torque))
+    changed = replace(scene, load=Load(1.03 * scene.load.wheel_torque))
     assert plain(scene_from_text(changed.text)) == plain(changed) and changed.text.count("\n") > 10
 
 
