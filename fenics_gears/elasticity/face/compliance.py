@@ -42,6 +42,8 @@ def face_compliance(
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "face": asdict(scaled),
+        # The rule that lays the layers may change while their number does not.
+        "boundaries": scaled.sweep.boundaries.tolist(),
         "sizes": asdict(scaled.sizes),
         "farthest": farthest,
         "both flanks": both,

@@ -45,6 +45,8 @@ def face_root_stress_rows(
         "gear": asdict(similar),
         "poissons_ratio": material.poissons_ratio,
         "face": asdict(scaled),
+        # The rule that lays the layers may change while their number does not.
+        "boundaries": scaled.sweep.boundaries.tolist(),
         "sizes": asdict(scaled.sizes),
         "slices": [gear.in_modules(*each.tolist()) for each in slices],
         "reach": reach,
